@@ -189,7 +189,6 @@ pub use sequence::Sequence;
 pub use settings::{Covering, LemkeSettings, WarmStart};
 pub use solution::{Info, Route, RouteEnd, Solution, Unsolved};
 pub use solve::{Iteration, Named, Observer, Solver, Step, StepKind};
-/// Public for the crates of the workspace.
 pub use status::Status;
 pub use vector::Vector;
 

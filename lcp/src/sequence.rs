@@ -8,6 +8,7 @@ use crate::certify::Couplings;
 use crate::matrix::Column;
 use crate::newton::{PATIENCE, Point, System};
 use crate::scaling::equilibrate;
+use crate::solve::is_over;
 use crate::vector::check_length;
 use crate::{
     Auto, AutoSettings, Basis, Error, Info, Lcp, Method, Residuals, Side, Solution, Solver, Status,
@@ -16,8 +17,8 @@ use crate::{
 
 /// Solves `w = M z + q` for one `q` after the other, each from the free set of the solution before.
 ///
-/// Steps of a simulation differ little: the `z` that were positive are so again. While they are, a solve takes the dense
-/// factors of their matrix from the solve before, and allocates nothing. If signs are wrong, all these pairs change sides as in
+/// Steps of a simulation differ little: the `z` that were positive are so again. While they are, a solve takes the factors of
+/// their matrix from the solve before. If `M` is dense, solves after the first allocate nothing. If signs are wrong, all these pairs change sides as in
 /// [`SemismoothNewton`](crate::SemismoothNewton), with a factorisation each time. If that comes to no end, [`Auto`] solves the
 /// problem.
 ///
@@ -91,7 +92,8 @@ impl<K: Ord + Clone> Sequence<K> {
         let states: BTreeMap<&K, &bool> = self.keys.iter().zip(&self.point.is_free).collect();
         let is_free = keys.iter().map(|key| states.get(key).is_some_and(|is_free| **is_free));
         let point = Point::of(is_free.collect());
-        let settings = AutoSettings { start: WarmStart::None, ..self.settings.clone() };
+        let start = WarmStart::Basis(Basis::new(sides(&point).collect()));
+        let settings = AutoSettings { start, ..self.settings.clone() };
         *self = Self { point, ..Self::new(lcp, keys, settings)? };
         Ok(())
     }
@@ -108,7 +110,8 @@ impl<K: Ord + Clone> Sequence<K> {
     pub fn solve(&mut self, q: &[f64]) -> Result<&Solution<Lcp>, Error> {
         self.lcp.set_q(q)?;
         let (began, before) = (Instant::now(), self.system.factorisations());
-        let Some(iterations) = self.exchange() else { return self.anew() };
+        let deadline = self.settings.time_limit.map(|limit| began + limit);
+        let Some(iterations) = self.exchange(deadline) else { return self.anew() };
         let residuals = self.point.residuals(&self.lcp, &self.couplings, &mut self.memory);
         if residuals.verdict(self.settings.tolerance, Status::Stalled) != Status::Solved {
             return self.anew();
@@ -118,10 +121,9 @@ impl<K: Ord + Clone> Sequence<K> {
         (*status, *certificate, *condition) = (Status::Solved, None, None);
         t.clone_from(&point.z);
         y.clone_from(&point.w);
-        let sides = point.is_free.iter().map(|is| if *is { Side::T } else { Side::Y });
         match basis {
-            Some(basis) => basis.set(sides),
-            None => *basis = Some(Basis::new(sides.collect())),
+            Some(basis) => basis.set(sides(point)),
+            None => *basis = Some(Basis::new(sides(point).collect())),
         }
         let factorisations = system.factorisations() - before;
         let (method, seconds) = (Method::Newton, began.elapsed().as_secs_f64());
@@ -130,12 +132,12 @@ impl<K: Ord + Clone> Sequence<K> {
         Ok(solution)
     }
 
-    /// Exchanges pairs of the wrong sign until there are none; how often. `None` if their number does not decrease, or a
-    /// matrix is singular.
-    fn exchange(&mut self) -> Option<usize> {
+    /// Exchanges pairs of the wrong sign until there are none; how often. `None` if their number does not decrease, a matrix is
+    /// singular, or the time is over.
+    fn exchange(&mut self, deadline: Option<Instant>) -> Option<usize> {
         let Self { lcp, system, point, .. } = self;
         let (mut fewest, mut since, mut exchanges) = (usize::MAX, 0, 0);
-        while since <= PATIENCE && system.solve(lcp, point) {
+        while since <= PATIENCE && !is_over(deadline) && system.solve(lcp, point) {
             let wrong = point.violated.len();
             if wrong == 0 {
                 return Some(exchanges);
@@ -159,4 +161,9 @@ impl<K: Ord + Clone> Sequence<K> {
         self.point.is_free = basis.sides().iter().map(|side| *side == Side::T).collect();
         Ok(&self.solution)
     }
+}
+
+/// The basic sides of a point.
+fn sides(point: &Point) -> impl Iterator<Item = Side> {
+    point.is_free.iter().map(|is_free| if *is_free { Side::T } else { Side::Y })
 }

@@ -142,6 +142,17 @@ fn solves_after_the_first_allocate_nothing() {
     }
 }
 
+/// Terms of 1e12 cancel in a row whose pair is not free: what rounding hides there is more than the tolerance.
+#[test]
+fn a_point_whose_rows_cancel_is_not_called_solved_by_its_rounded_sums() {
+    let near = 1.0 + (-40_f64).exp2();
+    let m = [[1.0, -1.0, 0.0], [-1.0, near, 0.0], [1.0 / 3.0, -1.0 / 3.0, 1.0]];
+    let lcp = Lcp::new(m, [-1.0, 0.0, 1.0]).unwrap();
+    let mut sequence = Sequence::new(lcp.clone(), &numbers(3), AutoSettings::default()).unwrap();
+    let found = sequence.solve(&[-1.0, 0.0, 1.0]).unwrap();
+    assert!(!found.is_solved() || lcp.residuals(&found.t, &found.y).worst() <= 1e-10);
+}
+
 #[test]
 fn wrong_lengths_and_numbers_are_named() {
     let lcp = Lcp::new([[2.0]], [1.0]).unwrap();

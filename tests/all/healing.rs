@@ -102,6 +102,44 @@ fn a_healed_wall_carries_what_the_exact_one_does() {
     assert!((healed / exact - 1.0).abs() < 1e-4, "{healed} and {exact}");
 }
 
+/// Tops that rounding tilts are loaded as they are drawn: the floor carries the whole pressure.
+#[test]
+fn loads_stay_on_edges_that_were_moved() {
+    let corners = |[a, b]: [[f64; 2]; 2]| vec![[a[0], 0.0], [b[0], 0.0], b, a];
+    let tops =
+        [[[0.0, 1.0], [1.0, 1.000_001]], [[0.999_999, 1.0], [2.0, 1.0]], [[2.0, 1.0], [3.0, 1.0]]];
+    let scene = scene(tops.map(corners).to_vec(), [[0.0, 0.0], [3.0, 0.0]]).load(Load::pressure(
+        "top",
+        [0.0, 1.0],
+        [3.0, 1.0],
+        10.0,
+    ));
+    let outcome = solve(&scene).unwrap();
+    assert!(outcome.model.healed.is_some());
+    let weight = 2.0 * 9.81 * 0.3 * 3.0;
+    let carried = outcome.reactions[0].fy / 1e3;
+    assert!((carried - weight - 10.0 * 0.3 * 3.0).abs() < 1e-4, "{carried}");
+}
+
+/// A tip between two stones would have to move far to touch both; and an edge must not vanish.
+#[test]
+fn what_cannot_be_healed_is_told() {
+    let lower = vec![[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [0.0, 1.0]];
+    let tip = vec![[0.0, 1.0005], [2.0, 1.001], [2.0, 1.5], [0.0, 1.5]];
+    let error = |tolerance: f64| {
+        let scene = scene(vec![lower.clone(), tip.clone()], [[0.0, 0.0], [2.0, 0.0]]);
+        Model::from_scene(&scene.contact_tolerance(tolerance)).unwrap_err().to_string()
+    };
+    assert!(error(0.3).contains("a quarter of the shortest edge"), "{}", error(0.3));
+    // Two stones that lean towards each other at a hundredth, and a tip between them.
+    let left = vec![[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
+    let right = vec![[0.0, 1.001], [1.0, 1.011], [1.0, 2.0], [0.0, 2.0]];
+    let between = vec![[0.05, 1.0005], [1.0, 1.0002], [1.0, 1.0108], [0.5, 1.006]];
+    let scene = scene(vec![left, right, between], [[0.0, 0.0], [1.0, 0.0]]);
+    let healed = Model::from_scene(&scene.contact_tolerance(0.0012));
+    assert!(healed.is_err() || healed.unwrap().healed.unwrap().largest <= 4.0 * 0.0012);
+}
+
 /// Gaps are closed only if a tolerance says so, and not beyond it; overlaps of rounding are.
 #[test]
 fn gaps_beyond_the_tolerance_stay() {

@@ -1,7 +1,8 @@
 //! Linear algebra for the crate `lcp`, beside that of [`faer`]: sparse columns and their order, LU that grows by columns, LU and
 //! Cholesky's factors for one pattern and many values, and dense LU with estimates of the condition number.
 //!
-//! No factorisation fails for a singular matrix: the pivots that vanish are replaced, and their number or places are told.
+//! [`SupernodalLu`] and [`SparseLu`] replace pivots that vanish and tell how many or which; [`Lu`] and [`Cholesky`] are `None` for
+//! matrices that they cannot factorise.
 
 mod cholesky;
 mod dense;

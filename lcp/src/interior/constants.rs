@@ -11,6 +11,8 @@ pub(super) const TRIAL_REDUCTION: f64 = 0.03;
 pub(super) const PROXIMAL_TERMS: [f64; 2] = [1e-10, 1e-8];
 /// Attempts of pivots from the end of a path. Chosen: the second has the basis of the first, whose data rounding may spoil.
 pub(super) const PIVOTED_ATTEMPTS: usize = 2;
+/// Variables of a problem whose path ends by pivots, at most. Chosen: of more, as many pivots take longer than the path.
+pub(super) const PIVOTED_ORDER: usize = 1000;
 /// Steps from a point that is solved but whose states are not yet those of the exact answer. Chosen.
 pub(super) const MORE_STEPS: usize = 8;
 

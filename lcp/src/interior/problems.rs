@@ -2,7 +2,7 @@
 
 use std::time::Duration;
 
-use super::constants::PIVOTED_ATTEMPTS;
+use super::constants::{PIVOTED_ATTEMPTS, PIVOTED_ORDER};
 use super::{InteriorPoint, InteriorPointSettings};
 use crate::conversion::{judged_by, solve_in_mixed_form, solve_in_standard_form};
 use crate::{
@@ -51,7 +51,7 @@ impl InteriorPoint {
     ) -> Result<Solution, Error> {
         let InteriorPointSettings { tolerance, time_limit, crossover, .. } = self.settings;
         let mut end = self.run(problem, observer)?;
-        let is_near = end.residuals.loads <= tolerance;
+        let is_near = end.residuals.loads <= tolerance && problem.order() <= PIVOTED_ORDER;
         if end.status != Status::Stalled || !crossover || !is_near {
             return Ok(end);
         }
@@ -60,16 +60,22 @@ impl InteriorPoint {
         let pivots = Lemke::new(LemkeSettings {
             tolerance,
             time_limit: left,
+            max_pivots: Some(problem.order()),
             max_attempts: Some(PIVOTED_ATTEMPTS),
             start: WarmStart::Point { t: end.t.clone(), y: end.y.clone() },
             prove_infeasible: false,
             ..LemkeSettings::default()
         });
-        let mut vertex = pivots.solve_pairs(problem, observer)?;
+        // The point of the path stays if pivots do not treat the problem.
+        let Ok(mut vertex) = pivots.solve_pairs(problem, observer) else { return Ok(end) };
+        if matches!(vertex.status, Status::Cancelled | Status::TimeLimit) {
+            end.status = vertex.status;
+        }
+        let seconds = end.info.seconds + vertex.info.seconds;
         let (mut best, other) =
             if vertex.is_solved() { (vertex, &mut end) } else { (end, &mut vertex) };
         best.info.add_work(&mut other.info);
-        best.info.method = Method::Interior;
+        (best.info.method, best.info.seconds) = (Method::Interior, seconds);
         Ok(best)
     }
 }

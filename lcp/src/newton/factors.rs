@@ -12,7 +12,7 @@ use faer::{Mat, MatMut, Par, Spec};
 use crate::Matrix;
 use crate::divide::block;
 use crate::matrix::{Column, Storage};
-use crate::scaling::equilibrate;
+use crate::scaling::{equilibrate, power_of_two};
 use crate::vector::SMALL;
 use lcp_linalg::{Cholesky, Columns, SparseLu};
 use lcp_linalg::{has_pivots, solve_unit_lower, solve_upper};
@@ -39,7 +39,7 @@ enum Kind {
 type Solve = Box<dyn Fn(&mut [f64])>;
 
 struct Dense {
-    /// Units of rows and columns that bring the entries of `M` near one.
+    /// Units of rows and columns of the last LU, which bring the largest entries near one.
     units: (Vec<f64>, Vec<f64>),
     factors: Mat<f64>,
     is_cholesky: bool,
@@ -102,11 +102,10 @@ impl Factors {
 impl Dense {
     fn new(m: &Matrix) -> Box<Self> {
         let n = m.ncols();
-        let columns: Vec<Column<'_>> = (0..n).map(|j| m.slice(j)).collect();
         let scratch = cholesky_in_place_scratch::<f64>(n, Par::Seq, Spec::default())
             .or(lu_in_place_scratch::<usize, f64>(n, n, Par::Seq, Spec::default()));
         Box::new(Self {
-            units: equilibrate(n, &columns),
+            units: (vec![1.0; n], vec![1.0; n]),
             factors: Mat::zeros(n, n),
             is_cholesky: false,
             rows: [vec![0; n], vec![0; n]],
@@ -131,10 +130,16 @@ impl Dense {
 
     /// Whether no pivot vanishes.
     fn lu(&mut self, m: &Matrix, free: &[usize]) -> bool {
-        let (row, col) = &self.units;
+        let (row, col) = &mut self.units;
         let k = free.len();
+        let largest = |max: f64, v: f64| max.max(v.abs());
+        let unit = |largest: f64| if largest > 0.0 { power_of_two(1.0 / largest) } else { 1.0 };
+        for &i in free {
+            row[i] = unit(free.iter().map(|&j| m[(i, j)]).fold(0.0, largest));
+        }
         let mut block = self.factors.submatrix_mut(0, 0, k, k);
         for (b, &j) in free.iter().enumerate() {
+            col[j] = unit(free.iter().map(|&i| row[i] * m[(i, j)]).fold(0.0, largest));
             for (a, &i) in free.iter().enumerate() {
                 block[(a, b)] = row[i] * m[(i, j)] * col[j];
             }

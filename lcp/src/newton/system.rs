@@ -170,7 +170,8 @@ impl Point {
         });
     }
 
-    /// The residuals if no variable is negative: those of all rows, without what rounding excuses. `image` is memory.
+    /// Bounds of the residuals if no variable is negative: those of all rows, with the most that rounding may hide of them in
+    /// sums of products. `image` is memory.
     pub(crate) fn residuals(
         &self,
         lcp: &Lcp,
@@ -180,14 +181,16 @@ impl Point {
         image.z.clone_from(&self.z);
         image.multiply(lcp);
         let Self { z: felt, w: image, sizes, .. } = image;
+        let noise = (lcp.order() + 2) as f64 * f64::EPSILON;
         if self.z.iter().chain(&self.w).any(|v| v.is_nan() || *v < 0.0) {
             return Residuals::infinite();
         }
         let mut residuals = Residuals::default();
         couplings.weigh(lcp.q().iter().map(|q| q.abs()), felt, |i, weight| {
-            let rest = image[i] - self.w[i];
-            residuals.equation = residuals.equation.max(ratio(rest, sizes[i] + self.w[i]));
-            residuals.loads = residuals.loads.max(rest.abs() * weight);
+            let (rest, terms) = (image[i] - self.w[i], sizes[i] + self.w[i]);
+            let hidden = noise * terms;
+            residuals.equation = residuals.equation.max(ratio(rest, terms) + noise);
+            residuals.loads = residuals.loads.max((rest.abs() + hidden) * weight);
         });
         residuals
     }

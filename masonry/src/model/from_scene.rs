@@ -46,10 +46,20 @@ fn build(scene: &Scene) -> Result<Model, Fault> {
     let healed = match scene.contact.tolerance {
         None if overlaps.is_ok() => None,
         tolerance => {
-            let tolerance = tolerance.map(|it| it * units.length_to_si());
-            heal::heal(&mut blocks, scene.blocks.len(), &supports, tolerance)
+            let metres = tolerance.map(|it| it * units.length_to_si());
+            match (heal::heal(&mut blocks, scene.blocks.len(), &supports, metres), tolerance) {
+                (Ok(healed), _) => healed,
+                // Only the overlap is known that was to be healed.
+                (Err(_), None) => None,
+                (Err(wanted), Some(value)) => {
+                    let at = KeyPath::of("contact").key("tolerance");
+                    return Err(Fault::new(at, SceneErrorKind::Value { value, wanted }));
+                }
+            }
         }
     };
+    // Loads are where the corners were.
+    let moved = healed.map_or(0.0, |it| it.largest);
     if healed.is_some() {
         for block in &mut blocks {
             let meshed = block.mesh.as_ref().zip(block.quad());
@@ -66,7 +76,7 @@ fn build(scene: &Scene) -> Result<Model, Fault> {
     let found = find_joints(scene, &blocks, &supports, thickness)?;
     placement::check_touching(&blocks, &keys, &supports, &found.joints)?;
     let (loads, accelerations) =
-        place_loads::place(scene, &mut blocks, &found.joints, &found.contacts)?;
+        place_loads::place(scene, &mut blocks, &found.joints, &found.contacts, moved)?;
 
     let mut model = Model {
         blocks,

@@ -17,6 +17,10 @@ const TOUCHING: f64 = 1e-9;
 /// Steps of Gauss and Newton. Theory: each leaves the square of an error, and a part of it that is the regularity of its matrix.
 const STEPS: usize = 5;
 const REGULARITY: f64 = 1e-8;
+/// The tolerance, relative to the shortest edge, at most. Theory: the ends of an edge must not meet.
+const LARGEST: f64 = 0.25;
+/// Corners are moved by so many tolerances at most. Chosen: those of three blocks that meet move by less than two.
+const FARTHEST: f64 = 4.0;
 
 /// What was moved.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -29,35 +33,53 @@ pub struct Healed {
     pub tolerance: f64,
 }
 
+/// Why corners cannot be healed, in words that follow the tolerance.
+pub(super) type Unhealed = &'static str;
+
 /// Moves corners of the last blocks, so many, by as little as possible, so that each that is nearer than the tolerance \[m\] to a
 /// corner or an edge of another block, or to a support, lies on it. `None` if nothing had to be moved.
+///
+/// # Errors
+/// Blocks stay as they were if the tolerance is too large for them, or if not all that is near can meet.
 pub(super) fn heal(
     blocks: &mut [Block],
     count: usize,
     supports: &[Support],
     tolerance: Option<f64>,
-) -> Option<Healed> {
+) -> Result<Option<Healed>, Unhealed> {
     if count == 0 {
-        return None;
+        return Ok(None);
     }
     let first = blocks.len() - count;
-    let tolerance = tolerance.unwrap_or_else(|| OF_SHORTEST_EDGE * shortest_edge(&blocks[first..]));
+    let shortest = shortest_edge(&blocks[first..]);
+    let tolerance = tolerance.unwrap_or(OF_SHORTEST_EDGE * shortest);
+    if tolerance > LARGEST * shortest {
+        return Err("corners are moved by less than a quarter of the shortest edge");
+    }
     let mut drawing = Drawing::of(blocks, first);
     let meetings = drawing.meetings(blocks, supports, tolerance);
-    let size = blocks[first..].iter().map(|it| geometry::size(&it.corners));
-    let touching = TOUCHING * size.fold(f64::INFINITY, f64::min);
-    if meetings.iter().all(|it| it.distance(&drawing.points).0.abs() <= touching) {
-        return None;
+    let sizes = blocks[first..].iter().map(|it| geometry::size(&it.corners));
+    let touching = TOUCHING * sizes.fold(f64::INFINITY, f64::min);
+    let is_met = |it: &Meeting, drawing: &Drawing| {
+        let (distance, terms) = it.distance(&drawing.points);
+        distance.abs() <= touching || terms.iter().all(|(point, _)| *point < drawing.free)
+    };
+    if meetings.iter().all(|it| is_met(it, &drawing)) {
+        return Ok(None);
     }
     let before = drawing.points.clone();
     for _ in 0..STEPS {
-        drawing.step(&meetings)?;
+        drawing.step(&meetings).ok_or("the corners are too many for the memory")?;
     }
     let moved = before.iter().zip(&drawing.points).map(|(from, to)| (to - from).norm());
     let moved: Vec<f64> = moved.filter(|it| *it > 0.0).collect();
-    drawing.write(blocks);
     let largest = moved.iter().copied().fold(0.0, f64::max);
-    Some(Healed { corners: moved.len(), largest, tolerance })
+    let is_far = largest.is_nan() || largest > FARTHEST * tolerance;
+    if is_far || !meetings.iter().all(|it| is_met(it, &drawing)) {
+        return Err("not all corners that are so near to others can be put onto them");
+    }
+    drawing.write(blocks);
+    Ok(Some(Healed { corners: moved.len(), largest, tolerance }))
 }
 
 fn shortest_edge(blocks: &[Block]) -> f64 {
@@ -118,10 +140,11 @@ fn beside(point: Point2<f64>, [from, to]: [Point2<f64>; 2]) -> (f64, Vector2<f64
     ((point - from).dot(&along) / along.norm_squared(), geometry::turn_right(along) / along.norm())
 }
 
-/// Whether a point is beside a segment and nearer than this to it.
+/// Whether a point is beside a segment, or beyond its end by no more than the tolerance, and nearer than that to its line.
 fn is_near(point: Point2<f64>, ends: [Point2<f64>; 2], tolerance: f64) -> bool {
     let (place, normal) = beside(point, ends);
-    (0.0..=1.0).contains(&place) && normal.dot(&(point - ends[0])).abs() <= tolerance
+    let beyond = tolerance / (ends[1] - ends[0]).norm();
+    (-beyond..=1.0 + beyond).contains(&place) && normal.dot(&(point - ends[0])).abs() <= tolerance
 }
 
 impl Drawing {
@@ -170,8 +193,9 @@ impl Drawing {
     ) {
         let (begin, end) = (self.starts[block], self.starts[block + 1]);
         let point = self.points[corner];
-        if let Some(other) = (begin..end).find(|it| (self.points[*it] - point).norm() <= tolerance)
-        {
+        let distance = |it: &usize| (self.points[*it] - point).norm();
+        let nearest = (begin..end).min_by(|a, b| distance(a).total_cmp(&distance(b)));
+        if let Some(other) = nearest.filter(|it| distance(it) <= tolerance) {
             if is_first {
                 let along = |axis| Meeting::Corners { corners: [corner, other], axis };
                 list.extend([Vector2::x(), Vector2::y()].map(along));

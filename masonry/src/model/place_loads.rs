@@ -19,12 +19,14 @@ const NAMES: usize = 3;
 /// A part of an edge, as fractions of it.
 type Part = [f64; 2];
 
-/// Puts the loads of a scene on its blocks; their names, and those that act on all mass.
+/// Puts the loads of a scene on its blocks, whose corners were moved by up to a distance \[m\]; their names, and those that act
+/// on all mass.
 pub(super) fn place(
     scene: &Scene,
     blocks: &mut [Block],
     joints: &[Joint],
     contacts: &[ContactPoint],
+    moved: f64,
 ) -> Result<(Vec<Load>, Vec<Acceleration>), Fault> {
     let joined = joined_parts(blocks, joints, contacts);
     let places: BTreeMap<String, usize> =
@@ -35,7 +37,7 @@ pub(super) fn place(
         match load.kind() {
             Some(LoadKind::Edge { from, to, stress }) => {
                 let ends = [from, to].map(|end| point(end, scene.units));
-                let on_edge = OnEdges { load, id, ends, stress, units: scene.units };
+                let on_edge = OnEdges { load, id, ends, stress, units: scene.units, moved };
                 on_edge.place(blocks, &joined).map_err(|kind| Fault::new(at, kind))?;
             }
             Some(LoadKind::Force { block, at: place, force }) => {
@@ -43,7 +45,7 @@ pub(super) fn place(
                     .get(block)
                     .ok_or_else(|| Fault::new(at.key("block"), unknown(blocks, block).into()))?;
                 let block = &mut blocks[k];
-                let at = place_in(block, point(place, scene.units), scene.units)
+                let at = place_in(block, point(place, scene.units), scene.units, moved)
                     .map_err(|error| Fault::new(at.key("at"), error.into()))?;
                 let force = Vector2::from(force) * scene.units.force_to_si() * load.factor;
                 block.loads.push(PointLoad { at, force, load: id }.into());
@@ -81,7 +83,7 @@ fn accelerate(
             // Mass per area of an edge, or the mass at a place.
             let mass = |force: Vector2<f64>| part * force.dot(&gravity) / gravity.norm_squared();
             if load.force_or_traction().dot(&gravity) < 0.0 {
-                let because = "it acts against gravity";
+                let because = "acts against gravity: let it press down, or leave `mass` out";
                 let error = LoadError::NoWeight { load: loads[id].name.clone(), because };
                 return Err(Fault::new(KeyPath::of("loads").item(id).key("mass"), error.into()));
             }
@@ -108,10 +110,15 @@ fn unknown(blocks: &[Block], name: &str) -> LoadError {
 }
 
 /// A place on a block. One that rounding has put outside is moved to the edge.
-fn place_in(block: &Block, at: Point2<f64>, units: Units) -> Result<Point2<f64>, LoadError> {
+fn place_in(
+    block: &Block,
+    at: Point2<f64>,
+    units: Units,
+    moved: f64,
+) -> Result<Point2<f64>, LoadError> {
     let corners = &block.corners;
     let distance = geometry::outside(corners, at);
-    if distance > TOLERANCE * geometry::size(corners) {
+    if distance > TOLERANCE * geometry::size(corners) + moved {
         let nearest = geometry::nearest_on_boundary(corners, at);
         let in_scene = |metres: f64| rounded(metres / units.length_to_si());
         return Err(LoadError::Outside {
@@ -132,6 +139,8 @@ struct OnEdges<'a> {
     ends: [Point2<f64>; 2],
     stress: EdgeStress,
     units: Units,
+    /// How far corners were moved \[m\].
+    moved: f64,
 }
 
 impl OnEdges<'_> {
@@ -141,7 +150,10 @@ impl OnEdges<'_> {
         let mut acts = false;
         for (block, joined) in blocks.iter_mut().zip(joined) {
             for (edge, joined) in joined.iter().enumerate() {
-                let Some(covered) = covered_part(&block.corners, edge, from, to) else { continue };
+                let Some(covered) = covered_part(&block.corners, edge, [from, to], self.moved)
+                else {
+                    continue;
+                };
                 let traction = self.traction(&block.corners, edge);
                 for [from, to] in free_parts(covered, joined) {
                     block.loads.push(EdgeLoad { edge, from, to, traction, load: self.id }.into());
@@ -166,12 +178,12 @@ impl OnEdges<'_> {
 fn covered_part(
     corners: &[Point2<f64>],
     edge: usize,
-    from: Point2<f64>,
-    to: Point2<f64>,
+    [from, to]: [Point2<f64>; 2],
+    moved: f64,
 ) -> Option<Part> {
     let [start, end] = geometry::edge(corners, edge);
     let length = (end - start).norm();
-    let slack = TOLERANCE * geometry::size(corners);
+    let slack = TOLERANCE * geometry::size(corners) + moved;
     let (normal, along) = (geometry::outward_normal(corners, edge), (end - start) / length);
     let place = |p: Point2<f64>| (p - start).dot(&along);
     let (a, b) = (place(from), place(to));

@@ -38,8 +38,8 @@ impl Model {
         let sentence = |it: &Healed| {
             let (most, unit) = (in_scene(it.largest), self.units.length_name());
             format!(
-                "{} corners of single blocks were moved by up to {most} {unit}, onto corners and edges of others that are \
-                 nearer than {} {unit} (`contact.tolerance`).",
+                "{} of single blocks moved by up to {most} {unit}, onto supports and onto corners and edges of others that are nearer \
+                 than {} {unit} (`contact.tolerance`).",
                 it.corners,
                 in_scene(it.tolerance)
             )
@@ -64,8 +64,8 @@ impl Model {
             |(k, load): &(usize, &Load)| load.mass.is_none() && forces[*k].dot(&self.gravity) > 0.0;
         let sentence = |(_, load): (usize, &Load)| {
             format!(
-                "\"{}\" does not act on \"{}\", which presses down: write `mass = true` there if all of it is the weight of \
-                 something that moves with the structure, `mass = 0.3` if that part of it is, or `mass = false`.",
+                "\"{}\" does not act on load \"{}\", which presses down. Set the `mass` of that load: `true` if all of it is the \
+                 weight of a mass, 0.3 if three tenths of it are, `false` if none is or if another load is its inertia.",
                 self.loads[quake.load.index()].name,
                 load.name
             )

@@ -14,8 +14,8 @@ pub struct Contact {
     #[serde(default)]
     pub gap_limit: f64,
     /// Corners of single blocks that are nearer than this to corners and edges of other blocks and to supports are put onto them
-    /// \[length\], by the least movements. Without it that is done only if blocks overlap, to 1e-5 of the shortest edge of a single
-    /// block, which is more than six decimals leave.
+    /// \[length\], by the least movements. Without a tolerance corners are moved only if blocks overlap, by up to 1e-5 of the
+    /// shortest edge of a single block: six decimals of a metre leave less of bricks that are 0.2 m high.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tolerance: Option<f64>,
     /// Which terms of mortar films are kept.

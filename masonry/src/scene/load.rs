@@ -74,8 +74,8 @@ pub struct Load {
     )]
     pub acceleration: Option<[f64; 2]>,
     /// The part of a load on edges or at a place, from 0 to 1, that is the weight of a mass, such as that of a roof: accelerations
-    /// act on this mass as on that of the blocks, where the load acts. `true` is 1 and `false` 0. It does not depend on the
-    /// factors of stages and limit loads.
+    /// act on this mass as on that of the blocks, where the load acts. `true` is 1 and `false` 0. The mass is that of the component
+    /// along gravity, times the factor of the load; factors of stages and limit loads do not change it.
     #[serde(
         default,
         skip_serializing_if = "Option::is_none",
@@ -286,9 +286,7 @@ pub enum LoadError {
         other: &'static str,
     },
     /// The mass of a load that is no weight.
-    #[error(
-        "load \"{load}\" has a mass, but {because}: leave `mass` out, or let the load act with gravity"
-    )]
+    #[error("load \"{load}\" has a `mass`, but {because}")]
     NoWeight {
         /// Name of the load.
         load: String,

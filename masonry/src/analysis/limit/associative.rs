@@ -50,7 +50,8 @@ pub struct Associative {
     pub(super) size: f64,
     /// The motion that proves it: displacement rates of the corners of every block, scaled to a largest component of one.
     pub mechanism: Option<Vec<Vec<Vector2<f64>>>>,
-    /// What the rest carries if less than half of the blocks move in the mechanism and these are held where they are.
+    /// What the rest carries if less than half of the blocks move in the mechanism, these are held where they are, and the group
+    /// acts on others.
     pub rest: Option<Rest>,
 }
 
@@ -127,7 +128,12 @@ pub(super) fn of(
     let found = Associative::new(answer, proved).with_forces(&model, forces);
     let mechanism = proof.map(|proof| proof.rates);
     let held = mechanism.as_ref().map(|rates| moving(rates));
-    let rest = match held.filter(|held| is_small_part(held)) {
+    // Blocks on which the group does not act carry any factor of it.
+    let is_pushed = |held: &Vec<bool>| {
+        let on_rest = growth.chunks(3).zip(held).filter(|(_, held)| !**held);
+        on_rest.flat_map(|(growth, _)| growth).any(|force| force.abs() > 0.0)
+    };
+    let rest = match held.filter(|held| is_small_part(held) && is_pushed(held)) {
         Some(held) => {
             let bounds = Growing { held: &held, ..growing }.largest(&mut watch.steps())?;
             let load_factor = bounds.below.map(|(factor, _)| factor);

@@ -1,5 +1,6 @@
 //! One route after the other, each with what it is built on, until one has the answer.
 
+use std::cmp::Ordering;
 use std::ops::ControlFlow;
 use web_time::Instant;
 
@@ -345,7 +346,9 @@ impl<'a> Chain<'a> {
         let attempt = Attempt { moved, account, ..self.concluded(model, answer, state) };
         let excess = attempt.checks.as_ref().map(|checks| checks.excess(self.request.tolerance));
         match excess {
-            Some(excess) if is_at_rest && excess > 1.0 => self.finer(route, excess, attempt),
+            Some(excess) if is_at_rest && excess > 1.0 && excess.is_finite() => {
+                Ok(self.finer(route, excess, attempt))
+            }
             _ => Ok(attempt),
         }
     }
@@ -353,18 +356,25 @@ impl<'a> Chain<'a> {
     /// Takes the steps to a state of rest again, to half of what the checks ask for: they exceed their tolerance so many
     /// times. Errors of steps that fine are rounding errors, so that no finer ones follow; and the first state is kept
     /// if the second is no better.
-    fn finer(&mut self, route: Route, excess: f64, rough: Attempt) -> Result<Attempt, SolveError> {
+    fn finer(&mut self, route: Route, excess: f64, rough: Attempt) -> Attempt {
         if self.request.step_tolerance < loading::STEP_TOLERANCE {
-            return Ok(rough);
+            return rough;
         }
         self.request.step_tolerance = 0.5 * loading::STEP_TOLERANCE / excess;
-        let finer = self.on_sparse(route)?;
-        let is_better = finer.rank() < rough.rank() || finer.info.status == Status::Cancelled;
+        // What is known already stays if finer steps cannot be taken.
+        let Ok(finer) = self.on_sparse(route) else { return rough };
+        let tolerance = self.request.tolerance;
+        let is_nearer = finer.checks.as_ref().is_some_and(|it| it.excess(tolerance) < excess);
+        let is_better = match finer.rank().cmp(&rough.rank()) {
+            Ordering::Less => true,
+            Ordering::Equal => is_nearer,
+            Ordering::Greater => finer.info.status == Status::Cancelled,
+        };
         let (mut best, other) = if is_better { (finer, rough) } else { (rough, finer) };
         best.info.iterations += other.info.iterations;
         best.info.factorisations += other.info.factorisations;
         best.info.attempts.splice(0..0, other.info.attempts);
-        Ok(best)
+        best
     }
 
     /// A slip for every contact point, zero without friction.

@@ -91,7 +91,7 @@ fn of_associative(found: &Associative, model: &Model) -> String {
 /// What the rest of a structure carries if the part that moves is held.
 pub(in crate::report) fn carried_by_rest(Rest { load_factor, bound }: Rest) -> String {
     let told = |it, side| outwards(it, side, |it| significant(it, 5));
-    let if_held = "if the blocks that move are held";
+    let if_held = "if the blocks that move are held (they may support others)";
     match (load_factor, bound) {
         (Some(carried), Some(bound)) => {
             let (carried, bound) = (told(carried, Side::Below), told(bound, Side::Above));
@@ -101,7 +101,7 @@ pub(in crate::report) fn carried_by_rest(Rest { load_factor, bound }: Rest) -> S
             format!("carries {} at least, {if_held}", told(carried, Side::Below))
         }
         (None, Some(bound)) => format!("does not carry {}, {if_held}", told(bound, Side::Above)),
-        (None, None) => format!("is undecided {if_held}"),
+        (None, None) => format!("has no limit that was found, {if_held}"),
     }
 }
 

@@ -41,9 +41,9 @@ impl Scene {
         let wanted = "the part of a load that is the weight of a mass is from 0 to 1";
         value(at.clone(), part, (0.0..=1.0).contains(&part), wanted)?;
         let because = if load.acceleration.is_some() {
-            "accelerations have none"
+            "accelerations take none: leave `mass` out"
         } else if part > 0.0 && self.gravity.is_none_or(|it| it.iter().all(|it| *it == 0.0)) {
-            "without gravity nothing is a weight"
+            "without gravity nothing is a weight: set `gravity`, or leave `mass` out"
         } else {
             return Ok(());
         };
@@ -57,7 +57,8 @@ impl Scene {
             point(&at, acceleration)?;
         }
         let densities = self.used_materials().filter_map(|name| self.materials.get(name)?.density);
-        if densities.count() > 0 {
+        let has_mass = |load: &Load| load.mass.is_some_and(|part| part > 0.0);
+        if densities.count() > 0 || self.loads.iter().any(has_mass) {
             return Ok(());
         }
         Err(Fault::new(at, LoadError::NoMass { load: load.name.clone() }.into()))

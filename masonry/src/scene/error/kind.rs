@@ -209,8 +209,8 @@ pub enum SceneErrorKind {
     },
     /// Two blocks occupy the same place.
     #[error(
-        "blocks \"{first}\" and \"{second}\" overlap by an area of {} {unit}2: move one of them; if their corners are rounded, set \
-         `contact.tolerance` to the error of rounding",
+        "blocks \"{first}\" and \"{second}\" overlap by an area of {} {unit}2: move one of them; if corners of \
+         single blocks are rounded, set `contact.tolerance` to three times the error of rounding",
         number(*area)
     )]
     Overlap {
