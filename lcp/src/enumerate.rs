@@ -51,7 +51,7 @@ pub(crate) fn enumerate(
 ) -> (Enumerated, usize) {
     let n = problem.order();
     let tree = Tree::new(problem, deadline);
-    let mut search = Search { tree, most, deadline, proofs: Vec::new() };
+    let mut search = Branching { tree, most, deadline, proofs: Vec::new() };
     let found = match search.visit(&vec![None; n], &vec![Extended::ZERO; 2 * n]) {
         Err(end) => end,
         Ok(None) => Enumerated::Open,
@@ -94,7 +94,7 @@ impl Proof {
 }
 
 /// A depth-first search with the proofs found so far.
-struct Search<'a> {
+struct Branching<'a> {
     tree: Tree<'a>,
     /// Exchanges at most.
     most: usize,
@@ -102,7 +102,7 @@ struct Search<'a> {
     proofs: Vec<Proof>,
 }
 
-impl Search<'_> {
+impl Branching<'_> {
     /// Closes a node, from nonnegative values that are zero for what its sides exclude. A solution or a limit
     /// ends all.
     fn visit(&mut self, sides: &Sides, start: &[Extended]) -> Result<Closed, Enumerated> {

@@ -32,7 +32,7 @@ use std::ops::ControlFlow;
 use web_time::Instant;
 
 use constants::MATRICES;
-use search::Search;
+use search::Attempts;
 
 use crate::solve::deadline_of;
 use crate::{Error, HorizontalLcp, LemkeSettings, Method, Solution};
@@ -96,7 +96,7 @@ impl Lemke {
         }
         let began = Instant::now();
         let deadline = deadline_of(began, self.settings.time_limit);
-        let mut solution = Search::new(&self.settings, problem, deadline).run(observer);
+        let mut solution = Attempts::new(&self.settings, problem, deadline).run(observer);
         solution.info.method = Method::Lemke;
         solution.info.seconds = began.elapsed().as_secs_f64();
         Ok(solution)

@@ -15,7 +15,7 @@ use crate::{
 };
 pub(crate) use exchange::PATIENCE;
 use exchange::{Exchanges, Next};
-pub(crate) use system::{Point, System, is_z_matrix};
+pub(crate) use system::{FreePoint, System, is_z_matrix};
 
 /// Settings of [`SemismoothNewton`].
 ///
@@ -110,7 +110,12 @@ named!(SemismoothNewton, SemismoothNewtonSettings, Method::Newton);
 
 impl SemismoothNewton {
     /// The status if the residuals of the point, the best that was met, are not small.
-    fn run(&self, lcp: &Lcp, system: &mut System, monitor: &mut Monitor<'_>) -> (Status, Point) {
+    fn run(
+        &self,
+        lcp: &Lcp,
+        system: &mut System,
+        monitor: &mut Monitor<'_>,
+    ) -> (Status, FreePoint) {
         let point = self.first_point(lcp, system);
         let (status, best) = self.iterate(lcp, system, point, monitor);
         let is_stuck = matches!(status, Status::Cycling | Status::Stalled);
@@ -131,9 +136,9 @@ impl SemismoothNewton {
         &self,
         lcp: &Lcp,
         system: &mut System,
-        mut point: Point,
+        mut point: FreePoint,
         monitor: &mut Monitor<'_>,
-    ) -> (Status, Point) {
+    ) -> (Status, FreePoint) {
         let mut best = point.clone();
         let mut exchanges = Exchanges::new(system.is_z_matrix);
         loop {
@@ -164,7 +169,7 @@ impl SemismoothNewton {
         }
     }
 
-    fn first_point(&self, lcp: &Lcp, system: &mut System) -> Point {
+    fn first_point(&self, lcp: &Lcp, system: &mut System) -> FreePoint {
         let n = lcp.order();
         let given = match &self.settings.start {
             WarmStart::None => None,
@@ -212,8 +217,9 @@ impl Solver<Lcp> for SemismoothNewton {
         let mut system = System::new(lcp.m());
         let (status, best) = self.run(lcp, &mut system, &mut monitor);
         let positive = |v: &[f64]| v.iter().map(|v| v.max(0.0)).collect();
-        let clipped = |it: &Point| Point { z: positive(&it.z), w: positive(&it.w), ..it.clone() };
-        let judged = |it: Point| {
+        let clipped =
+            |it: &FreePoint| FreePoint { z: positive(&it.z), w: positive(&it.w), ..it.clone() };
+        let judged = |it: FreePoint| {
             let residuals = lcp.residuals(&it.z, &it.w);
             (it, residuals)
         };

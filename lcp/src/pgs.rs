@@ -13,7 +13,7 @@ pub use settings::ProjectedGaussSeidelSettings;
 
 use std::ops::ControlFlow;
 
-use sweep::{Point, Sweeps};
+use sweep::{Sweeps, Swept};
 
 use crate::solve::{Monitor, named};
 use crate::{Error, Info, Method, Observer, Residuals, Solution, Status, WarmStart};
@@ -126,7 +126,7 @@ impl ProjectedGaussSeidel {
         let start = self.start(rows.order(), |t, _| t.to_vec())?;
         let sweeps = Sweeps::new(&self.settings, rows, q, constraints, start)?;
         let (best, status) = sweeps.run(&mut monitor, &mut |point, _| residuals_of_rows(point));
-        let Point { z, w, residuals, .. } = best;
+        let Swept { z, w, residuals, .. } = best;
         let info = monitor.info();
         Ok(RowsSolution { status, z, w, residual: residuals.worst(), info })
     }
@@ -176,7 +176,7 @@ impl ProjectedGaussSeidel {
 }
 
 /// See [`RowsSolution::residual`].
-fn residuals_of_rows(point: &Point) -> Residuals {
+fn residuals_of_rows(point: &Swept) -> Residuals {
     let rows = point.w.iter().zip(&point.allowed).zip(&point.sizes);
     let relative = rows.map(|((w, allowed), size)| {
         let error = (w - allowed).abs();

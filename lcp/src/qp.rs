@@ -13,10 +13,10 @@ mod soft;
 
 use contact::{contact_form, forces};
 use coulomb::solve_programs;
-use form::{Form, Point};
+use form::{Form, ProgramPoint};
 use interior::{End, Interior};
 use monotone::MixedProgram;
-use program::Run;
+use program::ProgramRun;
 pub use settings::{QuadraticProgramSettings, SoftConstraints};
 pub use soft::SoftSolution;
 
@@ -90,20 +90,21 @@ impl QuadraticProgram {
     ) -> Result<Solution, Error> {
         let settings = &self.settings;
         let general = || contact.to_general();
-        let run = Run::new(settings, contact, &general, settings.max_outer, observer)?;
+        let run = ProgramRun::new(settings, contact, &general, settings.max_outer, observer)?;
         let form = contact_form(&run.search.scaled);
-        let to_scaled = |scaled: &Scaled, point: &Point| (point.x.clone(), forces(scaled, point));
+        let to_scaled =
+            |scaled: &Scaled, point: &ProgramPoint| (point.x.clone(), forces(scaled, point));
         Ok(self.solve_form(run, form, to_scaled))
     }
 
     fn solve_form(
         &self,
-        mut run: Run<'_>,
+        mut run: ProgramRun<'_>,
         form: Form,
-        to_scaled: impl Fn(&Scaled, &Point) -> (Vec<f64>, Vec<(f64, f64)>),
+        to_scaled: impl Fn(&Scaled, &ProgramPoint) -> (Vec<f64>, Vec<(f64, f64)>),
     ) -> Solution {
         let end = if run.is_tried(&form) {
-            run.monitor.stop(run.search.residual()).map_or(Ok(End::Point), Err)
+            run.monitor.stop(run.search.residual()).map_or(Ok(End::ProgramPoint), Err)
         } else if let Some(mut program) = Interior::new(form, self.settings.max_iterations) {
             solve_programs(&mut run, &mut program, to_scaled)
         } else {
@@ -120,9 +121,9 @@ impl QuadraticProgram {
         observer: &mut Observer<'_>,
     ) -> Result<Solution, Error> {
         self.settings.validate(problem.order())?;
-        let run = Run::new(&self.settings, problem, general, 1, observer)?;
+        let run = ProgramRun::new(&self.settings, problem, general, 1, observer)?;
         let mixed = MixedProgram::new(problem, &run.search.scaled).map_err(|it| refused(&it))?;
-        let to_scaled = |scaled: &Scaled, point: &Point| mixed.to_scaled(scaled, point);
+        let to_scaled = |scaled: &Scaled, point: &ProgramPoint| mixed.to_scaled(scaled, point);
         Ok(self.solve_form(run, mixed.form.clone(), to_scaled))
     }
 }

@@ -19,7 +19,7 @@ use crate::matrix::Column;
 /// logarithms of all entries are balanced in between (Curtis and Reid 1972). A row or column of
 /// zeros keeps the factor one.
 pub(crate) fn equilibrate(rows: usize, columns: &[Column<'_>]) -> (Vec<f64>, Vec<f64>) {
-    let mut factors = Factors::ones(rows, columns.len());
+    let mut factors = Equilibration::ones(rows, columns.len());
     factors.damp_largest(columns);
     factors.balance_logarithms(columns);
     factors.damp_largest(columns);
@@ -31,17 +31,17 @@ pub(crate) fn equilibrate(rows: usize, columns: &[Column<'_>]) -> (Vec<f64>, Vec
 /// Entries of the inverse of a band decrease exponentially with their distance from the diagonal. They are no rounding
 /// errors, but if the balance of logarithms counted them like all others, rows would get factors of up to `1e12`.
 pub(crate) fn equilibrate_computed(rows: usize, columns: &[Column<'_>]) -> (Vec<f64>, Vec<f64>) {
-    let mut factors = Factors::ones(rows, columns.len());
+    let mut factors = Equilibration::ones(rows, columns.len());
     factors.damp_largest(columns);
     factors.rounded()
 }
 
-struct Factors {
+struct Equilibration {
     row: Vec<f64>,
     col: Vec<f64>,
 }
 
-impl Factors {
+impl Equilibration {
     fn ones(rows: usize, columns: usize) -> Self {
         Self { row: vec![1.0; rows], col: vec![1.0; columns] }
     }

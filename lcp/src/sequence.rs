@@ -6,7 +6,7 @@ use web_time::Instant;
 
 use crate::certify::Couplings;
 use crate::matrix::Column;
-use crate::newton::{PATIENCE, Point, System};
+use crate::newton::{FreePoint, PATIENCE, System};
 use crate::scaling::equilibrate;
 use crate::solve::is_over;
 use crate::vector::check_length;
@@ -50,8 +50,8 @@ pub struct Sequence<K> {
     lcp: Lcp,
     couplings: Couplings,
     system: System,
-    point: Point,
-    memory: Point,
+    point: FreePoint,
+    memory: FreePoint,
     solution: Solution<Lcp>,
 }
 
@@ -77,8 +77,8 @@ impl<K: Ord + Clone> Sequence<K> {
             keys: keys.to_vec(),
             couplings,
             system: System::new(lcp.m()),
-            point: Point::of(vec![false; n]),
-            memory: Point::default(),
+            point: FreePoint::of(vec![false; n]),
+            memory: FreePoint::default(),
             solution: none.of(),
             lcp,
         })
@@ -91,7 +91,7 @@ impl<K: Ord + Clone> Sequence<K> {
     pub fn renew(&mut self, lcp: Lcp, keys: &[K]) -> Result<(), Error> {
         let states: BTreeMap<&K, &bool> = self.keys.iter().zip(&self.point.is_free).collect();
         let is_free = keys.iter().map(|key| states.get(key).is_some_and(|is_free| **is_free));
-        let point = Point::of(is_free.collect());
+        let point = FreePoint::of(is_free.collect());
         let start = WarmStart::Basis(Basis::new(sides(&point).collect()));
         let settings = AutoSettings { start, ..self.settings.clone() };
         *self = Self { point, ..Self::new(lcp, keys, settings)? };
@@ -164,6 +164,6 @@ impl<K: Ord + Clone> Sequence<K> {
 }
 
 /// The basic sides of a point.
-fn sides(point: &Point) -> impl Iterator<Item = Side> {
+fn sides(point: &FreePoint) -> impl Iterator<Item = Side> {
     point.is_free.iter().map(|is_free| if *is_free { Side::T } else { Side::Y })
 }

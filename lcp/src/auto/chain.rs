@@ -4,7 +4,7 @@ use web_time::{Duration, Instant};
 
 use super::AutoSettings;
 use super::constants::{FEW_ATTEMPTS, KEPT};
-use super::method::{Effort, Planned, chain_of};
+use super::method::{Budget, Planned, chain_of};
 use crate::{Certificate, Error, Method, Observer, Route, RouteEnd, Solution, Status};
 
 /// How much an answer says; what comes first says more.
@@ -38,7 +38,7 @@ pub(super) fn run<P: Planned>(
         }
         let most = settings.max_attempts.unwrap_or(usize::MAX);
         let few = step.is_brief.then_some(most.min(FEW_ATTEMPTS));
-        let effort = Effort {
+        let effort = Budget {
             tolerance: settings.tolerance,
             time_limit: left.map(|left| share(left, count - 1 - place)),
             max_attempts: few.or(settings.max_attempts),

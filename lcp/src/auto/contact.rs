@@ -1,7 +1,7 @@
 //! The chains of contact with friction.
 
 use super::constants::FEW;
-use super::method::{Effort, Planned, Step};
+use super::method::{Budget, Link, Planned};
 use super::standard::{common_chain, size};
 use crate::definite::is_definite;
 use crate::enumerate::MOST_PAIRS;
@@ -16,11 +16,11 @@ impl Planned for Friction2d {
         format!("{} contacts, {}", self.contacts(), size(self.standard().m()))
     }
 
-    fn chain(&self) -> Vec<Step> {
+    fn chain(&self) -> Vec<Link> {
         common_chain(self.standard().m())
     }
 
-    fn solver(&self, method: Method, effort: &Effort<'_>) -> Box<dyn Solver<Self>> {
+    fn solver(&self, method: Method, effort: &Budget<'_>) -> Box<dyn Solver<Self>> {
         effort.common(method)
     }
 }
@@ -38,12 +38,12 @@ impl Planned for Contact2d {
         )
     }
 
-    fn chain(&self) -> Vec<Step> {
-        let inside = Step::new(
+    fn chain(&self) -> Vec<Link> {
+        let inside = Link::new(
             Method::Interior,
             "the interior-point method for contact takes tens of sparse factorisations",
         );
-        let pivots = Step::new(
+        let pivots = Link::new(
             Method::Lemke,
             if self.points() <= FEW {
                 "pivots are fast, need no convergence and may find a proof"
@@ -59,7 +59,7 @@ impl Planned for Contact2d {
         }
     }
 
-    fn solver(&self, method: Method, effort: &Effort<'_>) -> Box<dyn Solver<Self>> {
+    fn solver(&self, method: Method, effort: &Budget<'_>) -> Box<dyn Solver<Self>> {
         effort.common(method)
     }
 }

@@ -10,7 +10,7 @@ use crate::divide::{Joined, Part, put};
 use crate::{Basis, Certificate, Error, Method, Observer, Route, RouteEnd, Side, Solution, Status};
 
 /// A part and its answer.
-type Answer<P> = (Part<P>, Solution);
+type PartAnswer<P> = (Part<P>, Solution);
 
 /// Solves a problem by its parts, where it has several.
 pub(super) fn run<P: Planned>(
@@ -113,8 +113,8 @@ fn solve<P: Planned>(
     settings: &AutoSettings,
     began: Instant,
     observer: &mut Observer<'_>,
-) -> Result<Vec<Answer<P>>, Error> {
-    let mut answers: Vec<Option<Answer<P>>> = parts.iter().map(|_| None).collect();
+) -> Result<Vec<PartAnswer<P>>, Error> {
+    let mut answers: Vec<Option<PartAnswer<P>>> = parts.iter().map(|_| None).collect();
     let mut order: Vec<(usize, Part<P>)> = parts.into_iter().enumerate().collect();
     order.sort_by_key(|(_, part)| part.pairs.len());
     let count = u32::try_from(order.len()).unwrap_or(u32::MAX);
@@ -140,7 +140,7 @@ fn solve<P: Planned>(
 
 /// The answer of the whole: the part that says least decides what is said of it, unless one proves that there
 /// is no solution.
-fn join<P: Planned>(problem: &P, mut answers: Vec<Answer<P>>, tolerance: f64) -> Solution {
+fn join<P: Planned>(problem: &P, mut answers: Vec<PartAnswer<P>>, tolerance: f64) -> Solution {
     let pairs = problem.pairs();
     let (mut t, mut y) = (vec![0.0; pairs], vec![0.0; pairs]);
     for (part, answer) in &answers {
@@ -176,11 +176,11 @@ fn is_proof(answer: &Solution) -> bool {
 }
 
 fn outcome<P>(
-    answers: &[Answer<P>],
+    answers: &[PartAnswer<P>],
     tolerance: f64,
     pairs: usize,
 ) -> (Status, Option<Certificate>) {
-    let says = |(_, answer): &&Answer<P>| match chain::rank(answer, tolerance).0 {
+    let says = |(_, answer): &&PartAnswer<P>| match chain::rank(answer, tolerance).0 {
         _ if is_proof(answer) && answer.status == Status::Infeasible => 4,
         _ if is_proof(answer) => 3,
         Rank::Decided => 0,
@@ -194,7 +194,7 @@ fn outcome<P>(
 }
 
 /// The basis of the whole, where all parts have one.
-fn joined_basis<P>(answers: &[Answer<P>], pairs: usize) -> Option<Basis> {
+fn joined_basis<P>(answers: &[PartAnswer<P>], pairs: usize) -> Option<Basis> {
     let mut sides = vec![Side::T; pairs];
     for (part, answer) in answers {
         put(&part.pairs, answer.basis.as_ref()?.sides(), &mut sides);

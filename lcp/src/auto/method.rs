@@ -29,7 +29,7 @@ pub struct Choice {
 
 /// A method of a chain, whose reason is only put into words for a step that is taken or told.
 #[derive(Debug, Clone, Copy)]
-pub struct Step {
+pub struct Link {
     pub(super) method: Method,
     words: Words,
     pub(super) is_brief: bool,
@@ -43,7 +43,7 @@ enum Words {
     Few(usize),
 }
 
-impl Step {
+impl Link {
     pub(super) fn new(method: Method, words: &'static str) -> Self {
         Self { method, words: Words::These(words), is_brief: false }
     }
@@ -63,7 +63,7 @@ impl Step {
 
 /// The chain of a problem with all choices of sides: behind a few attempts of pivots if it takes no longer than these, else
 /// at the end.
-pub(super) fn chain_of<P: Planned>(problem: &P, max_attempts: Option<usize>) -> Vec<Step> {
+pub(super) fn chain_of<P: Planned>(problem: &P, max_attempts: Option<usize>) -> Vec<Link> {
     let mut steps = problem.chain();
     let pairs = problem.pairs();
     let pivots = steps.iter().position(|step| step.method == Method::Lemke);
@@ -71,14 +71,14 @@ pub(super) fn chain_of<P: Planned>(problem: &P, max_attempts: Option<usize>) -> 
     let choices = problem.choices();
     if choices > FEW_PAIRS {
         let words = "choices of sides are gone through as far as the work allows";
-        steps.push(Step::new(Method::Enumeration, words));
+        steps.push(Link::new(Method::Enumeration, words));
         return steps;
     }
     steps[pivots].is_brief = true;
     let words = Words::Few(choices);
-    steps.insert(pivots + 1, Step { method: Method::Enumeration, words, is_brief: false });
+    steps.insert(pivots + 1, Link { method: Method::Enumeration, words, is_brief: false });
     if pairs > FEW_PAIRS && max_attempts.is_none_or(|most| most > FEW_ATTEMPTS) {
-        steps.push(Step::new(Method::Lemke, "pivots from as many starts as some seconds allow"));
+        steps.push(Link::new(Method::Lemke, "pivots from as many starts as some seconds allow"));
     }
     steps
 }
@@ -98,15 +98,15 @@ pub trait Planned: Divide {
     fn subject(&self) -> String;
 
     /// The chain.
-    fn chain(&self) -> Vec<Step>;
+    fn chain(&self) -> Vec<Link>;
 
     /// A method of the chain with its settings.
-    fn solver(&self, method: Method, effort: &Effort<'_>) -> Box<dyn Solver<Self>>;
+    fn solver(&self, method: Method, effort: &Budget<'_>) -> Box<dyn Solver<Self>>;
 }
 
 /// The settings of a method in a chain.
 #[derive(Debug, Clone, Copy)]
-pub struct Effort<'a> {
+pub struct Budget<'a> {
     pub(super) tolerance: f64,
     pub(super) time_limit: Option<Duration>,
     /// Attempts of Lemke's method.
@@ -114,7 +114,7 @@ pub struct Effort<'a> {
     pub(super) start: &'a WarmStart,
 }
 
-impl Effort<'_> {
+impl Budget<'_> {
     /// The methods that treat every problem. Problems have an arm for every other method of their chains.
     pub(super) fn common<P>(&self, method: Method) -> Box<dyn Solver<P>>
     where

@@ -1,7 +1,7 @@
 //! The chains of problems with free and with bounded variables.
 
 use super::facts::largest_block;
-use super::method::{Effort, Planned, Step};
+use super::method::{Budget, Link, Planned};
 use super::standard::{common_chain, size};
 use crate::{BoxedLcp, Method, MixedLcp, Solver};
 
@@ -19,11 +19,11 @@ impl Planned for MixedLcp {
         format!("{free} free variables, {}", size(self.m()))
     }
 
-    fn chain(&self) -> Vec<Step> {
+    fn chain(&self) -> Vec<Link> {
         common_chain(self.m())
     }
 
-    fn solver(&self, method: Method, effort: &Effort<'_>) -> Box<dyn Solver<Self>> {
+    fn solver(&self, method: Method, effort: &Budget<'_>) -> Box<dyn Solver<Self>> {
         effort.common(method)
     }
 }
@@ -45,11 +45,11 @@ impl Planned for BoxedLcp {
         format!("{} pairs with those of the bounds, {}", self.pairs(), size(self.m()))
     }
 
-    fn chain(&self) -> Vec<Step> {
+    fn chain(&self) -> Vec<Link> {
         common_chain(self.m())
     }
 
-    fn solver(&self, method: Method, effort: &Effort<'_>) -> Box<dyn Solver<Self>> {
+    fn solver(&self, method: Method, effort: &Budget<'_>) -> Box<dyn Solver<Self>> {
         effort.common(method)
     }
 }

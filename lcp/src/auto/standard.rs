@@ -2,12 +2,12 @@
 
 use super::constants::FEW;
 use super::facts::largest_block;
-use super::method::{Effort, Planned, Step};
+use super::method::{Budget, Link, Planned};
 use crate::newton::is_z_matrix;
 use crate::{HorizontalLcp, Lcp, Matrix, Method, Solver};
 
 /// The class of the matrix decides whether the active set method is the first.
-fn standard_chain(m: &Matrix) -> Vec<Step> {
+fn standard_chain(m: &Matrix) -> Vec<Link> {
     let mut steps = common_chain(m);
     if (0..m.ncols()).all(|i| m[(i, i)] > 0.0) {
         let words = if is_z_matrix(m) {
@@ -16,25 +16,25 @@ fn standard_chain(m: &Matrix) -> Vec<Step> {
         } else {
             "the diagonal is positive, so that the active set method takes few factorisations, or soon gives up"
         };
-        steps.insert(0, Step::new(Method::Newton, words));
+        steps.insert(0, Link::new(Method::Newton, words));
     }
     steps
 }
 
 /// The methods that need no class of matrices.
-pub(super) fn common_chain(m: &Matrix) -> Vec<Step> {
+pub(super) fn common_chain(m: &Matrix) -> Vec<Link> {
     let order = m.ncols();
-    let inside = Step::new(
+    let inside = Link::new(
         Method::Interior,
         "the interior-point method takes tens of factorisations at any order",
     );
     if m.is_sparse() && order > FEW {
         let words = "pivots take long at this order, but need no class of matrices";
-        return vec![inside, Step::new(Method::Lemke, words)];
+        return vec![inside, Link::new(Method::Lemke, words)];
     }
     let words = "pivots need no class of matrices and end with a basis, a proof or a ray";
     let inside = Some(inside).filter(|_| order <= FEW);
-    std::iter::once(Step::new(Method::Lemke, words)).chain(inside).collect()
+    std::iter::once(Link::new(Method::Lemke, words)).chain(inside).collect()
 }
 
 /// The order and how the matrix is stored, for the reason of a choice.
@@ -60,11 +60,11 @@ impl Planned for Lcp {
         size(self.m())
     }
 
-    fn chain(&self) -> Vec<Step> {
+    fn chain(&self) -> Vec<Link> {
         standard_chain(self.m())
     }
 
-    fn solver(&self, method: Method, effort: &Effort<'_>) -> Box<dyn Solver<Self>> {
+    fn solver(&self, method: Method, effort: &Budget<'_>) -> Box<dyn Solver<Self>> {
         match method {
             Method::Newton => Box::new(effort.newton(is_z_matrix(self.m()))),
             _ => effort.common(method),
@@ -92,14 +92,14 @@ impl Planned for HorizontalLcp {
         }
     }
 
-    fn chain(&self) -> Vec<Step> {
+    fn chain(&self) -> Vec<Link> {
         match self.to_standard() {
             Some(standard) => standard_chain(standard.lcp().m()),
-            None => vec![Step::new(Method::Lemke, "Lemke's method treats the general form")],
+            None => vec![Link::new(Method::Lemke, "Lemke's method treats the general form")],
         }
     }
 
-    fn solver(&self, method: Method, effort: &Effort<'_>) -> Box<dyn Solver<Self>> {
+    fn solver(&self, method: Method, effort: &Budget<'_>) -> Box<dyn Solver<Self>> {
         match method {
             Method::Newton => {
                 let is_sure = self.to_standard().is_some_and(|it| is_z_matrix(it.lcp().m()));

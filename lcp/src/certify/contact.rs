@@ -2,7 +2,7 @@
 
 use super::Residuals;
 use super::constants::MILLIONTH;
-use super::judge::{Conditions, Entry, Precision, RowJudge, Rows};
+use super::judge::{Conditions, Entry, JudgedRows, Precision, RowJudge};
 use super::significance::spread;
 use super::weights::per_load;
 use crate::parts::Parts;
@@ -84,7 +84,7 @@ impl<'a> ContactJudge<'a> {
     }
 }
 
-impl Rows for ContactRows<'_> {
+impl JudgedRows for ContactRows<'_> {
     fn variables(&self) -> usize {
         self.problem.displacements() + 4 * self.problem.points()
     }

@@ -9,7 +9,7 @@ use crate::extended::{Extended, extended};
 use crate::vector::SMALL;
 
 /// The rows of a problem, `sum_j a_ij x_j = c_i`, and the conditions on their variables.
-pub(crate) trait Rows {
+pub(crate) trait JudgedRows {
     /// Number of variables.
     fn variables(&self) -> usize;
 
@@ -59,7 +59,7 @@ impl Digits for f64 {}
 impl Digits for Extended {}
 
 /// A point with the sums of its rows.
-struct Point {
+struct RowSums {
     x: Vec<f64>,
     /// The factor by which the point is multiplied.
     unit: f64,
@@ -69,7 +69,7 @@ struct Point {
     terms: Vec<f64>,
 }
 
-impl<R: Rows> RowJudge<R> {
+impl<R: JudgedRows> RowJudge<R> {
     /// Residuals of a point, given by all its variables part by part. If the last ones are missing, they are what the
     /// others leave of the last rows, in which each has the coefficient minus one.
     pub(crate) fn residuals(&self, parts: &[&[f64]], precision: Precision) -> Residuals {
@@ -88,7 +88,7 @@ impl<R: Rows> RowJudge<R> {
         in_range(parts, |x, unit| self.judged(&self.at(x, unit), Precision::Exact))
     }
 
-    fn at<X: Digits>(&self, x: &[X], unit: f64) -> Point {
+    fn at<X: Digits>(&self, x: &[X], unit: f64) -> RowSums {
         let mut rest: Vec<X> = self.c.iter().map(|c| X::from(-c * unit)).collect();
         let mut terms: Vec<f64> = self.sizes.iter().map(|size| size * unit).collect();
         let mut rounded: Vec<f64> = x.iter().map(|x| (*x).into()).collect();
@@ -102,7 +102,7 @@ impl<R: Rows> RowJudge<R> {
         let following = rest.len() + rounded.len() - self.rows.variables();
         rounded.extend_from_slice(&rest[following..]);
         rest[following..].fill(0.0);
-        Point { x: rounded, unit, rest, terms }
+        RowSums { x: rounded, unit, rest, terms }
     }
 
     /// The rounding errors of a sum in `f64`, relative to its terms.
@@ -116,7 +116,7 @@ impl<R: Rows> RowJudge<R> {
     }
 
     /// The terms of a row in units of the loads that it feels.
-    fn share_of_loads(&self, point: &Point, i: usize) -> f64 {
+    fn share_of_loads(&self, point: &RowSums, i: usize) -> f64 {
         point.terms[i] * self.weight(point.unit, i)
     }
 
@@ -134,7 +134,7 @@ impl<R: Rows> RowJudge<R> {
     }
 
     /// Rows that do not matter to the loads are told only if something in them seems to be wrong.
-    fn judged(&self, point: &Point, precision: Precision) -> Residuals {
+    fn judged(&self, point: &RowSums, precision: Precision) -> Residuals {
         let strict = Conditions::residuals(self, point, Vec::new(), precision);
         let apparent = strict.equation.max(strict.natural);
         if precision == Precision::Quick || apparent <= strict.loads.max(SMALL) {
@@ -182,7 +182,7 @@ impl Entry {
 /// The residuals of a point while its conditions are gone through.
 pub(crate) struct Conditions<'a, R> {
     judge: &'a RowJudge<R>,
-    point: &'a Point,
+    point: &'a RowSums,
     /// The weight of every row; all of them one if it is empty.
     significance: Vec<f64>,
     /// The sizes that changes which make the point feasible and complementary add to a row; empty if there are none.
@@ -190,10 +190,10 @@ pub(crate) struct Conditions<'a, R> {
     residuals: Residuals,
 }
 
-impl<'a, R: Rows> Conditions<'a, R> {
+impl<'a, R: JudgedRows> Conditions<'a, R> {
     fn residuals(
         judge: &'a RowJudge<R>,
-        point: &'a Point,
+        point: &'a RowSums,
         significance: Vec<f64>,
         precision: Precision,
     ) -> Residuals {

@@ -1,7 +1,7 @@
 //! Problems with a matrix: the general form, variables between bounds, and forces at contacts.
 
 use super::Residuals;
-use super::judge::{Conditions, Entry, Precision, RowJudge, Rows};
+use super::judge::{Conditions, Entry, JudgedRows, Precision, RowJudge};
 use super::weights::Couplings;
 use crate::extended::extended;
 use crate::matrix::Column;
@@ -110,7 +110,7 @@ fn sizes(v: &[f64]) -> Vec<f64> {
     v.iter().map(|v| v.abs()).collect()
 }
 
-impl<R: Rows> RowJudge<R> {
+impl<R: JudgedRows> RowJudge<R> {
     /// A judge of the columns of a matrix, and of loads that are the sizes of the right-hand sides.
     fn of_columns(rows: R, columns: &[Column<'_>], c: Vec<f64>, loads: Vec<f64>) -> Self {
         let (row, col) = equilibrate(c.len(), columns);
@@ -152,7 +152,7 @@ impl<'a> GeneralJudge<'a> {
     }
 }
 
-impl Rows for &HorizontalLcp {
+impl JudgedRows for &HorizontalLcp {
     fn variables(&self) -> usize {
         2 * self.order()
     }
@@ -209,7 +209,7 @@ impl AffineRows<'_> {
     }
 }
 
-impl Rows for AffineRows<'_> {
+impl JudgedRows for AffineRows<'_> {
     fn variables(&self) -> usize {
         2 * self.m.ncols()
     }

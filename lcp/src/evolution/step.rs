@@ -23,7 +23,7 @@ impl Evolution {
     ) -> Result<Taken, Error> {
         let stepped = self.stepped(target);
         let state = ContactState { u: vec![0.0; self.state.u.len()], ..self.state.clone() };
-        let now = End { state, contacts: self.contacts.clone() };
+        let now = StepEnd { state, contacts: self.contacts.clone() };
         let (mut search, is_found) = self.searched(&stepped, &now, &Effort::QUICK, course)?;
         let mut limit = None;
         let status = if is_found {
@@ -62,7 +62,7 @@ impl Evolution {
     fn rests(
         &mut self,
         at_rest: Target<'_>,
-        from: &End,
+        from: &StepEnd,
         effort: &Effort,
         course: &mut Course<'_, '_>,
     ) -> Result<bool, Error> {
@@ -106,7 +106,7 @@ impl Evolution {
     fn searched<'a>(
         &self,
         problem: &'a Contact2d,
-        from: &End,
+        from: &StepEnd,
         effort: &Effort,
         course: &mut Course<'_, '_>,
     ) -> Result<(Search<'a>, bool), Error> {
@@ -142,7 +142,11 @@ impl Evolution {
     }
 
     /// Goes to the end of a step, and gives its account.
-    fn moved(&mut self, target: Target<'_>, End { state: mut next, contacts }: End) -> Account {
+    fn moved(
+        &mut self,
+        target: Target<'_>,
+        StepEnd { state: mut next, contacts }: StepEnd,
+    ) -> Account {
         let Target { problem, data, h } = target;
         let total = self.displaced(&next.u);
         let added = std::mem::replace(&mut next.u, total);
@@ -231,13 +235,13 @@ impl Evolution {
 }
 
 /// Where a step ends: the displacements that it adds, and the state of the contacts.
-struct End {
+struct StepEnd {
     state: ContactState,
     /// States of the contacts; empty if not known.
     contacts: Vec<ContactStatus>,
 }
 
-fn end_of(problem: &Contact2d, solution: Solution) -> End {
+fn end_of(problem: &Contact2d, solution: Solution) -> StepEnd {
     let state = solution.contact.unwrap_or_else(|| unreachable!("a contact problem has one"));
     let contacts = if let Some(basis) = &solution.basis {
         Original::contacts(problem, basis)
@@ -246,5 +250,5 @@ fn end_of(problem: &Contact2d, solution: Solution) -> End {
         let (u, forces) = scaled.of_state(&state);
         nearest(&scaled, &u, &forces)
     };
-    End { state, contacts }
+    StepEnd { state, contacts }
 }

@@ -6,7 +6,7 @@ use faer::sparse::FaerError;
 use super::constants::{
     BALANCINGS, FRACTION_TO_BOUNDARY, LEAST_AIM, LOADS, PATIENCE, TRIAL_REDUCTION, TRIAL_RESIDUAL,
 };
-use super::program::{Factors, Program};
+use super::program::{Program, ProgramFactors};
 use super::step::{correction, lengthened};
 use super::variables::{Variables, dot};
 use crate::Status;
@@ -48,7 +48,7 @@ impl Program {
     ) -> Result<Outcome, FaerError> {
         let (program, units) = self.scaled();
         let times = |v: &[f64], unit: f64| -> Vec<f64> { v.iter().map(|v| v * unit).collect() };
-        let mut factors = Factors::of(&program)?;
+        let mut factors = ProgramFactors::of(&program)?;
         let is_proof =
             |at: &Variables| is_proof(&units.displacements(&at.u), &times(&at.t, units.force));
         let (mut at, status) = iterate(&program, &mut factors, accuracy, stop, is_proof);
@@ -70,7 +70,7 @@ impl Program {
 
 /// A solution of a program without stiffness whose forces balance its loads to the last digit of every row, by those of the
 /// springs of the last step: displacements of these change forces so that products of pairs stay.
-fn balanced(program: &Program, factors: &Factors, at: &Variables) -> Variables {
+fn balanced(program: &Program, factors: &ProgramFactors, at: &Variables) -> Variables {
     let lack = |t: &[f64]| {
         let mut rest = program.f.clone();
         program.add_forces(t, &mut rest);
@@ -116,7 +116,7 @@ struct Homogeneous<'a> {
 }
 
 /// The residuals of the equations at a point.
-struct Defect {
+struct HomogeneousDefect {
     /// `f tau + A t - K u`
     balance: Vec<f64>,
     /// `A^T u + D t + x_0 tau - y`
@@ -126,7 +126,7 @@ struct Defect {
 /// The solution of a program, or `u` and `t` that prove that there is none.
 fn iterate(
     program: &Program,
-    factors: &mut Factors,
+    factors: &mut ProgramFactors,
     accuracy: Accuracy,
     mut stop: impl FnMut(f64) -> Option<Status>,
     mut is_proof: impl FnMut(&Variables) -> bool,
@@ -177,7 +177,7 @@ impl<'a> Homogeneous<'a> {
         Self { program, at, strained, opened }
     }
 
-    fn residual(&self, defect: &Defect, accuracy: Accuracy) -> f64 {
+    fn residual(&self, defect: &HomogeneousDefect, accuracy: Accuracy) -> f64 {
         let Variables { t, y, tau, .. } = &self.at;
         let (force, length) = (max_abs(t).max(*tau), max_abs(y).max(*tau));
         let (unit, part) = match accuracy {
@@ -206,7 +206,7 @@ impl<'a> Homogeneous<'a> {
         against.fold(max_abs(&self.strained), f64::max) / work
     }
 
-    fn defect(&self) -> Defect {
+    fn defect(&self) -> HomogeneousDefect {
         let Self { program, at, .. } = self;
         let tau = at.tau;
         let mut balance: Vec<f64> =
@@ -215,13 +215,13 @@ impl<'a> Homogeneous<'a> {
         let data = program.x_0.iter().zip(&program.compliance);
         let pairs = self.opened.iter().zip(data).zip(at.t.iter().zip(&at.y));
         let gaps = pairs.map(|((opened, (x, c)), (t, y))| opened + tau * x + c * t - y).collect();
-        Defect { balance, gaps }
+        HomogeneousDefect { balance, gaps }
     }
 
     /// The point with the nearest `u` to its own that strains nothing and leaves closed the pairs that the point opens by
     /// no more than the root of its error: a proof whose products vanish has no rounding errors there to contradict it.
     /// Each solve takes all but a part [`HALF_DIGITS`] of these products away.
-    fn projected(&self, factors: &mut Factors, error: f64) -> Option<Variables> {
+    fn projected(&self, factors: &mut ProgramFactors, error: f64) -> Option<Variables> {
         let most = error.sqrt() * self.work();
         let closed = self.opened.iter().map(|opened| f64::from(u8::from(*opened <= most)));
         factors.factorise(self.program, closed.collect(), HALF_DIGITS)?;
@@ -239,7 +239,7 @@ impl<'a> Homogeneous<'a> {
     }
 
     /// One step of Mehrotra's method with Gondzio's correctors; gives its length.
-    fn advance(&mut self, factors: &mut Factors, defect: Defect) -> f64 {
+    fn advance(&mut self, factors: &mut ProgramFactors, defect: HomogeneousDefect) -> f64 {
         let Some((newton, affine)) = Newton::of(self, factors, defect) else { return 0.0 };
         let at = &self.at;
         let mean = at.mean_product();
@@ -267,8 +267,8 @@ struct Newton<'a> {
     program: &'a Program,
     at: &'a Variables,
     /// Factors with the springs that Newton's method puts in the place of the pairs.
-    factors: &'a Factors,
-    defect: Defect,
+    factors: &'a ProgramFactors,
+    defect: HomogeneousDefect,
     /// The step of `u` and `t` for a step of one of `tau`.
     of_tau: Variables,
     /// The derivatives of the equation of `kappa` by `u` and `t`.
@@ -292,8 +292,8 @@ impl<'a> Newton<'a> {
     /// The equations of a point, with the step to products of zero.
     fn of(
         now: &'a Homogeneous<'a>,
-        factors: &'a mut Factors,
-        defect: Defect,
+        factors: &'a mut ProgramFactors,
+        defect: HomogeneousDefect,
     ) -> Option<(Self, Variables)> {
         let Homogeneous { program, at, strained, .. } = now;
         let Variables { u, t, y, tau, kappa } = at;
@@ -368,7 +368,7 @@ impl<'a> Newton<'a> {
     /// Steps at `tau` and `kappa` as they are.
     fn held<const N: usize>(&self, aims: &[Aim<'_>; N]) -> [Variables; N] {
         let Self { program, at, .. } = self;
-        let Factors { gram, stiffness, .. } = self.factors;
+        let ProgramFactors { gram, stiffness, .. } = self.factors;
         let n = at.u.len();
         let mut all = Vec::with_capacity(N * n);
         // Forces that do not depend on the displacements.

@@ -91,14 +91,14 @@ impl Program {
 }
 
 /// The matrix of the steps of a program: order, pattern and factors.
-pub(super) struct Factors {
+pub(super) struct ProgramFactors {
     pub(super) gram: Gram,
     /// The springs in the place of the pairs that the factors are of.
     pub(super) stiffness: Vec<f64>,
     pub(super) factorisations: usize,
 }
 
-impl Factors {
+impl ProgramFactors {
     pub(super) fn of(program: &Program) -> Result<Self, FaerError> {
         let gram = Gram::new(Some(program.k.symbolic()), program.a.symbolic())?;
         Ok(Self { gram, stiffness: Vec::new(), factorisations: 0 })

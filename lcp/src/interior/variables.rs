@@ -1,7 +1,7 @@
 //! The variables of the homogeneous problem of a convex program, inside their bounds, and where they start.
 
 use super::constants::START_SHIFT;
-use super::program::{Factors, Program};
+use super::program::{Program, ProgramFactors};
 use super::step::longest;
 use crate::states::PROXIMAL;
 
@@ -18,7 +18,7 @@ pub(super) struct Variables {
 
 impl Variables {
     /// A start from the forces that the contacts would carry if they were springs in both directions.
-    pub(super) fn start(program: &Program, factors: &mut Factors) -> Option<Self> {
+    pub(super) fn start(program: &Program, factors: &mut ProgramFactors) -> Option<Self> {
         let stiffness: Vec<f64> = program.compliance.iter().map(|c| 1.0 / (1.0 + c)).collect();
         factors.factorise(program, stiffness, PROXIMAL)?;
         let stiffness = &factors.stiffness;

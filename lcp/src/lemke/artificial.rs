@@ -6,7 +6,7 @@
 //! the residuals of the original data decide.
 
 use super::feasibility::in_problem_rows;
-use super::finish::Point;
+use super::finish::BasicPoint;
 use super::start::Equilibrated;
 use crate::certify::is_proof;
 use crate::vector::{SMALL, max_abs};
@@ -41,14 +41,21 @@ pub(super) fn without_artificial(
     chosen: &[Option<Side>],
     side: Side,
     solution: &Solution,
-) -> Option<Point> {
+) -> Option<BasicPoint> {
     let basis: Basis = solution.basis.clone()?;
     let (mut t, mut y) = (solution.t.clone(), solution.y.clone());
     for pair in missing(chosen) {
         side.of(&mut t, &mut y)[pair] = 0.0;
     }
     let residuals = problem.residuals(&t, &y);
-    Some(Point { t, y, basis, residuals, condition: solution.condition?, negative: Vec::new() })
+    Some(BasicPoint {
+        t,
+        y,
+        basis,
+        residuals,
+        condition: solution.condition?,
+        negative: Vec::new(),
+    })
 }
 
 /// Where no column at all reaches outside the span of those chosen, but `c` does: the part of `c`

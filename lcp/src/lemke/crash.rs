@@ -57,7 +57,7 @@ pub(super) fn find_basis(
     if is_over(deadline) {
         return Crash::Late;
     }
-    let exchanges = Exchanges { problem, preferred, deadline };
+    let exchanges = CrashExchanges { problem, preferred, deadline };
     let (mut chosen, mut complement) = exchanges.independent_columns();
     while complement.ncols() > 0 {
         let tolerances = [1e-5, 1e-8, 4.0 * n as f64 * f64::EPSILON];
@@ -201,13 +201,13 @@ fn enlarged(problem: &Equilibrated<'_>, basis: Basis, deadline: Option<Instant>)
     Basis::new(sides)
 }
 
-struct Exchanges<'a> {
+struct CrashExchanges<'a> {
     problem: &'a Equilibrated<'a>,
     preferred: &'a [Side],
     deadline: Option<Instant>,
 }
 
-impl Exchanges<'_> {
+impl CrashExchanges<'_> {
     fn columns(&self, chosen: &[Option<Side>]) -> Mat<f64> {
         let picked: Vec<(usize, Side)> =
             chosen.iter().enumerate().filter_map(|(k, side)| Some((k, (*side)?))).collect();

@@ -7,7 +7,7 @@ use crate::vector::{REFINEMENTS, max_abs};
 use crate::{Basis, Residuals};
 
 #[derive(Debug, Clone)]
-pub(super) struct Point {
+pub(super) struct BasicPoint {
     pub(super) t: Vec<f64>,
     pub(super) y: Vec<f64>,
     pub(super) basis: Basis,
@@ -17,7 +17,7 @@ pub(super) struct Point {
     pub(super) negative: Vec<usize>,
 }
 
-impl Point {
+impl BasicPoint {
     /// The basis with the other variable of every pair whose basic one is negative.
     pub(super) fn exchanged(&self) -> Basis {
         let mut sides = self.basis.sides().to_vec();
@@ -28,7 +28,7 @@ impl Point {
 
 /// Solves for the basic variables with the original columns, refines, and sets negative values to
 /// zero, which the residuals see where it is more than rounding.
-pub(super) fn solve_basis(problem: &Equilibrated<'_>, basis: &Basis) -> Option<Point> {
+pub(super) fn solve_basis(problem: &Equilibrated<'_>, basis: &Basis) -> Option<BasicPoint> {
     let matrix = BasisMatrix::new(problem, basis)?;
     let condition = matrix.condition();
     let x = refined(&matrix, &problem.right_hand_side());
@@ -50,7 +50,7 @@ pub(super) fn solve_basis(problem: &Equilibrated<'_>, basis: &Basis) -> Option<P
         negative.extend((value < 0.0).then_some(j));
     }
     let residuals = problem.judge.residuals(&[&t[..], &y], Precision::Exact);
-    Some(Point { t, y, basis: Basis::new(sides), residuals, condition, negative })
+    Some(BasicPoint { t, y, basis: Basis::new(sides), residuals, condition, negative })
 }
 
 /// The solution, refined with residuals of twice the digits.

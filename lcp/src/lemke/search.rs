@@ -8,7 +8,7 @@ use super::artificial::{completed, part_outside, without_artificial};
 use super::constants::{ATTEMPT, FIRST_ROUND, KINDS, WORK};
 use super::crash::{Crash, find_basis};
 use super::feasibility::farkas_vector;
-use super::finish::{Point, solve_basis};
+use super::finish::{BasicPoint, solve_basis};
 use super::path::Path;
 use super::start::{Equilibrated, Start};
 use super::trial::{Trial, covering_vector};
@@ -22,22 +22,22 @@ use crate::{
     Status, WarmStart,
 };
 
-pub(super) type Observer<'a> = &'a mut dyn FnMut(&Progress) -> ControlFlow<()>;
+pub(super) type ProgressObserver<'a> = &'a mut dyn FnMut(&Progress) -> ControlFlow<()>;
 
-pub(super) struct Search<'a> {
+pub(super) struct Attempts<'a> {
     settings: &'a LemkeSettings,
     deadline: Option<Instant>,
     problem: Equilibrated<'a>,
     info: Info,
     trace: Vec<PivotRecord>,
     /// The best complementary point so far that is above the tolerance.
-    almost: Option<Point>,
+    almost: Option<BasicPoint>,
     ray: Option<Ray>,
     /// Whether the problem has artificial columns already.
     is_completed: bool,
 }
 
-impl<'a> Search<'a> {
+impl<'a> Attempts<'a> {
     pub(super) fn new(
         settings: &'a LemkeSettings,
         problem: &'a HorizontalLcp,
@@ -55,7 +55,7 @@ impl<'a> Search<'a> {
         }
     }
 
-    pub(super) fn run(mut self, observer: Observer<'_>) -> Solution {
+    pub(super) fn run(mut self, observer: ProgressObserver<'_>) -> Solution {
         if self.problem.problem.c().iter().all(|&c| c == 0.0) {
             return self.give_up(Status::Solved);
         }
@@ -124,7 +124,7 @@ impl<'a> Search<'a> {
         mut self,
         chosen: &[Option<Side>],
         complement: &Matrix,
-        observer: Observer<'_>,
+        observer: ProgressObserver<'_>,
     ) -> Solution {
         if let Some(pi) = part_outside(&self.problem, complement) {
             return self.infeasible(pi);
@@ -132,8 +132,8 @@ impl<'a> Search<'a> {
         let settings = LemkeSettings { start: WarmStart::None, ..self.settings.clone() };
         for side in [Side::Y, Side::T] {
             let completed = completed(&self.problem, chosen, complement, side);
-            let search = Search::new(&settings, &completed, self.deadline);
-            let mut solution = Search { is_completed: true, ..search }.run(observer);
+            let search = Attempts::new(&settings, &completed, self.deadline);
+            let mut solution = Attempts { is_completed: true, ..search }.run(observer);
             let point = without_artificial(self.problem.problem, chosen, side, &solution);
             let proves = |pi: &&[f64]| is_proof(self.problem.problem, pi);
             let proof = solution.farkas().filter(proves).map(<[f64]>::to_vec);
@@ -178,7 +178,7 @@ impl<'a> Search<'a> {
 
     /// The point of the start basis where it solves the problem. The values of a basis that had to be
     /// factorised are not zero where they should be, so that a path would start at rounding errors.
-    fn solution_at(&self, start: &Start) -> Option<Point> {
+    fn solution_at(&self, start: &Start) -> Option<BasicPoint> {
         let is_negative = |(k, &q): (usize, &f64)| q < -SMALL && !start.is_free(k);
         if start.q.iter().enumerate().any(is_negative) {
             return None;
@@ -225,7 +225,7 @@ impl<'a> Search<'a> {
         start: &Start,
         trial: &Trial,
         number: usize,
-        observer: Observer<'_>,
+        observer: ProgressObserver<'_>,
     ) -> (Attempt, Option<Basis>) {
         let order = self.problem.order();
         let settings = self.settings;
@@ -273,7 +273,7 @@ impl<'a> Search<'a> {
         &self,
         attempt: usize,
         max_pivots: usize,
-        observer: Observer<'o>,
+        observer: ProgressObserver<'o>,
     ) -> impl FnMut(usize, f64) -> Option<AttemptEnd> + use<'o> {
         let (order, deadline) = (self.problem.order(), self.deadline);
         move |pivots, artificial| {
@@ -305,7 +305,7 @@ impl<'a> Search<'a> {
         &self,
         start: &Start,
         number: usize,
-        observer: Observer<'_>,
+        observer: ProgressObserver<'_>,
     ) -> Result<Option<Vec<f64>>, Status> {
         let covering = covering_vector(AttemptCovering::Ones, start, &[]);
         let mut limits = self.limits(number, 20 * self.problem.order() + 100, observer);
@@ -317,7 +317,7 @@ impl<'a> Search<'a> {
 
     /// The point that exchanges of all pairs with negative values lead to, as long as each makes it better (Kostreva 1978).
     /// Where rounding has told ties apart a path may end beside the basis of the solution.
-    fn exchanged(&self, mut point: Point) -> Point {
+    fn exchanged(&self, mut point: BasicPoint) -> BasicPoint {
         while !self.is_solved(&point) && !point.negative.is_empty() {
             match solve_basis(&self.problem, &point.exchanged()) {
                 Some(next) if next.residuals.worst() < point.residuals.worst() => point = next,
@@ -327,11 +327,11 @@ impl<'a> Search<'a> {
         point
     }
 
-    fn is_solved(&self, point: &Point) -> bool {
+    fn is_solved(&self, point: &BasicPoint) -> bool {
         point.residuals.worst() <= self.settings.tolerance
     }
 
-    fn keep_better(&mut self, point: Point) {
+    fn keep_better(&mut self, point: BasicPoint) {
         let worst = point.residuals.worst();
         if self.almost.as_ref().is_none_or(|best| worst < best.residuals.worst()) {
             self.almost = Some(point);
@@ -364,8 +364,8 @@ impl<'a> Search<'a> {
         self.give_up(said.map_or(Status::NumericalTrouble, |(_, status)| status))
     }
 
-    fn answer(self, point: Point) -> Solution {
-        let Point { t, y, basis, residuals, condition, .. } = point;
+    fn answer(self, point: BasicPoint) -> Solution {
+        let BasicPoint { t, y, basis, residuals, condition, .. } = point;
         let tolerance = self.settings.tolerance;
         let judged = Solution::judged(t, y, residuals, tolerance, Status::AlmostSolved);
         let (basis, condition) = (Some(basis), Some(condition));

@@ -19,7 +19,7 @@ use lcp_linalg::{has_pivots, solve_unit_lower, solve_upper};
 
 /// Factors of `M_FF`, dense or sparse like `M`: those of Cholesky where the matrix is symmetric and positive definite, else LU.
 /// Dense ones are in memory that is kept.
-pub(super) struct Factors {
+pub(super) struct FreeFactors {
     is_symmetric: bool,
     /// Whether they are those of the pairs in `free`.
     is_known: bool,
@@ -31,14 +31,14 @@ pub(super) struct Factors {
 }
 
 enum Kind {
-    Dense(Box<Dense>),
-    Sparse(Option<Solve>),
+    Dense(Box<DenseFactors>),
+    Sparse(Option<Inverse>),
 }
 
 /// Overwrites a right-hand side with the solution.
-type Solve = Box<dyn Fn(&mut [f64])>;
+type Inverse = Box<dyn Fn(&mut [f64])>;
 
-struct Dense {
+struct DenseFactors {
     /// Units of rows and columns of the last LU, which bring the largest entries near one.
     units: (Vec<f64>, Vec<f64>),
     factors: Mat<f64>,
@@ -49,10 +49,11 @@ struct Dense {
     stack: MemBuffer,
 }
 
-impl Factors {
+impl FreeFactors {
     pub(super) fn new(m: &Matrix) -> Self {
         let is_symmetric = m.check_symmetric("M").is_ok();
-        let kind = if m.is_sparse() { Kind::Sparse(None) } else { Kind::Dense(Dense::new(m)) };
+        let kind =
+            if m.is_sparse() { Kind::Sparse(None) } else { Kind::Dense(DenseFactors::new(m)) };
         let (free, right) = (Vec::new(), Vec::new());
         Self { is_symmetric, is_known: false, free, right, kind, count: 0 }
     }
@@ -99,7 +100,7 @@ impl Factors {
     }
 }
 
-impl Dense {
+impl DenseFactors {
     fn new(m: &Matrix) -> Box<Self> {
         let n = m.ncols();
         let scratch = cholesky_in_place_scratch::<f64>(n, Par::Seq, Spec::default())
@@ -172,19 +173,19 @@ impl Dense {
 
 /// Whether no pivot of a sparse symmetric matrix vanishes, with its factors; `None` where it is not positive definite, or
 /// memory does not suffice.
-fn cholesky(block: &Matrix) -> Option<(bool, Option<Solve>)> {
+fn cholesky(block: &Matrix) -> Option<(bool, Option<Inverse>)> {
     let Storage::Sparse(sparse) = block.storage() else { return None };
     let mut factors = Cholesky::new(sparse.symbolic()).ok()?;
     factors.factorise(sparse.as_ref())?;
     let pivots = factors.pivots();
     let mut regular = pivots.iter().enumerate().map(|(k, v)| *v > SMALL * block[(k, k)]);
     let is_regular = regular.all(|is| is);
-    let solve: Solve = Box::new(move |x| factors.solve(x));
+    let solve: Inverse = Box::new(move |x| factors.solve(x));
     pivots.iter().all(|pivot| *pivot > 0.0).then_some((is_regular, Some(solve)))
 }
 
 /// Solves by LU factors of a sparse matrix with entries near one; `None` if it is singular.
-fn lu(block: &Matrix) -> Option<Solve> {
+fn lu(block: &Matrix) -> Option<Inverse> {
     let n = block.ncols();
     let columns: Vec<Column<'_>> = (0..n).map(|k| block.slice(k)).collect();
     let (rows, cols) = equilibrate(n, &columns);
@@ -195,7 +196,7 @@ fn lu(block: &Matrix) -> Option<Solve> {
     }
     let (factors, replaced) = SparseLu::new(&scaled);
     let multiply = |x: &mut [f64], by: &[f64]| x.iter_mut().zip(by).for_each(|(x, by)| *x *= by);
-    let solve: Solve = Box::new(move |x| {
+    let solve: Inverse = Box::new(move |x| {
         multiply(x, &rows);
         factors.solve(x, &mut Vec::new());
         multiply(x, &cols);

@@ -1,6 +1,6 @@
 //! The points that belong to free sets.
 
-use super::factors::Factors;
+use super::factors::FreeFactors;
 use crate::certify::{Couplings, ratio};
 use crate::random::SplitMix;
 use crate::vector::{HALF_DIGITS, REFINEMENTS, ROUNDING, SMALL, max_abs};
@@ -8,7 +8,7 @@ use crate::{Lcp, Matrix, Residuals};
 
 /// A complementary point: `z` is free for some pairs, `w` for the others.
 #[derive(Debug, Clone, Default)]
-pub(crate) struct Point {
+pub(crate) struct FreePoint {
     pub(crate) is_free: Vec<bool>,
     pub(crate) z: Vec<f64>,
     pub(crate) w: Vec<f64>,
@@ -31,13 +31,13 @@ pub(crate) fn is_z_matrix(m: &Matrix) -> bool {
 pub(crate) struct System {
     pub(super) is_z_matrix: bool,
     diagonal: Vec<f64>,
-    factors: Factors,
+    factors: FreeFactors,
 }
 
 impl System {
     pub(crate) fn new(m: &Matrix) -> Self {
         let diagonal = (0..m.ncols()).map(|i| m[(i, i)]).collect();
-        Self { is_z_matrix: is_z_matrix(m), diagonal, factors: Factors::new(m) }
+        Self { is_z_matrix: is_z_matrix(m), diagonal, factors: FreeFactors::new(m) }
     }
 
     /// How many factorisations there were.
@@ -46,7 +46,12 @@ impl System {
     }
 
     /// The point after the exchange of so many of the pairs with a negative variable, the first ones.
-    pub(super) fn exchanged(&mut self, lcp: &Lcp, point: &Point, count: usize) -> Option<Point> {
+    pub(super) fn exchanged(
+        &mut self,
+        lcp: &Lcp,
+        point: &FreePoint,
+        count: usize,
+    ) -> Option<FreePoint> {
         let mut next = point.clone();
         next.exchange(count);
         self.solve(lcp, &mut next).then_some(next)
@@ -55,7 +60,7 @@ impl System {
     /// The point without the free variables that may be zero. Where both variables of a pair vanish, `z` is
     /// nothing but noise, which leaves rows with nothing larger in them a residual. None where there are
     /// no such variables.
-    pub(super) fn without_noise(&mut self, lcp: &Lcp, point: &Point) -> Option<Point> {
+    pub(super) fn without_noise(&mut self, lcp: &Lcp, point: &FreePoint) -> Option<FreePoint> {
         let roots = self.diagonal.iter().zip(&point.z).map(|(d, z)| d.sqrt() * z.abs());
         let size: Vec<f64> = roots.collect();
         let noise = SMALL * max_abs(&size);
@@ -65,13 +70,13 @@ impl System {
     }
 
     /// The point of a free set; none where its matrix is singular to working precision.
-    pub(super) fn point(&mut self, lcp: &Lcp, is_free: Vec<bool>) -> Option<Point> {
-        let mut point = Point::of(is_free);
+    pub(super) fn point(&mut self, lcp: &Lcp, is_free: Vec<bool>) -> Option<FreePoint> {
+        let mut point = FreePoint::of(is_free);
         self.solve(lcp, &mut point).then_some(point)
     }
 
     /// Computes the point of its free set, `M_FF z_F = -q_F`; `false` where it cannot be solved.
-    pub(crate) fn solve(&mut self, lcp: &Lcp, point: &mut Point) -> bool {
+    pub(crate) fn solve(&mut self, lcp: &Lcp, point: &mut FreePoint) -> bool {
         point.z.clear();
         point.z.resize(point.is_free.len(), 0.0);
         point.multiply(lcp);
@@ -98,7 +103,7 @@ impl System {
     }
 }
 
-impl Point {
+impl FreePoint {
     /// A point of a free set, before it is solved for.
     pub(crate) fn of(is_free: Vec<bool>) -> Self {
         Self { is_free, ..Self::default() }

@@ -25,7 +25,7 @@ pub(super) struct Sweeps<'a, R: ?Sized> {
 }
 
 /// A point with what the residual is made of.
-pub(super) struct Point {
+pub(super) struct Swept {
     pub(super) z: Vec<f64>,
     /// `M z + q`.
     pub(super) w: Vec<f64>,
@@ -61,8 +61,8 @@ impl<'a, R: Rows + ?Sized> Sweeps<'a, R> {
     pub(super) fn run(
         mut self,
         monitor: &mut Monitor<'_>,
-        judge: &mut dyn FnMut(&Point, &R) -> Residuals,
-    ) -> (Point, Status) {
+        judge: &mut dyn FnMut(&Swept, &R) -> Residuals,
+    ) -> (Swept, Status) {
         let tolerance = self.settings.tolerance;
         let mut best = self.point(vec![0.0; self.z.len()]);
         let (mut last_fall, mut merit) = (0, f64::INFINITY);
@@ -119,8 +119,8 @@ impl<'a, R: Rows + ?Sized> Sweeps<'a, R> {
     /// Residuals of the present point, all computed anew. Keeps the point if it is the best one.
     fn judged(
         &mut self,
-        judge: &mut dyn FnMut(&Point, &R) -> Residuals,
-        best: &mut Point,
+        judge: &mut dyn FnMut(&Swept, &R) -> Residuals,
+        best: &mut Swept,
     ) -> Residuals {
         let w = self.measure();
         if [&self.z, &w, &self.sizes].into_iter().flatten().any(|v| !v.is_finite()) {
@@ -137,9 +137,9 @@ impl<'a, R: Rows + ?Sized> Sweeps<'a, R> {
     }
 
     /// The present point before it is judged.
-    fn point(&self, w: Vec<f64>) -> Point {
+    fn point(&self, w: Vec<f64>) -> Swept {
         let (z, allowed, sizes) = (self.z.clone(), w.clone(), self.sizes.clone());
-        Point { z, w, allowed, sizes, residuals: Residuals::infinite() }
+        Swept { z, w, allowed, sizes, residuals: Residuals::infinite() }
     }
 
     /// `M z + q` and the sizes of the rows, free of the rounding errors of a state.

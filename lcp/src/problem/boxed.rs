@@ -33,7 +33,7 @@ pub struct BoxedLcp {
 
 /// What the bounds make of a variable, and its pairs `(t, y)` in the general form.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Kind {
+pub(super) enum BoundKind {
     /// `z = t - y`, `w = 0`.
     Free,
     /// `z = lower + t`, `w = y`.
@@ -120,14 +120,14 @@ impl BoxedLcp {
             if shift != 0.0 {
                 self.m.slice(j).add_to(shift, &mut c);
             }
-            if kind == Kind::Fixed {
+            if kind == BoundKind::Fixed {
                 a.push((j, j, -1.0));
                 b.push((j, j, 1.0));
                 continue;
             }
             let column = || self.m.column(j).filter(|(_, v)| *v != 0.0);
             a.extend(column().map(|(i, v)| (i, pair, -sign * v)));
-            if kind == Kind::Free {
+            if kind == BoundKind::Free {
                 b.extend(column().map(|(i, v)| (i, pair, v)));
             } else {
                 b.push((j, pair, sign));
@@ -163,14 +163,14 @@ impl BoxedLcp {
     {
         let [lower, upper] = [&self.lower, &self.upper].map(|bounds| |i: usize| number(bounds[i]));
         let (t, y) = (|i: usize| t[i].clone(), |i: usize| y[i].clone());
-        let value = |(i, kind): (usize, Kind)| match kind {
-            Kind::Free => (t(i) - y(i), number(0.0)),
-            Kind::Lower => (lower(i) + t(i), y(i)),
-            Kind::Upper => (upper(i) - t(i), -y(i)),
-            Kind::Fixed => (lower(i), y(i) - t(i)),
+        let value = |(i, kind): (usize, BoundKind)| match kind {
+            BoundKind::Free => (t(i) - y(i), number(0.0)),
+            BoundKind::Lower => (lower(i) + t(i), y(i)),
+            BoundKind::Upper => (upper(i) - t(i), -y(i)),
+            BoundKind::Fixed => (lower(i), y(i) - t(i)),
             // From the bound that is nearer, so that it is met exactly.
-            Kind::Both(k) if t(k) < t(i) => (upper(i) - t(k), y(i) - y(k)),
-            Kind::Both(k) => (lower(i) + t(i), y(i) - y(k)),
+            BoundKind::Both(k) if t(k) < t(i) => (upper(i) - t(k), y(i) - y(k)),
+            BoundKind::Both(k) => (lower(i) + t(i), y(i) - y(k)),
         };
         self.kinds().into_iter().enumerate().map(value).unzip()
     }
@@ -187,11 +187,11 @@ impl BoxedLcp {
         for (i, &kind) in kinds.iter().enumerate() {
             let (z, w) = (z[i], w[i]);
             match kind {
-                Kind::Free => (t[i], y[i]) = (z.max(0.0), (-z).max(0.0)),
-                Kind::Lower => (t[i], y[i]) = (z - self.lower[i], w),
-                Kind::Upper => (t[i], y[i]) = (self.upper[i] - z, -w),
-                Kind::Fixed => (t[i], y[i]) = ((-w).max(0.0), w.max(0.0)),
-                Kind::Both(k) => {
+                BoundKind::Free => (t[i], y[i]) = (z.max(0.0), (-z).max(0.0)),
+                BoundKind::Lower => (t[i], y[i]) = (z - self.lower[i], w),
+                BoundKind::Upper => (t[i], y[i]) = (self.upper[i] - z, -w),
+                BoundKind::Fixed => (t[i], y[i]) = ((-w).max(0.0), w.max(0.0)),
+                BoundKind::Both(k) => {
                     (t[i], y[i]) = (z - self.lower[i], w.max(0.0));
                     (t[k], y[k]) = (self.upper[i] - z, (-w).max(0.0));
                 }
@@ -233,7 +233,7 @@ impl BoxedLcp {
     /// The variables with one value only.
     pub(super) fn fixed(&self) -> Vec<usize> {
         let kinds = self.kinds();
-        (0..self.order()).filter(|&i| kinds[i] == Kind::Fixed).collect()
+        (0..self.order()).filter(|&i| kinds[i] == BoundKind::Fixed).collect()
     }
 
     /// The value nearest to zero that the bounds of a variable allow.
@@ -260,20 +260,20 @@ impl BoxedLcp {
 
     /// The further pair that every variable with two bounds has in the general problem.
     pub(crate) fn upper_pairs(&self) -> Vec<Option<usize>> {
-        let pair = |kind| if let Kind::Both(pair) = kind { Some(pair) } else { None };
+        let pair = |kind| if let BoundKind::Both(pair) = kind { Some(pair) } else { None };
         self.kinds().into_iter().map(pair).collect()
     }
 
-    pub(super) fn kinds(&self) -> Vec<Kind> {
+    pub(super) fn kinds(&self) -> Vec<BoundKind> {
         let mut next = self.order();
         let kind = |(&lower, &upper): (&f64, &f64)| match (lower.is_finite(), upper.is_finite()) {
-            (false, false) => Kind::Free,
-            (true, false) => Kind::Lower,
-            (false, true) => Kind::Upper,
-            (true, true) if lower.total_cmp(&upper).is_eq() => Kind::Fixed,
+            (false, false) => BoundKind::Free,
+            (true, false) => BoundKind::Lower,
+            (false, true) => BoundKind::Upper,
+            (true, true) if lower.total_cmp(&upper).is_eq() => BoundKind::Fixed,
             (true, true) => {
                 next += 1;
-                Kind::Both(next - 1)
+                BoundKind::Both(next - 1)
             }
         };
         self.lower.iter().zip(&self.upper).map(kind).collect()
@@ -281,14 +281,14 @@ impl BoxedLcp {
 
     /// A variable by its distance from the bound that is nearer to zero, which keeps more digits of the value than the
     /// other one.
-    pub(super) fn distance(&self, j: usize, kind: Kind) -> Distance {
+    pub(super) fn distance(&self, j: usize, kind: BoundKind) -> Distance {
         let (lower, upper) = (self.lower[j], self.upper[j]);
         let (shift, sign, pair, other) = match kind {
-            Kind::Free => (0.0, 1.0, j, None),
-            Kind::Lower | Kind::Fixed => (lower, 1.0, j, None),
-            Kind::Upper => (upper, -1.0, j, None),
-            Kind::Both(second) if upper.abs() < lower.abs() => (upper, -1.0, second, Some(j)),
-            Kind::Both(second) => (lower, 1.0, j, Some(second)),
+            BoundKind::Free => (0.0, 1.0, j, None),
+            BoundKind::Lower | BoundKind::Fixed => (lower, 1.0, j, None),
+            BoundKind::Upper => (upper, -1.0, j, None),
+            BoundKind::Both(second) if upper.abs() < lower.abs() => (upper, -1.0, second, Some(j)),
+            BoundKind::Both(second) => (lower, 1.0, j, Some(second)),
         };
         Distance { shift, sign, pair, other }
     }

@@ -94,17 +94,17 @@ impl<'de> Deserialize<'de> for Entries {
 }
 
 /// A bound that does not exist is `None`.
-type Bounds = Vec<Option<f64>>;
+type OptionalBounds = Vec<Option<f64>>;
 
-fn finite(bounds: &[f64]) -> Bounds {
+fn finite(bounds: &[f64]) -> OptionalBounds {
     bounds.iter().map(|bound| Some(*bound).filter(|bound| bound.is_finite())).collect()
 }
 
-fn without_lower(bounds: Bounds) -> Vec<f64> {
+fn without_lower(bounds: OptionalBounds) -> Vec<f64> {
     bounds.into_iter().map(|bound| bound.unwrap_or(f64::NEG_INFINITY)).collect()
 }
 
-fn without_upper(bounds: Bounds) -> Vec<f64> {
+fn without_upper(bounds: OptionalBounds) -> Vec<f64> {
     bounds.into_iter().map(|bound| bound.unwrap_or(f64::INFINITY)).collect()
 }
 
@@ -169,8 +169,8 @@ serialised!(MixedLcp {
 serialised!(BoxedLcp {
     m: Entries = |it| Entries::of(it.m()),
     q: Vec<f64> = |it| it.q().to_vec(),
-    lower: Bounds = |it| finite(it.lower()),
-    upper: Bounds = |it| finite(it.upper()),
+    lower: OptionalBounds = |it| finite(it.lower()),
+    upper: OptionalBounds = |it| finite(it.upper()),
 } by BoxedLcp::new(m.sized("M", q.len(), q.len())?, q, without_lower(lower), without_upper(upper)));
 
 serialised!(Friction2d {
@@ -206,12 +206,12 @@ serialised!(Qp {
     p: Entries = |it| Entries::of(it.p()),
     a: Entries = |it| Entries::of(it.a()),
     q: Vec<f64> = |it| it.q().to_vec(),
-    l: Bounds = |it| finite(it.row_bounds()[0]),
-    u: Bounds = |it| finite(it.row_bounds()[1]),
+    l: OptionalBounds = |it| finite(it.row_bounds()[0]),
+    u: OptionalBounds = |it| finite(it.row_bounds()[1]),
     #[serde(default)]
-    lower: Option<Bounds> = |it| Some(finite(it.bounds()[0])),
+    lower: Option<OptionalBounds> = |it| Some(finite(it.bounds()[0])),
     #[serde(default)]
-    upper: Option<Bounds> = |it| Some(finite(it.bounds()[1])),
+    upper: Option<OptionalBounds> = |it| Some(finite(it.bounds()[1])),
     #[serde(default)]
     constant: f64 = Qp::constant,
 } by {

@@ -1,6 +1,6 @@
 //! Problems with bounds that are mixed problems in another form.
 
-use super::boxed::{Distance, Kind};
+use super::boxed::{BoundKind, Distance};
 use super::{BoxedLcp, MixedLcp};
 use crate::{Basis, Error, Matrix, Side, WarmStart};
 
@@ -31,14 +31,14 @@ impl BoxedLcp {
             if shift != 0.0 {
                 self.m().slice(j).add_to(shift, &mut right);
             }
-            if kind == Kind::Fixed {
+            if kind == BoundKind::Fixed {
                 continue;
             }
             seconds.extend(other.map(|other| (j, pair.max(other), other)));
             places[j] = Some(pairs.len());
             pairs.push((pair, false));
             rows.push((j, sign));
-            free.push(kind == Kind::Free);
+            free.push(kind == BoundKind::Free);
         }
         let mut q: Vec<f64> = rows.iter().map(|&(j, sign)| sign * right[j]).collect();
         let mut entries = Vec::new();

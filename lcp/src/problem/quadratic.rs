@@ -27,8 +27,8 @@ pub struct Qp {
     p: Matrix,
     q: Vec<f64>,
     a: Matrix,
-    rows: Bounds,
-    variables: Bounds,
+    rows: RowBounds,
+    variables: RowBounds,
     constant: f64,
     limits: Vec<Limit>,
     mixed: MixedLcp,
@@ -50,7 +50,7 @@ pub struct QpPoint {
 }
 
 #[derive(Debug, Clone)]
-struct Bounds {
+struct RowBounds {
     lower: Vec<f64>,
     upper: Vec<f64>,
 }
@@ -90,9 +90,9 @@ impl Qp {
         if let Some(reason) = indefiniteness("P", &p.clone().into_sparse()) {
             return Err(Error::NotConvex { reason });
         }
-        let free = Bounds { lower: vec![f64::NEG_INFINITY; n], upper: vec![f64::INFINITY; n] };
+        let free = RowBounds { lower: vec![f64::NEG_INFINITY; n], upper: vec![f64::INFINITY; n] };
         check_bounds("row", &l, &u)?;
-        Self::posed(p, q, a, Bounds { lower: l, upper: u }, free)
+        Self::posed(p, q, a, RowBounds { lower: l, upper: u }, free)
     }
 
     /// The same program with bounds of its variables, which may be infinite.
@@ -109,7 +109,7 @@ impl Qp {
         check_length("upper", upper.len(), self.q.len())?;
         let Self { p, q, a, rows, constant, .. } = self;
         check_bounds("variable", &lower, &upper)?;
-        Ok(Self { constant, ..Self::posed(p, q, a, rows, Bounds { lower, upper })? })
+        Ok(Self { constant, ..Self::posed(p, q, a, rows, RowBounds { lower, upper })? })
     }
 
     /// The same program with this constant in its objective.
@@ -125,8 +125,8 @@ impl Qp {
         p: Matrix,
         q: Vec<f64>,
         a: Matrix,
-        rows: Bounds,
-        variables: Bounds,
+        rows: RowBounds,
+        variables: RowBounds,
     ) -> Result<Self, Error> {
         let of_variables = variables.limits(a.nrows()).filter(|limit| !limit.is_sign());
         let limits: Vec<Limit> = rows.limits(0).chain(of_variables).collect();
@@ -198,7 +198,7 @@ impl Qp {
     }
 }
 
-impl Bounds {
+impl RowBounds {
     /// The finite bounds, of which the first ones have this number.
     fn limits(&self, first: usize) -> impl Iterator<Item = Limit> {
         self.lower.iter().zip(&self.upper).enumerate().flat_map(move |(index, (lower, upper))| {
@@ -223,7 +223,7 @@ fn conditions(
     p: &Matrix,
     q: &[f64],
     a: &Matrix,
-    variables: &Bounds,
+    variables: &RowBounds,
     limits: &[Limit],
 ) -> Result<MixedLcp, Error> {
     let n = q.len();

@@ -1,6 +1,6 @@
 //! Contact problems as convex quadratic programs, for given bounds of the friction forces.
 
-use super::form::{Bounds, Form, Point};
+use super::form::{Bounds, Form, ProgramPoint};
 use crate::Matrix;
 use crate::states::Scaled;
 
@@ -37,7 +37,7 @@ pub(super) fn contact_form(scaled: &Scaled) -> Form {
 }
 
 /// Normal and tangential forces of a point of the form.
-pub(super) fn forces(scaled: &Scaled, point: &Point) -> Vec<(f64, f64)> {
+pub(super) fn forces(scaled: &Scaled, point: &ProgramPoint) -> Vec<(f64, f64)> {
     let (normal, friction) = point.lambda.split_at(scaled.points.len());
     let mut friction = friction.iter();
     let mut tangential =

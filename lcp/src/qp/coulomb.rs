@@ -1,9 +1,9 @@
 //! Coulomb's friction as the fixed point of programs with frozen bounds of the friction forces.
 
 use super::constants::{DOUBTS, IDLE};
-use super::form::{Bounds, Form, Point};
+use super::form::{Bounds, Form, ProgramPoint};
 use super::interior::{End, Interior};
-use super::program::Run;
+use super::program::ProgramRun;
 use crate::states::{PointRef, Scaled};
 use crate::{Status, active};
 
@@ -13,9 +13,9 @@ use crate::{Status, active};
 ///
 /// Says why it ended, where the best point is not good enough.
 pub(super) fn solve_programs(
-    run: &mut Run<'_>,
+    run: &mut ProgramRun<'_>,
     program: &mut Interior,
-    to_scaled: impl Fn(&Scaled, &Point) -> (Vec<f64>, Vec<(f64, f64)>),
+    to_scaled: impl Fn(&Scaled, &ProgramPoint) -> (Vec<f64>, Vec<(f64, f64)>),
 ) -> Result<End, Status> {
     let has_cones = program.form.has_cones();
     let mut limits = generous(&program.form);
@@ -46,12 +46,12 @@ pub(super) fn solve_programs(
                 };
                 continue;
             }
-            End::Point | End::IterationLimit | End::TimeLimit => {}
+            End::ProgramPoint | End::IterationLimit | End::TimeLimit => {}
         }
         let (u, forces) = to_scaled(&run.search.scaled, &found.point);
         let at = PointRef { u: &u, forces: &forces };
         let is_solved = run.search.try_point(at, Some(effort));
-        if !has_cones || is_solved || found.end != End::Point {
+        if !has_cones || is_solved || found.end != End::ProgramPoint {
             break Ok(found.end);
         }
         let image = program.form.limits(&found.point.lambda);

@@ -37,12 +37,12 @@ pub(super) struct Form {
 
 /// Unknowns of a [`Form`].
 #[derive(Debug, Clone)]
-pub(super) struct Point {
+pub(super) struct ProgramPoint {
     pub(super) x: Vec<f64>,
     pub(super) lambda: Vec<f64>,
 }
 
-impl Point {
+impl ProgramPoint {
     pub(super) fn zero(form: &Form) -> Self {
         Self { x: vec![0.0; form.unknowns()], lambda: vec![0.0; form.rows()] }
     }
@@ -69,7 +69,7 @@ impl Form {
     }
 
     /// The slacks `w`.
-    pub(super) fn slacks(&self, point: &Point) -> Vec<f64> {
+    pub(super) fn slacks(&self, point: &ProgramPoint) -> Vec<f64> {
         let mut sum = self.offset.clone();
         add_image(&self.d, 1.0, &point.x, &mut sum);
         add_image(&self.s, 1.0, &point.lambda, &mut sum);

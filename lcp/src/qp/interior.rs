@@ -10,7 +10,7 @@ use clarabel::solver::{
 };
 
 use super::constants::{INTERIOR, WORSE};
-use super::form::{Bounds, Form, Point};
+use super::form::{Bounds, Form, ProgramPoint};
 use crate::Matrix;
 use crate::problem::column_of;
 use crate::vector::{HALF_DIGITS, max_abs};
@@ -19,7 +19,7 @@ use crate::vector::{HALF_DIGITS, max_abs};
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum End {
     /// With a point, more or less exact.
-    Point,
+    ProgramPoint,
     /// The program is infeasible or unbounded, or seems so.
     NoPoint,
     /// The limit on iterations was reached; the point is the last one.
@@ -33,7 +33,7 @@ pub(super) enum End {
 /// What the interior-point method found.
 pub(super) struct Found {
     pub(super) end: End,
-    pub(super) point: Point,
+    pub(super) point: ProgramPoint,
     pub(super) iterations: usize,
 }
 
@@ -120,14 +120,18 @@ impl Interior {
         let floor = if largest > 0.0 { HALF_DIGITS * largest } else { HALF_DIGITS };
         let limits: Vec<f64> = limits.iter().map(|limit| limit.max(floor)).collect();
         if self.update(&limits, time).is_none() {
-            return Found { end: End::Failed, point: Point::zero(&self.form), iterations: 0 };
+            return Found {
+                end: End::Failed,
+                point: ProgramPoint::zero(&self.form),
+                iterations: 0,
+            };
         }
         self.solver.solve();
         let solution = &self.solver.solution;
         let x = solution.x[..self.form.unknowns()].to_vec();
         let mut lambda: Vec<f64> = self.row.iter().map(|&row| solution.z[row]).collect();
         self.cones.iter().for_each(|&i| lambda[i] -= limits[i]);
-        let point = Point { x, lambda };
+        let point = ProgramPoint { x, lambda };
         let end = match solution.status {
             _ if !point.is_finite() => End::Failed,
             SolverStatus::PrimalInfeasible
@@ -136,7 +140,7 @@ impl Interior {
             | SolverStatus::AlmostDualInfeasible => End::NoPoint,
             SolverStatus::MaxIterations => End::IterationLimit,
             SolverStatus::MaxTime => End::TimeLimit,
-            _ => End::Point,
+            _ => End::ProgramPoint,
         };
         let iterations = usize::try_from(solution.iterations).unwrap_or(usize::MAX);
         Found { end, point, iterations }

@@ -2,7 +2,7 @@
 
 use faer::sparse::SparseColMat;
 
-use super::form::{Bounds, Form, Point};
+use super::form::{Bounds, Form, ProgramPoint};
 use crate::definite::indefiniteness;
 use crate::problem::{Groups, column_of};
 use crate::states::Scaled;
@@ -65,7 +65,11 @@ impl MixedProgram {
     }
 
     /// Displacements and forces of the scaled problem: the variables, and what bounds exert on them.
-    pub(super) fn to_scaled(&self, scaled: &Scaled, point: &Point) -> (Vec<f64>, Vec<(f64, f64)>) {
+    pub(super) fn to_scaled(
+        &self,
+        scaled: &Scaled,
+        point: &ProgramPoint,
+    ) -> (Vec<f64>, Vec<(f64, f64)>) {
         let slacks = self.form.slacks(point);
         let (mut z, mut w) = (vec![0.0; scaled.order()], vec![0.0; scaled.order()]);
         self.x.iter().zip(&point.x).for_each(|(&i, x)| z[i] = *x);

@@ -13,7 +13,7 @@ use crate::states::PointRef;
 use crate::{Certificate, Error, HorizontalLcp, Method, Observer, Solution, Status};
 
 /// The best point so far, what it cost, and the proof that there is none.
-pub(super) struct Run<'a> {
+pub(super) struct ProgramRun<'a> {
     pub(super) settings: &'a QuadraticProgramSettings,
     pub(super) search: Search<'a>,
     pub(super) monitor: Monitor<'a>,
@@ -23,7 +23,7 @@ pub(super) struct Run<'a> {
     pub(super) steps: usize,
 }
 
-impl<'a> Run<'a> {
+impl<'a> ProgramRun<'a> {
     /// With so many programs at most.
     pub(super) fn new(
         settings: &'a QuadraticProgramSettings,
@@ -72,7 +72,7 @@ impl<'a> Run<'a> {
             Ok(End::IterationLimit) => Status::IterationLimit,
             // Judged by its residuals the point becomes `Solved`.
             _ if is_solved => Status::Stalled,
-            Ok(End::Point | End::NoPoint | End::Failed) | Err(_) => {
+            Ok(End::ProgramPoint | End::NoPoint | End::Failed) | Err(_) => {
                 farkas = self.proof().cloned();
                 match end {
                     _ if farkas.is_some() => Status::Infeasible,

@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 
 use super::constants::DOUBTS;
 use super::interior::End;
-use super::program::Run;
+use super::program::ProgramRun;
 use super::settings::SoftConstraints;
 use super::{QuadraticProgram, QuadraticProgramSettings};
 use crate::problem::ratio;
@@ -82,7 +82,8 @@ impl QuadraticProgram {
     ) -> Result<Solution, Error> {
         let springs = Bedding::new(contact, soft.epsilon)?;
         let general = || contact.to_general();
-        let mut run = Run::new(&self.settings, contact, &general, soft.max_recentrings, observer)?;
+        let mut run =
+            ProgramRun::new(&self.settings, contact, &general, soft.max_recentrings, observer)?;
         let mut centre = vec![0.0; contact.displacements()];
         let (u, forces) = run.search.rest();
         let mut residual = run.search.judge(&u, &forces);
@@ -90,7 +91,7 @@ impl QuadraticProgram {
         let end = loop {
             if residual <= self.settings.tolerance {
                 run.monitor.stop(residual);
-                break Ok(End::Point);
+                break Ok(End::ProgramPoint);
             }
             if let Some(status) = run.monitor.stop(residual) {
                 break Err(status);

@@ -7,7 +7,7 @@
 //!
 //! The environment variable `LCP_SWEEP` gives the seeds of the problems of every kind, `0..100` without it:
 //! ```text
-//! LCP_SWEEP=5000..8000 cargo test --release -p lcp --test sweep -- --nocapture
+//! LCP_SWEEP=5000..8000 cargo test --release -p lcp --test all sweep::random -- --nocapture
 //! ```
 //! is 21 000 problems and prints the table, with the smallest problem of every kind of failure.
 

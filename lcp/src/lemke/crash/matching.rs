@@ -42,7 +42,7 @@ struct Matching<'a> {
 }
 
 /// A pair on an augmenting path: its entries up to `at` have been tried, the last one is `row`.
-struct Step {
+struct Visit {
     pair: usize,
     at: usize,
     row: usize,
@@ -51,7 +51,7 @@ struct Step {
 
 impl Matching<'_> {
     fn augment(&mut self, pair: usize, with_others: bool, round: usize) {
-        let mut path = vec![Step { pair, at: 0, row: 0, is_other: false }];
+        let mut path = vec![Visit { pair, at: 0, row: 0, is_other: false }];
         while let Some(step) = path.last_mut() {
             let Some((row, is_other)) = self.next_row(step, with_others, round) else {
                 path.pop();
@@ -60,7 +60,7 @@ impl Matching<'_> {
             (step.row, step.is_other) = (row, is_other);
             self.seen[row] = round;
             if let Some(pair) = self.pair_of_row[row] {
-                path.push(Step { pair, at: 0, row: 0, is_other: false });
+                path.push(Visit { pair, at: 0, row: 0, is_other: false });
                 continue;
             }
             for step in path {
@@ -72,7 +72,7 @@ impl Matching<'_> {
     }
 
     /// The next row not seen in this round in which a column of the pair has an entry.
-    fn next_row(&self, step: &mut Step, with_others: bool, round: usize) -> Option<(usize, bool)> {
+    fn next_row(&self, step: &mut Visit, with_others: bool, round: usize) -> Option<(usize, bool)> {
         let own = self.columns.rows(step.pair);
         let others: &[u32] = if with_others { self.columns.rows(self.n + step.pair) } else { &[] };
         let mut entries = own.iter().chain(others).enumerate().skip(step.at);

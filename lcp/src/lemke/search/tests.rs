@@ -16,7 +16,7 @@ fn pairs_with_negative_values_are_exchanged_all_at_once() {
     let q = vec![-1.0, 1.0, 1.0, 1.0, -1.0, -1.0];
     let problem = HorizontalLcp::from(Lcp::new(m, q).expect("finite data"));
     let settings = LemkeSettings::default();
-    let search = Search::new(&settings, &problem, None);
+    let search = Attempts::new(&settings, &problem, None);
     let sides = [Side::Y, Side::T, Side::Y, Side::Y, Side::T, Side::T];
     let beside = solve_basis(&search.problem, &Basis::new(sides.to_vec())).expect("definite");
     assert_eq!(beside.negative, [0, 1]);
@@ -33,7 +33,7 @@ fn flips_end_when_the_time_is_over() {
     let lcp = Lcp::new(m, vec![-1.0; 12]).expect("finite data");
     let problem = HorizontalLcp::from(lcp);
     let settings = LemkeSettings::default();
-    let search = Search::new(&settings, &problem, None);
+    let search = Attempts::new(&settings, &problem, None);
     let all_y = Basis::all(Side::Y, 12);
     let start = search.problem.start(&all_y).expect("the unit matrix");
     assert_ne!(start.flipped(3, None), all_y);

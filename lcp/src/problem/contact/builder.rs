@@ -36,13 +36,13 @@ pub struct Contact2dBuilder {
     k: Matrix,
     f: Vec<f64>,
     /// The entries of `C_n` and `C_t`.
-    normal: Entries,
-    tangent: Entries,
+    normal: Triplets,
+    tangent: Triplets,
     /// The points without their rows.
     points: Vec<ContactPoint<'static>>,
 }
 
-type Entries = Vec<(usize, usize, f64)>;
+type Triplets = Vec<(usize, usize, f64)>;
 
 impl Contact2d {
     /// A problem with the stiffness or mass `K` (n x n) and the loads `f` (n), to which contact points are added.
@@ -103,7 +103,7 @@ impl Contact2dBuilder {
     }
 }
 
-fn check_entries(row: &'static str, entries: &Entries, displacements: usize) -> Result<(), Error> {
+fn check_entries(row: &'static str, entries: &Triplets, displacements: usize) -> Result<(), Error> {
     let wrong = entries.iter().find(|(_, index, v)| *index >= displacements || !v.is_finite());
     match wrong {
         Some(&(point, index, value)) => {
