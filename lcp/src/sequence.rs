@@ -18,17 +18,17 @@ use crate::{
 /// Solves `w = M z + q` for one `q` after the other, each from the free set of the solution before.
 ///
 /// Steps of a simulation differ little: the `z` that were positive are so again. While they are, a solve takes the factors of
-/// their matrix from the solve before. If `M` is dense, solves after the first allocate nothing. If signs are wrong, all these pairs change sides as in
+/// their matrix from the solve before. If signs are wrong, all these pairs change sides as in
 /// [`SemismoothNewton`](crate::SemismoothNewton), with a factorisation each time. If that comes to no end, [`Auto`] solves the
-/// problem.
+/// problem. If `M` is dense, solves after the first allocate nothing, except by [`Auto`].
 ///
 /// Pairs have keys. If contacts come and go, [`renew`](Self::renew) takes the new problem, in which pairs that stay keep
 /// their states; new ones begin with `z = 0`. The three pairs of a contact of [`Friction2d`](crate::Friction2d) have keys
 /// such as `(contact, 0)` to `(contact, 2)`.
 ///
 /// # Residuals
-/// Those of [`Lcp::residuals`], except that rows which matter to no load count like all others and that no rounding is excused:
-/// a point that this refuses goes to [`Auto`].
+/// Upper bounds of those of [`Lcp::residuals`]: rows that matter to no load count like all others, and the most that rounding may
+/// hide of a row is added. A point for which they are too large goes to [`Auto`].
 ///
 /// ```
 /// use lcp::{AutoSettings, Lcp, Sequence};
@@ -111,10 +111,10 @@ impl<K: Ord + Clone> Sequence<K> {
         self.lcp.set_q(q)?;
         let (began, before) = (Instant::now(), self.system.factorisations());
         let deadline = self.settings.time_limit.map(|limit| began + limit);
-        let Some(iterations) = self.exchange(deadline) else { return self.anew() };
+        let Some(iterations) = self.exchange(deadline) else { return self.anew(began) };
         let residuals = self.point.residuals(&self.lcp, &self.couplings, &mut self.memory);
         if residuals.verdict(self.settings.tolerance, Status::Stalled) != Status::Solved {
-            return self.anew();
+            return self.anew(began);
         }
         let Self { system, point, solution, .. } = self;
         let Solution { status, t, y, basis, info, certificate, condition, .. } = solution;
@@ -150,12 +150,14 @@ impl<K: Ord + Clone> Sequence<K> {
         None
     }
 
-    /// The solution by [`Auto`], and its states.
-    fn anew(&mut self) -> Result<&Solution<Lcp>, Error> {
+    /// The solution by [`Auto`] in the time that is left, and its states.
+    fn anew(&mut self, began: Instant) -> Result<&Solution<Lcp>, Error> {
         if let Some(basis) = self.solution.basis.take() {
             self.settings.start = WarmStart::Basis(basis);
         }
-        self.solution = Auto::new(self.settings.clone()).solve(&self.lcp)?;
+        let time_limit = self.settings.time_limit.map(|it| it.saturating_sub(began.elapsed()));
+        let settings = AutoSettings { time_limit, ..self.settings.clone() };
+        self.solution = Auto::new(settings).solve(&self.lcp)?;
         let Solution { t, y, basis, .. } = &self.solution;
         let basis = basis.clone().unwrap_or_else(|| Basis::of_larger(t, y));
         self.point.is_free = basis.sides().iter().map(|side| *side == Side::T).collect();

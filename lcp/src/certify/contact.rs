@@ -1,5 +1,7 @@
 //! Displacements, forces, gaps and slips of contact.
 
+use lcp_linalg::Columns;
+
 use super::Residuals;
 use super::constants::MILLIONTH;
 use super::judge::{Conditions, Entry, JudgedRows, Precision, RowJudge};
@@ -9,7 +11,6 @@ use crate::parts::Parts;
 use crate::problem::{column_factors, column_of, diagonal, median};
 use crate::vector::WEAK;
 use crate::{Contact2d, ContactState};
-use lcp_linalg::Columns;
 
 impl Contact2d {
     /// Residuals of a state, dimensionless, from the data as given; [`Residuals::worst`] decides.

@@ -8,8 +8,9 @@
 
 use std::collections::BinaryHeap;
 
-use crate::vector::WEAK;
 use lcp_linalg::Columns;
+
+use crate::vector::WEAK;
 
 /// The size of a coefficient times the value of its variable at a point, above zero.
 pub(super) struct Term {

@@ -1,10 +1,11 @@
 //! Weights of rows in units of the loads.
 
+use lcp_linalg::Columns;
+
 use super::significance::spread;
 use crate::matrix::Column;
 use crate::parts::Parts;
 use crate::vector::WEAK;
-use lcp_linalg::Columns;
 
 /// How rows feel loads: those of their connected part, and others by how weakly the part is coupled to them.
 pub(crate) struct Couplings {

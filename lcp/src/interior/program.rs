@@ -1,12 +1,12 @@
 //! Convex programs in few free variables with many forces on them.
 
 use faer::sparse::{FaerError, SparseColMat};
+use lcp_linalg::Gram;
 
 use crate::matrix::add_image;
 use crate::problem::{column_of, diagonal};
 use crate::scaling::{multiply, power_of_two};
 use crate::vector::{SMALL, max_abs};
-use lcp_linalg::Gram;
 
 /// `K u = f + A t`, `y = A^T u + D t + x_0`, `0 <= t _|_ y >= 0`, with a diagonal `D >= 0`.
 pub(super) struct Program {

@@ -1,14 +1,13 @@
 //! The matrix of a complementary basis, factorised.
 
 use faer::Mat;
+use lcp_linalg::{Columns, Lu, SparseLu, inverse_norm};
 
 use super::constants::{LEVEL, SAMPLES};
 use super::start::Equilibrated;
 use crate::random::SplitMix;
 use crate::vector::max_abs;
 use crate::{Basis, Side};
-use lcp_linalg::{Columns, SparseLu};
-use lcp_linalg::{Lu, inverse_norm};
 
 /// The equilibrated matrix of a basis.
 pub(super) enum BasisMatrix {

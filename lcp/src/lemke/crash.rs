@@ -9,6 +9,7 @@ mod matching;
 use web_time::Instant;
 
 use faer::{Mat, MatRef};
+use lcp_linalg::{Columns, Growing, Lu, elimination_order, row_counts};
 
 use matching::matched_sides;
 
@@ -19,8 +20,6 @@ use super::start::Equilibrated;
 use crate::solve::is_over;
 use crate::vector::max_abs;
 use crate::{Basis, Matrix, Side};
-use lcp_linalg::Lu;
-use lcp_linalg::{Columns, Growing, elimination_order, row_counts};
 
 /// As many independent columns as there are, at most one of every pair.
 pub(super) enum Crash {

@@ -1,10 +1,10 @@
 //! The dense kernel: a condensed tableau.
 
 use faer::{Mat, MatRef};
+use lcp_linalg::Lu;
 
 use super::kernel::{Kernel, Var};
 use super::tableau::Tableau;
-use lcp_linalg::Lu;
 
 pub(super) struct Dense<'a> {
     /// `T` of the start.

@@ -15,13 +15,12 @@
 use std::borrow::Cow;
 
 use faer::Mat;
+use lcp_linalg::{Columns, Lu, SparseLu};
 
 use super::constants::VANISHING;
 use super::kernel::{Kernel, Var};
 use crate::random::SplitMix;
 use crate::vector::max_abs;
-use lcp_linalg::Lu;
-use lcp_linalg::{Columns, SparseLu};
 
 /// `W w + Z z = right` in the equilibrated rows of the problem, with the start basis `W`.
 #[derive(Debug)]

@@ -3,14 +3,13 @@
 mod flip;
 
 use faer::Mat;
+use lcp_linalg::{Columns, Lu, SparseLu, inverse_norm};
 
 use crate::certify::GeneralJudge;
 use crate::matrix::Column;
 use crate::scaling::{equilibrate, equilibrate_computed};
 use crate::vector::{SMALL, max_abs};
 use crate::{Basis, HorizontalLcp, Side};
-use lcp_linalg::{Columns, SparseLu};
-use lcp_linalg::{Lu, inverse_norm};
 
 use super::constants::VANISHING;
 use super::dense::Dense;

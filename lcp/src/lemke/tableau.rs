@@ -7,7 +7,6 @@
 //! block is applied to all columns by one matrix product.
 
 use faer::{Mat, MatMut, MatRef};
-
 use lcp_linalg::{add_product, solve_unit_lower};
 
 /// `T` after the held pivots.

@@ -8,14 +8,13 @@ use faer::linalg::lu::partial_pivoting::factor::{lu_in_place, lu_in_place_scratc
 use faer::linalg::triangular_solve::solve_lower_triangular_in_place;
 use faer::prelude::ReborrowMut;
 use faer::{Mat, MatMut, Par, Spec};
+use lcp_linalg::{Cholesky, Columns, SparseLu, has_pivots, solve_unit_lower, solve_upper};
 
 use crate::Matrix;
 use crate::divide::block;
 use crate::matrix::{Column, Storage};
 use crate::scaling::{equilibrate, power_of_two};
 use crate::vector::SMALL;
-use lcp_linalg::{Cholesky, Columns, SparseLu};
-use lcp_linalg::{has_pivots, solve_unit_lower, solve_upper};
 
 /// Factors of `M_FF`, dense or sparse like `M`: those of Cholesky where the matrix is symmetric and positive definite, else LU.
 /// Dense ones are in memory that is kept.

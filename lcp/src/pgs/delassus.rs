@@ -4,6 +4,7 @@
 use faer::linalg::solvers::Solve;
 use faer::sparse::linalg::solvers::Llt;
 use faer::{MatMut, Side as Triangle};
+use lcp_linalg::Columns;
 
 use super::rows::parted;
 use super::{ProjectedGaussSeidel, Rows};
@@ -12,7 +13,6 @@ use crate::divide::sparse_block;
 use crate::matrix::column_of;
 use crate::parts::Parts;
 use crate::{Contact2d, ContactState, Error};
-use lcp_linalg::Columns;
 
 /// Most numbers of `K^-1 C^T` that are kept. Chosen: a quarter of a GB.
 const LARGEST: usize = 1 << 25;

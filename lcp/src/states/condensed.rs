@@ -1,10 +1,10 @@
 //! The linear system of a step, condensed to the displacements.
 
 use faer::sparse::FaerError;
+use lcp_linalg::{Pattern, SupernodalLu, index, solve_refined};
 
 use super::scaled::Scaled;
 use crate::problem::column_of;
-use lcp_linalg::{Pattern, SupernodalLu, index, solve_refined};
 
 /// Springs on every displacement that keep bodies without contact in place during a step, relative to the stiffness.
 /// Measured on walls: floating bricks stay nonsingular.

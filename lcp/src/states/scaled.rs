@@ -1,6 +1,7 @@
 //! The contact problem in units of its own.
 
 use faer::sparse::SparseColMat;
+use lcp_linalg::Columns;
 
 use super::points::{Point, Points};
 use crate::matrix::add_image;
@@ -9,7 +10,6 @@ use crate::problem::{column_factors, column_of, diagonal, median};
 use crate::scaling::{multiply, power_of_two};
 use crate::vector::max_abs;
 use crate::{Contact2d, ContactState, MixedLcp};
-use lcp_linalg::Columns;
 
 /// A contact problem whose stiffness, forces and gaps are of order one whatever the units: with the
 /// displacements `u = length * column * u'`, forces `t = force * t'`, gaps and slips `y = length * y'`, compliances

@@ -2,21 +2,18 @@
 //! decimals, and blocks that touch in them overlap or stand apart by the last one.
 
 use faer::sparse::{SparseColMat, Triplet};
-use lcp_linalg::Gram;
+use lcp_linalg::{Gram, HALF_DIGITS};
 use nalgebra::{Point2, Vector2};
 
 use super::{Block, Support};
 use crate::geometry;
-use crate::model::joints::near_pairs;
+use crate::model::joints::{Options, near_pairs};
 
 /// The tolerance of a scene that gives none, relative to the shortest edge of its single blocks. Theory: coordinates of a wall
 /// in metres with six decimals are off by 2e-6 of a brick.
 const OF_SHORTEST_EDGE: f64 = 1e-5;
-/// Blocks that miss each other by less than this part of their size touch.
-const TOUCHING: f64 = 1e-9;
-/// Steps of Gauss and Newton. Theory: each leaves the square of an error, and a part of it that is the regularity of its matrix.
+/// Steps of Gauss and Newton. Theory: each leaves the square of an error, and half of its digits are those of the regular matrix.
 const STEPS: usize = 5;
-const REGULARITY: f64 = 1e-8;
 /// The tolerance, relative to the shortest edge, at most. Theory: the ends of an edge must not meet.
 const LARGEST: f64 = 0.25;
 /// Corners are moved by so many tolerances at most. Chosen: those of three blocks that meet move by less than two.
@@ -59,7 +56,7 @@ pub(super) fn heal(
     let mut drawing = Drawing::of(blocks, first);
     let meetings = drawing.meetings(blocks, supports, tolerance);
     let sizes = blocks[first..].iter().map(|it| geometry::size(&it.corners));
-    let touching = TOUCHING * sizes.fold(f64::INFINITY, f64::min);
+    let touching = Options::default().tolerance * sizes.fold(f64::INFINITY, f64::min);
     let is_met = |it: &Meeting, drawing: &Drawing| {
         let (distance, terms) = it.distance(&drawing.points);
         distance.abs() <= touching || terms.iter().all(|(point, _)| *point < drawing.free)
@@ -160,7 +157,7 @@ impl Drawing {
 
     fn meetings(&self, blocks: &[Block], supports: &[Support], tolerance: f64) -> Vec<Meeting> {
         let mut list = Vec::new();
-        for [a, b] in near_pairs(blocks, tolerance, TOUCHING) {
+        for [a, b] in near_pairs(blocks, tolerance, 0.0) {
             if self.starts[a.index().max(b.index())] < self.free {
                 continue;
             }
@@ -228,7 +225,7 @@ impl Drawing {
             SparseColMat::<usize, f64>::try_new_from_triplets(meetings.len(), columns, &entries);
         let matrix = matrix.ok()?;
         let mut gram = Gram::new(None, matrix.symbolic()).ok()?;
-        gram.factorise(None, matrix.as_ref(), &vec![1.0; columns], REGULARITY).ok()?;
+        gram.factorise(None, matrix.as_ref(), &vec![1.0; columns], HALF_DIGITS).ok()?;
         gram.solve(&mut apart);
         for entry in matrix.triplet_iter() {
             let by = entry.val * apart[entry.row];

@@ -36,10 +36,11 @@ impl Model {
     fn moved_corners(&self) -> Vec<String> {
         let in_scene = |metres: f64| format!("{:.1e}", metres / self.units.length_to_si());
         let sentence = |it: &Healed| {
+            let corners = if it.corners == 1 { "corner" } else { "corners" };
             let (most, unit) = (in_scene(it.largest), self.units.length_name());
             format!(
-                "{} of single blocks moved by up to {most} {unit}, onto supports and onto corners and edges of others that are nearer \
-                 than {} {unit} (`contact.tolerance`).",
+                "{} {corners} of single blocks moved by up to {most} {unit}, onto supports and onto corners and edges of others \
+                 that are nearer than {} {unit} (`contact.tolerance`).",
                 it.corners,
                 in_scene(it.tolerance)
             )

@@ -14,24 +14,11 @@ use std::ops::ControlFlow;
 use std::time::Duration;
 
 use lcp::refine::Refinement;
-use masonry::Units;
 use masonry::analysis::study::{MeshErrors, Settings, Study, study};
-use masonry::scene::{Brick, Joint, Load, Material, Plane, Route, Scene, Support, Wall};
+use masonry::scene::Route;
 use nalgebra::Vector2;
 
-/// Two courses of elastic bricks between a floor and a load that leans.
-fn wall() -> Scene {
-    let brick = Brick { length: 0.2, height: 0.1 };
-    Scene::new("Wall", Units::SI)
-        .plane(Plane::Stress)
-        .thickness(0.1)
-        .material("brick", Material::elastic(1e8, 0.15))
-        .joint("bed", Joint::mu(0.6))
-        .joint("head", Joint::mu(0.6))
-        .wall(Wall::running_bond("wall", "brick", brick, 0.4, 2).mesh([1, 1]))
-        .support(Support::new("floor", [0.0, 0.0], [0.4, 0.0], "bed"))
-        .load(Load::traction("top", [0.0, 0.2], [0.4, 0.2], [500.0, -1e4]))
-}
+use crate::common::walls::leaning_wall;
 
 fn studied() -> Study {
     let settings = Settings {
@@ -40,12 +27,12 @@ fn studied() -> Study {
         meshes: vec![1, 2, 4],
         ..Settings::default()
     };
-    study(&wall(), &settings, &mut |_| ControlFlow::Continue(())).unwrap()
+    study(&leaning_wall(), &settings, &mut |_| ControlFlow::Continue(())).unwrap()
 }
 
 #[test]
 fn the_last_digits_come_with_refinement() {
-    let references = digits::references(&wall(), &studied());
+    let references = digits::references(&leaning_wall(), &studied());
     assert_eq!(references.len(), 3);
     for exact in &references {
         let refinings = digits::refinings(exact.as_ref().unwrap());
@@ -62,9 +49,9 @@ fn the_last_digits_come_with_refinement() {
 
 #[test]
 fn the_bias_of_springs_grows_with_their_stiffness_and_goes() {
-    let references = digits::references(&wall(), &studied());
+    let references = digits::references(&leaning_wall(), &studied());
     let state = &references[0].as_ref().unwrap().state;
-    let all = springs::springs(&wall(), Duration::from_secs(20), Some(state));
+    let all = springs::springs(&leaning_wall(), Duration::from_secs(20), Some(state));
     let stiffnesses: Vec<f64> = all.iter().map(|it| it.stiffness).collect();
     assert!(stiffnesses.is_sorted() && stiffnesses.len() == 7);
     let bias: Vec<f64> = all.iter().map(|it| it.bias.unwrap()).collect();
@@ -78,7 +65,7 @@ fn the_bias_of_springs_grows_with_their_stiffness_and_goes() {
 
 #[test]
 fn springs_stiffer_than_those_that_take_too_long_are_not_tried() {
-    let all = springs::springs(&wall(), Duration::ZERO, None);
+    let all = springs::springs(&leaning_wall(), Duration::ZERO, None);
     assert_eq!(all[0].end.name(), "TimeLimit");
     for springs in &all[1..] {
         assert_eq!(springs.end.reason(), Some("the time ran out with springs of 1e-8"));

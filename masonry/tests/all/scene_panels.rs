@@ -145,3 +145,22 @@ fn a_file_that_is_not_there_is_named() {
     assert_eq!((error.file(), error.line()), (Some(path.as_path()), None));
     assert!(error.to_string().contains("nothing_here.toml"));
 }
+
+/// A mesh that fits in no memory is refused by its count, before it is made.
+#[test]
+fn a_wall_of_too_many_elements_is_refused() {
+    let brick = Brick { length: 0.2, height: 0.1 };
+    let scene = |mesh: [u32; 2]| {
+        Scene::new("Fine", Units::SI)
+            .plane(Plane::Stress)
+            .thickness(0.1)
+            .material("brick", Material::elastic(1e9, 0.2))
+            .joint("bed", Joint::mu(0.6))
+            .joint("head", Joint::mu(0.6))
+            .wall(Wall::running_bond("wall", "brick", brick, 2.0, 100).mesh(mesh))
+            .support(Support::new("floor", [0.0, 0.0], [2.0, 0.0], "bed"))
+    };
+    let error = scene([200, 200]).check().unwrap_err().to_string();
+    assert!(error.contains("elements of a wall"), "{error}");
+    scene([10, 10]).check().unwrap();
+}

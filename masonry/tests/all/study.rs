@@ -14,26 +14,12 @@ use lcp::Status;
 use masonry::analysis::study::{End, Record, Settings, Study, StudyError, study};
 use masonry::model::Plane;
 use masonry::report::study as output;
-use masonry::scene::{
-    Block, Brick, Joint, Load, Material, Movement, Route, Scene, Stage, Support, Wall,
-};
+use masonry::scene::{Block, Brick, Joint, Material, Movement, Route, Scene, Stage, Support, Wall};
 use masonry::units::Units;
 
-const ROUTES: [Route; 5] = [Route::Lemke, Route::Interior, Route::Qp, Route::Pgs, Route::Alm];
+use crate::common::walls::leaning_wall;
 
-/// Two courses of elastic bricks between a floor and a load that leans.
-fn wall() -> Scene {
-    let brick = Brick { length: 0.2, height: 0.1 };
-    Scene::new("Wall", Units::SI)
-        .plane(Plane::Stress)
-        .thickness(0.1)
-        .material("brick", Material::elastic(1e8, 0.15))
-        .joint("bed", Joint::mu(0.6))
-        .joint("head", Joint::mu(0.6))
-        .wall(Wall::running_bond("wall", "brick", brick, 0.4, 2).mesh([1, 1]))
-        .support(Support::new("floor", [0.0, 0.0], [0.4, 0.0], "bed"))
-        .load(Load::traction("top", [0.0, 0.2], [0.4, 0.2], [500.0, -1e4]))
-}
+const ROUTES: [Route; 5] = [Route::Lemke, Route::Interior, Route::Qp, Route::Pgs, Route::Alm];
 
 /// A rigid block on a floor, leaning by `alpha`; it stands up to 0.2.
 fn block(alpha: f64) -> Scene {
@@ -58,7 +44,7 @@ fn settings() -> Settings {
 }
 
 /// The wall by all routes, for all tests that only read it.
-static WALL: LazyLock<Study> = LazyLock::new(|| studied(&wall(), &settings()));
+static WALL: LazyLock<Study> = LazyLock::new(|| studied(&leaning_wall(), &settings()));
 
 fn studied(scene: &Scene, settings: &Settings) -> Study {
     study(scene, settings, &mut |_| ControlFlow::Continue(())).unwrap()
@@ -76,7 +62,7 @@ fn worst(record: &Record) -> f64 {
 fn every_combination_has_its_record_and_errors_fall_with_the_tolerance() {
     let settings = settings();
     let mut told = Vec::new();
-    let study = study(&wall(), &settings, &mut |at| {
+    let study = study(&leaning_wall(), &settings, &mut |at| {
         told.push(at);
         ControlFlow::Continue(())
     });
@@ -250,7 +236,7 @@ fn a_route_that_does_not_treat_the_scene_is_recorded() {
 #[test]
 fn a_mesh_that_cannot_be_made_is_recorded() {
     let settings = Settings { routes: vec![Route::Interior], meshes: vec![1, 2000], ..settings() };
-    let study = studied(&wall(), &settings);
+    let study = studied(&leaning_wall(), &settings);
     let [mesh, impossible] = &study.meshes[..] else { panic!("two meshes") };
     assert!(mesh.refusal.is_none() && mesh.reference.is_some() && mesh.errors.is_none());
     assert!(impossible.refusal.as_ref().unwrap().contains("elements"));
@@ -264,7 +250,7 @@ fn a_mesh_that_cannot_be_made_is_recorded() {
 #[test]
 fn without_time_there_is_no_answer_and_what_is_harder_is_not_tried() {
     let settings = Settings { time_limit: Duration::ZERO, ..settings() };
-    let study = studied(&wall(), &settings);
+    let study = studied(&leaning_wall(), &settings);
     assert!(!study.is_solved());
     assert_eq!(study.records.len(), 3 * ROUTES.len() * 3);
     for record in &study.records {
@@ -292,7 +278,7 @@ fn an_interrupted_study_keeps_what_was_solved() {
         meshes: vec![1, 2],
         ..Settings::default()
     };
-    let study = study(&wall(), &settings, &mut |at| {
+    let study = study(&leaning_wall(), &settings, &mut |at| {
         if at.route == Route::Pgs { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     });
     let study = study.unwrap();
@@ -311,7 +297,7 @@ fn an_interrupted_study_keeps_what_was_solved() {
 #[test]
 fn settings_out_of_range_are_refused() {
     let refused = |settings: Settings| {
-        study(&wall(), &settings, &mut |_| ControlFlow::Continue(())).unwrap_err()
+        study(&leaning_wall(), &settings, &mut |_| ControlFlow::Continue(())).unwrap_err()
     };
     let empty = refused(Settings { routes: Vec::new(), ..settings() });
     assert!(matches!(empty, StudyError::Empty { what: "route" }));
@@ -323,7 +309,8 @@ fn settings_out_of_range_are_refused() {
         refused(Settings { meshes: vec![1, 0], ..settings() }),
         StudyError::NoElements
     ));
-    let error = study(&wall().thickness(-1.0), &settings(), &mut |_| ControlFlow::Continue(()))
-        .unwrap_err();
+    let error =
+        study(&leaning_wall().thickness(-1.0), &settings(), &mut |_| ControlFlow::Continue(()))
+            .unwrap_err();
     assert!(matches!(error, StudyError::Scene(_)));
 }

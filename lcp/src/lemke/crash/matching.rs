@@ -1,7 +1,8 @@
 //! A structural basis: a row for every pair in which one of its columns has an entry.
 
-use crate::Side;
 use lcp_linalg::Columns;
+
+use crate::Side;
 
 /// The side of the column with which every pair was matched to a row of its own, for as many pairs as
 /// can be (a maximum bipartite matching by augmenting paths; Kuhn 1955, Duff 1981). `columns` are those

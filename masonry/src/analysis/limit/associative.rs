@@ -50,8 +50,8 @@ pub struct Associative {
     pub(super) size: f64,
     /// The motion that proves it: displacement rates of the corners of every block, scaled to a largest component of one.
     pub mechanism: Option<Vec<Vec<Vector2<f64>>>>,
-    /// What the rest carries if less than half of the blocks move in the mechanism, these are held where they are, and the group
-    /// acts on others.
+    /// What the rest carries if a single block or a tenth of them at most move in the mechanism and are held where they are, and if
+    /// the group acts on others.
     pub rest: Option<Rest>,
 }
 
@@ -144,7 +144,11 @@ pub(super) fn of(
     Ok(Associative { load_factor, bound, size, mechanism, rest, ..found })
 }
 
-/// Whether the blocks that move are so few that the rest may stand on.
+/// Blocks that move are a small part of a structure up to this share of all, and if there is one of them alone. Chosen: what is
+/// more is a collapse, of which the rest is no comfort.
+const SMALL_PART: f64 = 0.1;
+
 fn is_small_part(moving: &[bool]) -> bool {
-    2 * moving.iter().filter(|moves| **moves).count() < moving.len()
+    let count = moving.iter().filter(|moves| **moves).count();
+    moving.len() > 1 && (count == 1 || count as f64 <= SMALL_PART * moving.len() as f64)
 }

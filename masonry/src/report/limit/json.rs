@@ -15,7 +15,7 @@ pub(super) mod path;
 ///
 /// `associative` has the `answer`, the `load_factor` that forces carry, the `bound` above which it is proved that none do, the
 /// `gap` between them, whether the answer is `proved`, the `reactions` under the load factor, and the `mechanism`: rates of the
-/// corners of every block, the largest component one. If less than half of the blocks move in the mechanism, `rest` has the
+/// corners of every block, the largest component one. If a single block or a tenth of them at most move in the mechanism, `rest` has the
 /// `load_factor` and the `bound` of the other blocks while the moving ones are held. `path` has the `load_factor` up to which blocks rest, the factor at which
 /// it `falls`, whether that is `decided`, the `last_stable` state, the `mechanism` after it, the `events` on the way and the
 /// `curve`. What is not known is null, and so is a law of friction that was not chosen. `units` names the units.

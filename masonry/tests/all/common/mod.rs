@@ -6,6 +6,7 @@
 pub mod enumerate;
 pub mod quoted;
 pub mod reference;
+pub mod walls;
 
 use masonry::ids::LoadId;
 use masonry::law::JointLaw;
@@ -140,3 +141,16 @@ pub fn panel(aspect: usize, floors: &[[f64; 2]]) -> Model {
     supports.extend(floors.iter().map(|[x0, x1]| support("floor", [*x0, 0.0], [*x1, 0.0])));
     model(blocks, supports, 1.0)
 }
+
+/// The checks of a state in `result.json`.
+pub const BALANCE: [&str; 9] = [
+    "force",
+    "moment",
+    "uncarried_load",
+    "nodal",
+    "cone_violation",
+    "penetration",
+    "complementarity",
+    "energy",
+    "deformation",
+];

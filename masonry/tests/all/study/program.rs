@@ -8,7 +8,7 @@ use std::process::{Command, Output};
 use masonry::scene::Scene;
 use serde_json::Value;
 
-use super::{ROUTES, block, wall};
+use super::{ROUTES, block, leaning_wall};
 
 /// An empty directory of this test alone, with the scene in it.
 fn with_scene(test: &str, scene: &Scene) -> (PathBuf, String) {
@@ -35,7 +35,7 @@ fn saved_machine(object: &Value) -> &str {
 
 #[test]
 fn the_program_writes_tables_and_pictures() {
-    let (directory, scene) = with_scene("solved", &wall());
+    let (directory, scene) = with_scene("solved", &leaning_wall());
     let out = directory.join("out").join("deeper");
     let mut arguments = vec![scene.as_str(), "--out", out.to_str().unwrap(), "--json"];
     arguments.extend(QUICK);

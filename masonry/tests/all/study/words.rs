@@ -7,14 +7,14 @@ use masonry::analysis::study::{End, Record, Settings};
 use masonry::report::study as output;
 use masonry::scene::Route;
 
-use super::{WALL, block, settings, studied, wall};
+use super::{WALL, block, leaning_wall, settings, studied};
 
 #[test]
 fn meshes_have_names() {
     let names = vec!["one element a brick".to_owned()];
     let named = Settings { mesh_names: names, meshes: vec![1, 2, 4], ..settings() };
     let named = Settings { time_limit: Duration::ZERO, ..named };
-    let study = studied(&wall(), &named);
+    let study = studied(&leaning_wall(), &named);
     let names: Vec<&str> = study.meshes.iter().map(|mesh| mesh.name.as_str()).collect();
     assert_eq!(
         names,
