@@ -79,25 +79,29 @@ impl Residuals {
         }
     }
 
-    /// The status of a point with these residuals: `Solved` within the tolerance, else what the method says of other points.
-    /// `AlmostSolved` becomes `NumericalTrouble` above the root of the tolerance, and `Solved` becomes `Stalled`.
+    /// The status of a point with these residuals, see [`verdict`].
     pub(crate) fn verdict(&self, tolerance: f64, otherwise: Status) -> Status {
-        let worst = self.worst();
-        if worst <= tolerance {
-            Status::Solved
-        } else if otherwise == Status::AlmostSolved && worst > tolerance.sqrt() {
-            Status::NumericalTrouble
-        } else if otherwise == Status::Solved {
-            Status::Stalled
-        } else {
-            otherwise
-        }
+        verdict(self.worst(), tolerance, otherwise)
     }
 
     /// The residuals of a point that is not a number.
     pub(crate) fn infinite() -> Self {
         let inf = f64::INFINITY;
         Self { equation: inf, feasibility: inf, complementarity: inf, natural: inf, loads: inf }
+    }
+}
+
+/// The status of a point with this residual: `Solved` within the tolerance, else what the method says of other points.
+/// `AlmostSolved` becomes `NumericalTrouble` above the root of the tolerance, and `Solved` becomes `Stalled`.
+pub(crate) fn verdict(residual: f64, tolerance: f64, otherwise: Status) -> Status {
+    if residual <= tolerance {
+        Status::Solved
+    } else if otherwise == Status::AlmostSolved && residual > tolerance.sqrt() {
+        Status::NumericalTrouble
+    } else if otherwise == Status::Solved {
+        Status::Stalled
+    } else {
+        otherwise
     }
 }
 

@@ -127,7 +127,7 @@ impl ProjectedGaussSeidel {
         let sweeps = Sweeps::new(&self.settings, rows, q, constraints, start)?;
         let (best, status) = sweeps.run(&mut monitor, &mut |point, _| residuals_of_rows(point));
         let Swept { z, w, residuals, .. } = best;
-        let info = monitor.info();
+        let (info, status) = (monitor.info(), residuals.verdict(self.settings.tolerance, status));
         Ok(RowsSolution { status, z, w, residual: residuals.worst(), info })
     }
 

@@ -197,6 +197,24 @@ fn a_solution_passes_the_check_and_another_point_does_not() {
 }
 
 #[test]
+fn a_point_that_misses_only_a_row_of_small_loads_is_told_apart() {
+    let folder = Folder::new("small-row");
+    let file = folder.file("problem.json", r#"{"kind":"lcp","m":[[1,1],[0,1]],"q":[-1,-2e-11]}"#);
+    // The second row reads z_2 = 2e-11; the first one does not notice.
+    let point = folder.file("point.json", r#"{"z": [1, 0], "w": [0, 0]}"#);
+    let run = Run::of(&["check", &file, &point]);
+    assert!(
+        run.out.contains("not row by row: a row with small terms misses by 1.0e0"),
+        "{}",
+        run.out
+    );
+    assert_eq!(run.code, 1);
+    let point = folder.file("point.json", r#"{"z": [0.99999999998, 2e-11], "w": [0, 0]}"#);
+    let run = Run::of(&["check", &file, &point]);
+    assert!(run.out.ends_with("the point is a solution to 1.0e-10\n"), "{}", run.out);
+}
+
+#[test]
 fn points_that_do_not_fit_are_bad_input() {
     let folder = Folder::new("check_input");
     let file = folder.file("problem.txt", TEXT);

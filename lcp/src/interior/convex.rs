@@ -41,7 +41,7 @@ impl InteriorPoint {
             |residual| monitor.stop(residual),
             |u, t| is_proof_of_mixed(problem, &proof(u, t)),
         );
-        let Outcome { status, u, t, y, factorisations } =
+        let Outcome { status, u, t, y, factorisations, .. } =
             found.map_err(|error| unplanned(Method::Interior, error))?;
         let of = |(&place, free): (&usize, &bool)| {
             if *free { (u[place], 0.0) } else { (t[place], y[place]) }

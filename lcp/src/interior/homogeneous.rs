@@ -10,6 +10,7 @@ use super::program::{Program, ProgramFactors};
 use super::step::{correction, lengthened};
 use super::variables::{Variables, dot};
 use crate::Status;
+use crate::certify::verdict;
 use crate::states::PROXIMAL;
 use crate::vector::{HALF_DIGITS, ROUNDING, max_abs};
 
@@ -28,6 +29,8 @@ pub(super) enum Accuracy {
 pub(super) struct Outcome {
     /// [`Status::Infeasible`] if `u` and `t` are a proof that there is no solution, as was confirmed.
     pub(super) status: Status,
+    /// The residual of the point, from the data.
+    pub(super) residual: f64,
     pub(super) u: Vec<f64>,
     pub(super) t: Vec<f64>,
     pub(super) y: Vec<f64>,
@@ -58,8 +61,17 @@ impl Program {
                 at = balanced.at;
             }
         }
+        let now = Homogeneous::new(&program, at);
+        let residual = now.residual(&now.defect(), accuracy);
+        let (Accuracy::OfAll(tolerance) | Accuracy::OfForces(tolerance)) = accuracy;
+        let at = now.at;
         Ok(Outcome {
-            status,
+            status: if status == Status::Infeasible {
+                status
+            } else {
+                verdict(residual, tolerance, status)
+            },
+            residual,
             u: units.displacements(&at.u),
             t: times(&at.t, units.force),
             y: times(&at.y, units.length),

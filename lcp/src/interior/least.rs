@@ -22,6 +22,8 @@ pub struct LeastForces {
     pub t: Vec<f64>,
     /// The multipliers `u` of the balance; a proof where the status says so, with a largest component of one.
     pub u: Vec<f64>,
+    /// The residual of the forces and multipliers, measured as [`InteriorPoint::least_forces`] says, which decides the status.
+    pub residual: f64,
     /// The cost.
     pub info: Info,
 }
@@ -77,14 +79,14 @@ impl InteriorPoint {
             |residual| monitor.stop(residual),
             |u, _| is_proof_of(columns(a), &loads, &against(u.to_vec())),
         );
-        let Outcome { status, mut u, t, factorisations, .. } =
+        let Outcome { status, mut u, t, residual, factorisations, .. } =
             found.map_err(|error| unplanned(Method::Interior, error))?;
         if status == Status::Infeasible {
             u = against(u).into_iter().map(|u| -u).collect();
         }
         let mut info = monitor.info();
         info.factorisations = factorisations;
-        Ok(LeastForces { status, t, u, info })
+        Ok(LeastForces { status, t, u, residual, info })
     }
 }
 

@@ -31,9 +31,24 @@ pub(super) fn run(
     let solves = residuals.worst() <= args.tol;
     let verdict = Verdict { solves, n: problem.order(), tolerance: args.tol, residuals };
     show(out, args.input.json, &verdict, || {
-        let not = if solves { "" } else { "not " };
-        let lines = residual_lines(&residuals);
-        format!("{lines}the point is {not}a solution to {:.1e}\n", args.tol)
+        format!("{}{}\n", residual_lines(&residuals), sentence(&residuals, args.tol))
     })?;
     Ok(if solves { SOLVED } else { NOT_SOLVED })
+}
+
+/// The verdict on a point with these residuals. A point may hold as a whole, measured by the largest loads, and miss rows of small
+/// loads.
+fn sentence(residuals: &Residuals, tolerance: f64) -> String {
+    let as_a_whole = residuals.natural.max(residuals.loads);
+    if residuals.worst() <= tolerance {
+        format!("the point is a solution to {tolerance:.1e}")
+    } else if as_a_whole <= tolerance {
+        format!(
+            "the point is a solution to {tolerance:.1e} of the largest loads, but not row by row: a row with small terms \
+             misses by {:.1e} of its own terms",
+            residuals.equation
+        )
+    } else {
+        format!("the point is not a solution to {tolerance:.1e}")
+    }
 }
