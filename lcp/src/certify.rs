@@ -1,7 +1,7 @@
 //! How good the point of a solution is, and whether a proof is valid.
 //!
-//! Three answers have measures of their own, since they are no points of one of the problems: sweeps over rows without a
-//! matrix, least forces, and problems with soft springs.
+//! Two answers have a measure of their own, since they are no points of one of the problems: sweeps over rows without a
+//! matrix, and least forces. [`verdict`] alone says `Solved`, of these too.
 //!
 //! A point is measured by the rows and pairs of the problem as stated, so that a conversion does not affect the result, each
 //! row relative to its own terms: that is the smallest relative change of its data for which it holds (Oettli and Prager

@@ -185,7 +185,7 @@ impl Run<'_, '_, '_> {
         let mut tried = TRIAL_RESIDUAL / TRIAL_REDUCTION;
         let (_, first) = at.sizes();
         let (mut least, mut since) = (f64::INFINITY, 0);
-        let (mut before, mut solved) = (None, 0);
+        let (mut before, mut solved_points) = (None, 0);
         let mut defect = Defect::of(&self.search.scaled, &at);
         loop {
             let worst = self.search.judge(&at.u, &at.forces());
@@ -205,12 +205,12 @@ impl Run<'_, '_, '_> {
                     return Status::Solved;
                 }
             }
-            solved += usize::from(is_solved);
-            if is_solved && (!self.settings.crossover || solved > MORE_STEPS) {
+            solved_points += usize::from(is_solved);
+            if is_solved && (!self.settings.crossover || solved_points > MORE_STEPS) {
                 return Status::Solved;
             }
             if let Some(status) = self.monitor.stop_after(worst, before) {
-                return if solved > 0 { Status::Solved } else { status };
+                return if solved_points > 0 { Status::Solved } else { status };
             }
             let Search { scaled, condensed, .. } = &mut *self.search;
             let (next, step) = if before.is_none() {
@@ -225,9 +225,13 @@ impl Run<'_, '_, '_> {
             since = if merit < 0.9 * least { 0 } else { since + 1 };
             least = least.min(merit);
             if !next.is_finite() || step.length < HALF_DIGITS || since > PATIENCE {
-                // Residuals are relative: if all gaps or all forces vanish, they cannot become small.
+                // Residuals of a point inside stay large if all gaps, or all forces, are zero at the solution.
                 let is_exact = self.settings.crossover && self.crosses_over(&at, &Effort::THOROUGH);
-                return if is_exact || solved > 0 { Status::Solved } else { Status::Stalled };
+                return if is_exact || solved_points > 0 {
+                    Status::Solved
+                } else {
+                    Status::Stalled
+                };
             }
             at = next;
         }

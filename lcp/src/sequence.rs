@@ -113,12 +113,13 @@ impl<K: Ord + Clone> Sequence<K> {
         let deadline = self.settings.time_limit.map(|limit| began + limit);
         let Some(iterations) = self.exchange(deadline) else { return self.anew(began) };
         let residuals = self.point.residuals(&self.lcp, &self.couplings, &mut self.memory);
-        if residuals.verdict(self.settings.tolerance, Status::Stalled) != Status::Solved {
+        let verdict = residuals.verdict(self.settings.tolerance, Status::Stalled);
+        if verdict != Status::Solved {
             return self.anew(began);
         }
         let Self { system, point, solution, .. } = self;
         let Solution { status, t, y, basis, info, certificate, condition, .. } = solution;
-        (*status, *certificate, *condition) = (Status::Solved, None, None);
+        (*status, *certificate, *condition) = (verdict, None, None);
         t.clone_from(&point.z);
         y.clone_from(&point.w);
         match basis {

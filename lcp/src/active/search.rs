@@ -171,8 +171,6 @@ impl<'a> Search<'a> {
             let slips: Vec<f64> = slips.collect();
             self.problem.basis(&contacts, &y, &slips)
         });
-        // Steps may end with a point that is solved and another that the iteration gave up.
-        let otherwise = if otherwise == Status::Solved { Status::Stalled } else { otherwise };
         let mut solution = Solution::judged(t, y, residuals, tolerance, otherwise);
         solution.contact = contact;
         solution.basis = basis;

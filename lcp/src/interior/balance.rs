@@ -6,7 +6,7 @@ use crate::matrix::DATA_ROUNDING;
 use crate::states::Scaled;
 use crate::{Certificate, Contact2d, Matrix, Status};
 
-/// How a search for forces has ended without any: with a Farkas vector if there are none.
+/// How a search for forces has ended that gives none: with a Farkas vector if it proved that none exist.
 pub(super) type Ended = (Status, Option<Certificate>);
 
 /// Forces `t` inside their cones with displacements `u`, whatever their gaps, for which `K u = f + C^T t`.

@@ -27,7 +27,7 @@ pub(super) const WIDENING: f64 = 100.0;
 /// are not opened, those that are easy take a third less steps; where they are, by 1e3 or 1e4, walls near their limit and on
 /// open bases are solved in 35 to 80 steps, on which all other attempts jam, whatever the friction.
 pub(super) const OPENINGS: [f64; 3] = [0.0, 1e4, 1e3];
-/// Steps without a reduction of the products by a tenth after which an attempt is left. Measured on settlements: with 12 an
+/// Steps without a reduction of the merit (mean product plus squared defect) by a tenth after which an attempt is left. Measured on settlements: with 12 an
 /// open base is lost that the path solves with 15; with 20 and 30 those that jam take 5 to 15 more, and no other is solved.
 pub(super) const PATIENCE: usize = 15;
 /// The least that a product of a pair may be, relative to the mean; products from there to the inverse of it are central.

@@ -1,5 +1,5 @@
-//! Mixed problems whose bounded variables are forces on the free ones: those of convex programs in few variables with
-//! many inequalities, or the other way round.
+//! Mixed problems whose bounded variables act on free ones only: those of convex programs with many inequalities in few
+//! variables, or with few in many.
 
 use faer::sparse::SparseColMat;
 
@@ -25,10 +25,10 @@ impl InteriorPoint {
         let InteriorPointSettings { tolerance, max_iterations, time_limit, .. } = self.settings;
         self.settings.validate(problem.order())?;
         let Some((program, places)) = program_of(problem) else { return Ok(None) };
-        let is_none = |j: usize| !problem.free()[j] && program.compliance[places[j]] > 0.0;
-        let is_none: Vec<bool> = (0..places.len()).map(is_none).collect();
+        let is_compliant = |j: usize| !problem.free()[j] && program.compliance[places[j]] > 0.0;
+        let is_compliant: Vec<bool> = (0..places.len()).map(is_compliant).collect();
         let proof = |u: &[f64], t: &[f64]| {
-            let value = |(j, &place): (usize, &usize)| match (problem.free()[j], is_none[j]) {
+            let value = |(j, &place): (usize, &usize)| match (problem.free()[j], is_compliant[j]) {
                 (true, _) => u[place],
                 (false, false) => t[place],
                 (false, true) => 0.0,
@@ -49,8 +49,8 @@ impl InteriorPoint {
         let (z, w): (Vec<f64>, Vec<f64>) = places.iter().zip(problem.free()).map(of).unzip();
         let pairs = problem.to_pairs(&z, &w);
         let mut solution = judged_point(problem, pairs.0, pairs.1, tolerance, status);
-        solution.certificate =
-            (status == Status::Infeasible).then(|| Certificate::Farkas { pi: proof(&u, &t) });
+        solution.certificate = (solution.status == Status::Infeasible)
+            .then(|| Certificate::Farkas { pi: proof(&u, &t) });
         solution.info = monitor.info();
         solution.info.factorisations = factorisations;
         Ok(Some(solution))

@@ -19,13 +19,12 @@ use crate::vector::{HALF_DIGITS, ROUNDING, max_abs};
 pub(super) enum Accuracy {
     /// Equations and pairs to this tolerance, relative to the largest force and gap.
     OfAll(f64),
-    /// The same of equations, with the balance relative to no more than a multiple of the largest load, and pairs below a
-    /// tenth of the root of the tolerance: to that, their products are far below it. What is left of the balance is
-    /// distributed.
+    /// Equations to this tolerance, the balance relative to a multiple of the largest load at most; the smaller one of each
+    /// pair to a tenth of the root of the tolerance. What is left of the balance is distributed.
     OfForces(f64),
 }
 
-/// The outcome of a program, in units of its own.
+/// The outcome of a program, in the units in which the program is given.
 pub(super) struct Outcome {
     /// [`Status::Infeasible`] if `u` and `t` are a proof that there is no solution, as was confirmed.
     pub(super) status: Status,

@@ -35,7 +35,7 @@ pub(super) struct Pairs {
 impl Pairs {
     /// `(t, y)` of the pairs: one without friction, else three.
     pub(super) fn pairs(self) -> impl Iterator<Item = (f64, f64)> {
-        let (plus, minus) = self.strengths();
+        let (plus, minus) = self.reserves();
         let all = [(self.t_n, self.gap), (plus, self.slip_plus), (minus, self.slip_minus)];
         all.into_iter().take(if self.mu > 0.0 { 3 } else { 1 })
     }
@@ -52,13 +52,13 @@ impl Pairs {
     }
 
     /// `mu t_n + t_t` and `mu t_n - t_t`.
-    pub(super) fn strengths(&self) -> (f64, f64) {
+    pub(super) fn reserves(&self) -> (f64, f64) {
         (self.mu * self.t_n + self.t_t, self.mu * self.t_n - self.t_t)
     }
 
     /// Slips to either side, each relative to what is left of the friction that resists it.
     fn ratios(&self) -> (f64, f64) {
-        let (plus, minus) = self.strengths();
+        let (plus, minus) = self.reserves();
         (self.slip_plus / plus, self.slip_minus / minus)
     }
 
@@ -84,7 +84,7 @@ impl Pairs {
         if mu == 0.0 {
             return Self { t_n, gap, ..Self::default() };
         }
-        let (plus, minus) = self.strengths();
+        let (plus, minus) = self.reserves();
         let slip_plus = (target[1] - self.slip_plus * (mu * t_n + t_t)) / plus;
         let slip_minus = (target[2] - self.slip_minus * (mu * t_n - t_t)) / minus;
         let (slip_plus, slip_minus) = match self.ratios() {

@@ -37,7 +37,8 @@ impl InteriorPoint {
     /// relative to the largest load, or to rounding errors of the forces (64 eps of the largest) where forces are so much larger
     /// than the loads. What is left then is distributed, so that every row is balanced to its last digits, as far as rounding
     /// errors of the forces allow. A force and its multiplier `t + A^T u` may both be
-    /// zero, and come near it together: their smaller one counts by its square.
+    /// zero, and come near it together: the smaller one, relative to the largest, has to be below a tenth of the root of the
+    /// tolerance.
     ///
     /// # Errors
     /// [`Error::Length`] when `f` is not as long as a column of `A`, [`Error::NotFinite`] for a NaN or an infinity,

@@ -69,7 +69,7 @@ impl<'a> NewtonSystem<'a> {
         let points = self.problem.points.iter().zip(&self.at.points).zip(targets).zip(&defect.gaps);
         let opened = points.clone().map(|(((point, at), targets), gaps)| {
             let slip = if point.mu > 0.0 {
-                let (plus, minus) = at.strengths();
+                let (plus, minus) = at.reserves();
                 gaps.1 - (targets[1] / plus - targets[2] / minus)
             } else {
                 0.0

@@ -34,8 +34,8 @@ impl<'a> PredictorCorrector<'a> {
 
     /// One step of Mehrotra's method (1992) with Gondzio's correctors (1996), which costs one factorisation.
     /// The problem is not monotone with friction: where the step is short, the best mixture of predictor and
-    /// centring takes its place, and where the path turns back, a step along it. No product of a pair
-    /// becomes much smaller than the mean, unless that would make the step shorter than what counts as none. Gives the
+    /// centring takes its place, and where the path turns back, a step along it. A step that makes
+    /// the product of a pair much smaller than the mean is shortened, down to the root of [`HALF_DIGITS`]. Gives the
     /// new point, and the step that leads there.
     pub(super) fn advance(&self) -> (Iterate, Step) {
         let Self { system, at, predictor, .. } = self;
@@ -46,7 +46,7 @@ impl<'a> PredictorCorrector<'a> {
         (next, Step { kind, length, mean_product })
     }
 
-    /// A step that makes the products smaller.
+    /// A step that makes the products smaller, or one along the path if that is too short.
     fn forwards(&self) -> Direction {
         let Self { system, at, defect, predictor } = self;
         let mean = at.mean_product();
@@ -72,7 +72,6 @@ impl<'a> PredictorCorrector<'a> {
 fn within(at: &Iterate, step: &Iterate, mut alpha: f64) -> (Iterate, f64) {
     let least = CENTRAL.min(0.9 * at.centrality());
     let mut next = at.moved(step, alpha);
-    // No step is made so short for it that it nearly counts as none.
     while alpha > HALF_DIGITS.sqrt() && next.centrality() < least {
         alpha *= SHORTER;
         next = at.moved(step, alpha);

@@ -27,7 +27,8 @@ pub struct InteriorPointSettings {
     /// problem: before the first step the states of its contacts are tried.
     pub start: WarmStart,
     /// Whether the exact point on the boundary is looked for. Without it the answer is a point inside,
-    /// which has no basis, and accuracy ends where Newton's method loses its digits, at about 1e-9.
+    /// which has no basis, and accuracy ends where Newton's method loses its digits, at about 1e-9. A [`MixedLcp`](crate::MixedLcp)
+    /// of a convex program is then solved by the homogeneous problem, which needs no start, no openings, and proves by itself.
     pub crossover: bool,
     /// Whether it is asked, if the method jams on bodies in contact, if any forces balance the loads at all.
     pub prove_infeasible: bool,

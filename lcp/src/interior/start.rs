@@ -12,7 +12,7 @@ use crate::problem::ContactStatus;
 use crate::solve::Step;
 use crate::states::{Condensed, PROXIMAL, Point, Scaled, Springs};
 
-/// A start from the forces that the contacts would carry if they were springs in both directions.
+/// A start from the forces that the contacts would carry if they were springs that push and pull.
 pub(super) fn start(problem: &Scaled, condensed: &mut Condensed) -> Iterate {
     let spring_of = |point: Point<'_>| ContactStatus::Stick.springs(point, 1.0);
     let springs: Vec<Springs> = problem.points.iter().map(spring_of).collect();
@@ -47,7 +47,7 @@ pub(super) fn start(problem: &Scaled, condensed: &mut Condensed) -> Iterate {
 /// The first step, from a start that is opened first if need be.
 ///
 /// A start knows how bodies are deformed, but not how far slender ones bend and loose ones turn. The predictor tells, with the
-/// forces of the start, that its gaps are too small for that: it changes them by more than they are. Where wider gaps do not
+/// forces of the start, that its gaps are too small for that: it changes them by more than twice their mean. Where wider gaps do not
 /// bring the change down by half, forces or the problem are at fault: if any decrease will do, the path of a rigid wedge that is
 /// pulled out jams.
 pub(super) fn set_out(

@@ -29,9 +29,9 @@ pub(super) fn lengthened<S>(
     (step, alpha)
 }
 
-/// The change that brings the product of a pair back among the central ones, which are near `tau`.
-pub(super) fn correction(t: f64, y: f64, tau: f64) -> f64 {
-    let (low, high) = (CENTRAL * tau, (1.0 / CENTRAL) * tau);
+/// The change that brings the product of a pair back among the central ones, which are near `central`.
+pub(super) fn correction(t: f64, y: f64, central: f64) -> f64 {
+    let (low, high) = (CENTRAL * central, (1.0 / CENTRAL) * central);
     // Two negative values are as far outside as one.
     let product = if t < 0.0 && y < 0.0 { -t * y } else { t * y };
     if product < low {

@@ -65,9 +65,9 @@ impl Solver<Contact2d> for Lemke {
                 // Gaps and slips are those of the given data.
                 let state = problem.state(state.u, state.t_n, state.t_t);
                 (solution.t, solution.y) = problem.to_pairs(&state);
-                solution.residuals = problem.residuals(&state);
+                solution.judge_again(problem.residuals(&state), self.settings().tolerance);
                 solution.contact = Some(state);
-                if solution.residuals.worst() <= self.settings().tolerance {
+                if solution.is_solved() {
                     return Ok(solution);
                 }
             } else if solution.status == Status::Cancelled {

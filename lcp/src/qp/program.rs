@@ -83,7 +83,7 @@ impl<'a> ProgramRun<'a> {
             }
         };
         let mut solution = self.search.finish(otherwise, self.monitor);
-        if let Some(pi) = farkas {
+        if let (Some(pi), Status::Infeasible) = (farkas, solution.status) {
             solution.certificate = Some(Certificate::Farkas { pi });
         }
         solution.info.factorisations += self.steps;

@@ -149,6 +149,20 @@ fn options_of_one_method_are_not_for_another() {
     assert!(report.contains("--max-iterations raises it"), "{report}");
 }
 
+#[test]
+fn the_command_has_every_method_with_its_help() {
+    let folder = Folder::new("all-methods");
+    let file = folder.file("problem.txt", TEXT);
+    let help = Run::of(&["solve", "--help"]).out;
+    for method in lcp::Method::ALL {
+        let name = method.name();
+        let is_told = |line: &str| line.trim().strip_prefix(&format!("- {name}:")).is_some();
+        assert!(help.lines().any(is_told), "no help of {name}: {help}");
+        let run = Run::of(&["solve", &file, "--solver", name]);
+        assert_eq!(run.code, 0, "{name}: {}{}", run.out, run.err);
+    }
+}
+
 /// By every method, in whatever form it treats a problem: a boxed one becomes the general form, of which bounds that are
 /// far away hide the right-hand side.
 #[test]

@@ -44,7 +44,7 @@ pub(super) struct SolveArgs {
     /// Pivots of one attempt of lemke; auto then uses lemke.
     #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = count)]
     pub(super) max_pivots: Option<usize>,
-    /// Attempts of lemke; auto then uses lemke.
+    /// Attempts of lemke, alone or in the chain of auto.
     #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = count)]
     pub(super) attempts: Option<usize>,
     /// Covering vector of the first attempt of lemke, `ones` or `random:SEED`; auto then uses lemke.
