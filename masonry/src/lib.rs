@@ -85,6 +85,11 @@ struct ReadmeDoctest;
 
 /// See [`ReadmeDoctest`].
 #[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct CrateReadmeDoctest;
+
+/// See [`ReadmeDoctest`].
+#[cfg(doctest)]
 #[doc = include_str!("../../docs/guide.md")]
 struct GuideDoctest;
 

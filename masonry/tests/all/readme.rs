@@ -39,3 +39,27 @@ fn the_wall_of_the_readme_gives_the_sentences_of_the_readme() {
     }
     assert!(directory.join("wall/principal_stresses.svg").exists());
 }
+
+/// The last number of the row of the table of published answers that has `link`, or of the row behind it.
+fn in_table(link: &str, behind: usize) -> f64 {
+    let row = README.lines().position(|line| line.starts_with('|') && line.contains(link)).unwrap();
+    let cells = README.lines().nth(row + behind).unwrap().trim_matches('|').split('|');
+    cells.last().unwrap().trim().parse().unwrap()
+}
+
+#[test]
+fn the_published_limits_of_the_readme_are_found() {
+    for number in 1..=3 {
+        let file = format!("scenes/ferris_wall_{number}.toml");
+        let output = Command::new(env!("CARGO_BIN_EXE_masonry"))
+            .args(["limit", "--json", &format!("../{file}")])
+            .output()
+            .unwrap();
+        let object: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+        for (behind, law) in ["associative", "path"].into_iter().enumerate() {
+            let (told, found) =
+                (in_table(&file, behind), object[law]["load_factor"].as_f64().unwrap());
+            assert!((told - found).abs() <= 1e-4, "{file}, {law}: {found}, and not {told}");
+        }
+    }
+}
