@@ -43,8 +43,8 @@ fn the_wall_of_the_readme_gives_the_sentences_of_the_readme() {
 /// The last number of the row of the table of published answers that has `link`, or of the row behind it.
 fn in_table(link: &str, behind: usize) -> f64 {
     let row = README.lines().position(|line| line.starts_with('|') && line.contains(link)).unwrap();
-    let cells = README.lines().nth(row + behind).unwrap().trim_matches('|').split('|');
-    cells.last().unwrap().trim().parse().unwrap()
+    let mut cells = README.lines().nth(row + behind).unwrap().trim_matches('|').split('|');
+    cells.next_back().unwrap().trim().parse().unwrap()
 }
 
 #[test]
