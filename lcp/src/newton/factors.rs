@@ -35,7 +35,7 @@ enum Kind {
 }
 
 /// Overwrites a right-hand side with the solution.
-type Inverse = Box<dyn Fn(&mut [f64])>;
+type Inverse = Box<dyn Fn(&mut [f64]) + Send + Sync>;
 
 struct DenseFactors {
     /// Units of rows and columns of the last LU, which bring the largest entries near one.

@@ -1,0 +1,138 @@
+"""Bodies in unilateral contact with Coulomb friction."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from . import _native
+from ._arrays import matrix, vector
+from ._options import options
+from ._solution import ContactSolution
+
+Row = Mapping[int, float]
+
+
+class Contact2d:
+    """Bodies of stiffness or mass ``K`` under loads ``f``, with contact points.
+
+    A gap opens by ``C_n u``, and a point slips by ``C_t u``; normal forces are not negative, and tangential ones at most ``mu``
+    times as large, against the slip.
+
+    Parameters
+    ----------
+    K : array_like or sparse matrix
+        Symmetric positive semidefinite, one row for every displacement.
+    f : array_like
+        Loads.
+
+    Examples
+    --------
+    A body of weight 2 on a plane, pushed by 0.4, with a spring of stiffness 3 behind it:
+
+    >>> body = Contact2d([[3, 0], [0, 0]], [0.4, -2])
+    >>> foot = body.add_point(normal={1: 1.0}, tangent={0: 1.0}, mu=0.5)
+    >>> state = body.solve().raise_if_unsolved()
+    >>> round(float(state.t_n[foot]), 9), round(float(state.t_t[foot]), 9)
+    (2.0, -0.4)
+    >>> body.f[0] = 2.0
+    >>> round(float(body.solve().t_t[foot]), 9)
+    -1.0
+    """
+
+    def __init__(self, K: Any, f: ArrayLike) -> None:
+        self._k = matrix(K)
+        #: Loads, which may be changed between solves.
+        self.f: NDArray[np.float64] = np.array(f, dtype=np.float64)
+        self._rows: list[tuple[Row, Row]] = []
+        self._data: list[tuple[float, float, float, float, float]] = []
+
+    def add_point(
+        self,
+        normal: Row,
+        tangent: Row,
+        *,
+        gap: float = 0.0,
+        slip: float = 0.0,
+        mu: float = 0.0,
+        compliance: tuple[float, float] = (0.0, 0.0),
+    ) -> int:
+        """Add a contact point.
+
+        Parameters
+        ----------
+        normal, tangent : dict of int to float
+            Entries of the rows of ``C_n`` and ``C_t``.
+        gap, slip : float
+            Without displacements.
+        mu : float
+            Coefficient of friction.
+        compliance : pair of float
+            Of springs in series with the point.
+
+        Returns
+        -------
+        int
+            The number of the point, its index in the solution.
+        """
+        self._rows.append((dict(normal), dict(tangent)))
+        self._data.append((gap, slip, mu, *compliance))
+        return len(self._rows) - 1
+
+    def set_point(self, number: int, **changed: float) -> None:
+        """Change ``gap``, ``slip`` or ``mu`` of a point between solves."""
+        names = ("gap", "slip", "mu")
+        values = list(self._data[number])
+        for name, value in changed.items():
+            if name not in names:
+                raise TypeError(f"a point has no {name}: it has {', '.join(names)}")
+            values[names.index(name)] = value
+        self._data[number] = tuple(values)  # type: ignore[assignment]
+
+    def solve(
+        self,
+        *,
+        method: str = "auto",
+        tol: float | None = None,
+        time_limit: float | None = None,
+        max_iterations: int | None = None,
+        callback: Callable[[int, float], Any] | None = None,
+    ) -> ContactSolution:
+        """Solve with the present loads and points; parameters are those of :func:`lcp.solve`."""
+        data = np.array(self._data, dtype=np.float64).reshape(-1, 5)
+        gap, slip, mu = (np.ascontiguousarray(data[:, k]) for k in range(3))
+        normal, tangent = (self._sparse(side) for side in (0, 1))
+        return ContactSolution(
+            _native.solve_contact(
+                self._k,
+                vector(self.f),
+                normal,
+                tangent,
+                gap,
+                slip,
+                mu,
+                np.ascontiguousarray(data[:, 3:]),
+                options(method, tol, time_limit, max_iterations, callback),
+            )
+        )
+
+    def _sparse(self, side: int) -> dict[str, Any]:
+        """Give the rows of all points by their columns."""
+        entries = sorted(
+            (column, row, value)
+            for row, sides in enumerate(self._rows)
+            for column, value in sides[side].items()
+        )
+        size = len(self.f)
+        columns = np.array([column for column, _, _ in entries], dtype=np.int64)
+        if len(columns) and not 0 <= columns[0] <= columns[-1] < size:
+            raise ValueError(f"a contact point refers to a displacement that is not from 0 to {size - 1}")
+        return {
+            "shape": [len(self._rows), size],
+            "starts": np.searchsorted(columns, np.arange(size + 1)),
+            "rows": np.array([row for _, row, _ in entries], dtype=np.int64),
+            "values": np.array([value for _, _, value in entries], dtype=np.float64),
+        }

@@ -1,0 +1,86 @@
+//! What a caller may choose, for all problems alike.
+
+use std::time::Duration;
+
+use lcp::{
+    Auto, AutoSettings, Enumeration, InteriorPoint, InteriorPointSettings, Lemke, LemkeSettings,
+    Method, ProjectedGaussSeidel, ProjectedGaussSeidelSettings, QuadraticProgram,
+    QuadraticProgramSettings, SemismoothNewton, SemismoothNewtonSettings,
+};
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+
+/// The options of a solve; `None` is the default of the method.
+#[derive(FromPyObject)]
+pub(crate) struct Options {
+    #[pyo3(item)]
+    method: String,
+    #[pyo3(item)]
+    tol: Option<f64>,
+    #[pyo3(item)]
+    time_limit: Option<f64>,
+    #[pyo3(item)]
+    max_iterations: Option<usize>,
+    #[pyo3(item)]
+    pub(crate) callback: Option<Py<PyAny>>,
+}
+
+/// The settings of a method that iterates, from its defaults and the options.
+macro_rules! iterative {
+    ($name:ident, $method:ident, $settings:ident) => {
+        pub(crate) fn $name(&self) -> PyResult<$method> {
+            let mut settings = $settings::default();
+            settings.tolerance = self.tol.unwrap_or(settings.tolerance);
+            settings.max_iterations = self.max_iterations.unwrap_or(settings.max_iterations);
+            settings.time_limit = self.time()?;
+            Ok($method::new(settings))
+        }
+    };
+}
+
+impl Options {
+    pub(crate) fn method(&self) -> PyResult<Method> {
+        self.method.parse().map_err(|_| {
+            let names: Vec<&str> = Method::ALL.iter().map(|method| method.name()).collect();
+            let known = names.join(", ");
+            PyValueError::new_err(format!(
+                "method is {:?}, but must be one of: {known}",
+                self.method
+            ))
+        })
+    }
+
+    pub(crate) fn auto(&self) -> PyResult<Auto> {
+        let mut settings = AutoSettings { time_limit: self.time()?, ..AutoSettings::default() };
+        settings.tolerance = self.tol.unwrap_or(settings.tolerance);
+        Ok(Auto::new(settings))
+    }
+
+    pub(crate) fn lemke(&self) -> PyResult<Lemke> {
+        let mut settings = LemkeSettings { time_limit: self.time()?, ..LemkeSettings::default() };
+        settings.tolerance = self.tol.unwrap_or(settings.tolerance);
+        settings.max_pivots = self.max_iterations;
+        Ok(Lemke::new(settings))
+    }
+
+    pub(crate) fn enumeration(&self) -> PyResult<Enumeration> {
+        let tolerance = self.tol.unwrap_or(AutoSettings::default().tolerance);
+        Ok(Enumeration { tolerance, time_limit: self.time()? })
+    }
+
+    iterative!(newton, SemismoothNewton, SemismoothNewtonSettings);
+    iterative!(interior, InteriorPoint, InteriorPointSettings);
+    iterative!(program, QuadraticProgram, QuadraticProgramSettings);
+    iterative!(sweeps, ProjectedGaussSeidel, ProjectedGaussSeidelSettings);
+
+    fn time(&self) -> PyResult<Option<Duration>> {
+        let time = self.time_limit.map(|seconds| {
+            Duration::try_from_secs_f64(seconds).map_err(|_| {
+                PyValueError::new_err(format!(
+                    "time_limit is {seconds}, but must be a number of seconds, not negative"
+                ))
+            })
+        });
+        time.transpose()
+    }
+}
