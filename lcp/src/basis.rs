@@ -2,7 +2,7 @@
 
 use crate::vector::max_abs;
 
-/// Which variable of a pair is basic.
+/// The basic variable of a pair.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Side {
@@ -22,7 +22,7 @@ impl Side {
         }
     }
 
-    /// What belongs to this side, of what belongs to either.
+    /// The one of two values that belongs to this side.
     pub fn of<T>(self, t: T, y: T) -> T {
         match self {
             Self::T => t,

@@ -2,8 +2,8 @@
 //!
 //! A node sets one variable to zero in some pairs and leaves the others without complementarity: what
 //! remains are linear conditions, whose nonnegative least squares problem either meets them or proves
-//! that they cannot be met. Where they are met, and one variable of every pair is zero, the problem is
-//! solved. Where some pair has both positive, one of its variables has to be zero: two nodes more.
+//! that they cannot be met. If they are met, and one variable of every pair is zero, the problem is
+//! solved. If some pair has both positive, one of its variables has to be zero: two nodes more.
 //! So there is a solution, or the leaves prove together that there is none.
 //!
 //! A proof may hold with fewer choices than its node has made: it needs those whose excluded columns it does not
@@ -152,7 +152,7 @@ impl Branching<'_> {
         self.visit(&sides, &start)
     }
 
-    /// What one of the proofs found so far says of a node.
+    /// The consequence of the proofs so far for a node.
     fn known(&self, sides: &Sides) -> Option<Known> {
         let n = sides.len();
         let side_of = |column: usize| if column < n { Side::T } else { Side::Y };
@@ -178,7 +178,7 @@ impl Branching<'_> {
     }
 }
 
-/// What a proof of another node says of a node.
+/// The consequence of the proof of another node.
 enum Known {
     /// It proves it.
     Leaf(Leaf),

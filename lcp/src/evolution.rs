@@ -127,7 +127,7 @@ impl Evolution {
         })
     }
 
-    /// The same bodies with other velocities.
+    /// These bodies with other velocities.
     ///
     /// # Errors
     /// [`Error::Length`] or [`Error::NotFinite`].
@@ -137,7 +137,7 @@ impl Evolution {
         Ok(Self { velocity, ..self })
     }
 
-    /// The same bodies at rest in another state of the [problem](Self::new), with the slip that every point has come to.
+    /// These bodies at rest in another state of the [problem](Self::new), with the slip of every point.
     ///
     /// # Errors
     /// [`Error::Length`] or [`Error::NotFinite`].
@@ -173,7 +173,7 @@ impl Evolution {
         &self.slips[1]
     }
 
-    /// The same before the last step: the state solves the problem [with slips from there](Contact2d::slid).
+    /// The slips before the last step: the state solves the problem [with slips from there](Contact2d::slid).
     pub fn slips_before(&self) -> &[f64] {
         &self.slips[0]
     }
@@ -218,7 +218,7 @@ impl Evolution {
         self.advance_observed(problem, duration, &mut |_| ControlFlow::Continue(()))
     }
 
-    /// The same, calling the observer before every step and every iteration of its path; `Break` stops with
+    /// Advances and calls the observer before every step and every iteration of its path; `Break` stops with
     /// [`Status::Cancelled`](crate::Status::Cancelled).
     ///
     /// # Errors
@@ -233,8 +233,8 @@ impl Evolution {
         self.observed(observer, |this, course| this.driven(problem, duration, Rest::Never, course))
     }
 
-    /// Both: bodies are taken to the loads, gaps and supports of `problem`, evenly in a time `duration`, and left there until
-    /// they rest or flow.
+    /// Takes bodies to the loads, gaps and supports of `problem`, evenly in a time `duration`, and leaves them there
+    /// until they rest or flow.
     ///
     /// # Errors
     /// As for [`settle`](Self::settle).
@@ -242,7 +242,7 @@ impl Evolution {
         self.lead_observed(problem, duration, &mut |_| ControlFlow::Continue(()))
     }
 
-    /// The same, with an observer as in [`advance_observed`](Self::advance_observed).
+    /// Leads with an observer as in [`advance_observed`](Self::advance_observed).
     ///
     /// # Errors
     /// As for [`settle`](Self::settle).
@@ -265,7 +265,7 @@ impl Evolution {
         self.settle_observed(problem, h, &mut |_| ControlFlow::Continue(()))
     }
 
-    /// The same, with an observer as in [`advance_observed`](Self::advance_observed).
+    /// Settles with an observer as in [`advance_observed`](Self::advance_observed).
     ///
     /// # Errors
     /// As for [`settle`](Self::settle).

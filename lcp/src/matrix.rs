@@ -11,8 +11,8 @@ pub(crate) use column::{Column, add_image, column_of, diagonal};
 
 use crate::Error;
 
-/// What entries, and products with a vector that was computed, may be off by, relative to what they are compared with, and
-/// still be taken for exact. Chosen: the rounding errors of whoever computed them.
+/// Relative error up to which entries, and products with a computed vector, are taken for exact. Chosen: the rounding
+/// errors of whoever computed them.
 pub(crate) const DATA_ROUNDING: f64 = 1e-12;
 
 /// A matrix of a problem, dense or sparse.

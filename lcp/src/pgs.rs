@@ -111,7 +111,7 @@ impl ProjectedGaussSeidel {
         self.solve_rows_observed(rows, q, constraints, &mut |_| ControlFlow::Continue(()))
     }
 
-    /// The same, calling the observer before every sweep; `Break` stops with [`Status::Cancelled`].
+    /// Solves, and calls the observer before every sweep; `Break` stops with [`Status::Cancelled`].
     ///
     /// # Errors
     /// As for [`solve_rows`](Self::solve_rows).

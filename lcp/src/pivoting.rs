@@ -32,7 +32,7 @@ pub enum AttemptStart {
     AllY,
     /// All `t`.
     AllT,
-    /// One that the solver found.
+    /// A basis that the solver found.
     Found,
     /// The basis on which the last attempt ended.
     LastBasis,

@@ -26,7 +26,7 @@ pub(crate) fn equilibrate(rows: usize, columns: &[Column<'_>]) -> (Vec<f64>, Vec
     factors.rounded()
 }
 
-/// The same for a computed matrix, by its largest entries alone.
+/// Factors for a computed matrix, by its largest entries alone.
 ///
 /// Entries of the inverse of a band decrease exponentially with their distance from the diagonal. They are no rounding
 /// errors, but if the balance of logarithms counted them like all others, rows would get factors of up to `1e12`.

@@ -183,8 +183,8 @@ impl Solution {
         }
     }
 
-    /// Judges the point of a method that solved another form of the given problem, by the residuals of the given one. What says
-    /// nothing of the point, such as a limit, a proof or a ray, stays.
+    /// Judges the point by the residuals of the given problem, if a method solved another form of it. A status that
+    /// does not depend on the point, such as a limit, a proof or a ray, stays.
     pub fn judge_again(&mut self, residuals: Residuals, tolerance: f64) {
         self.residuals = residuals;
         let is_of_point =
@@ -222,12 +222,12 @@ impl<P> Solution<P> {
         }
     }
 
-    /// The same as a solution of the general form of the problem, whose pairs it has.
+    /// This solution as one of the general form of the problem, whose pairs it has.
     pub fn of_pairs(self) -> Solution {
         self.of()
     }
 
-    /// The same as the solution of a problem of which this is the general form.
+    /// This solution as that of a problem of which this is the general form.
     pub(crate) fn of<Q>(self) -> Solution<Q> {
         Solution {
             status: self.status,

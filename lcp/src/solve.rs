@@ -194,12 +194,12 @@ impl<'a> Monitor<'a> {
         Self { method, began, deadline, max_iterations, observer, is_cancelled, history }
     }
 
-    /// Notes the residual before an iteration; a status where there must be none.
+    /// Notes the residual before an iteration; a status if the run has to end.
     pub(crate) fn stop(&mut self, residual: f64) -> Option<Status> {
         self.stop_after(residual, None)
     }
 
-    /// The same with the step before.
+    /// Notes the step before, too.
     pub(crate) fn stop_after(&mut self, residual: f64, step: Option<Step>) -> Option<Status> {
         let (iteration, method) = (self.history.len(), self.method);
         self.history.push(residual);
@@ -227,7 +227,7 @@ impl<'a> Monitor<'a> {
         self.began.elapsed().as_secs_f64()
     }
 
-    /// What it all cost.
+    /// The cost.
     pub(crate) fn info(self) -> Info {
         let (method, iterations, seconds) = (self.method, self.iterations(), self.seconds());
         Info { method, iterations, seconds, history: self.history, ..Info::default() }

@@ -6,10 +6,10 @@ use crate::Error;
 
 /// A sum below this, relative to its terms, is a rounding error. Rounding: errors of short sums.
 pub(crate) const ROUNDING: f64 = 64.0 * f64::EPSILON;
-/// What a solved system leaves of its right-hand side, and of what vanishes at its solution: pivots of a singular matrix, gaps
-/// of closed contacts, entries of a tableau. Rounding: some hundred eps.
+/// Residual of a solved system, and size of numbers that vanish at its solution: pivots of a singular matrix, gaps of
+/// closed contacts, entries of a tableau. Rounding: some hundred eps.
 pub(crate) const SMALL: f64 = 1e-13;
-/// What is below this part of another number hardly counts beside it: a coupling beside the strongest one of its row, once
+/// Numbers below this part of another one hardly count beside it: a coupling beside the strongest one of its row, once
 /// rows and columns are equilibrated; a term beside the largest one of its row, or of the problem; the errors of a proof
 /// beside what they must leave positive. Chosen.
 pub(crate) const WEAK: f64 = 1.0 / 1024.0;
@@ -94,13 +94,13 @@ pub(crate) fn check_vector(what: &'static str, v: &[f64]) -> Result<(), Error> {
     }
 }
 
-/// That numbers are between these bounds, which may be infinite; the distance of others is finite.
+/// Checks that numbers can be between these bounds, finite ones at a finite distance.
 pub(crate) fn check_bounds(what: &'static str, lower: &[f64], upper: &[f64]) -> Result<(), Error> {
     let mut bounds = lower.iter().zip(upper).enumerate();
     bounds.try_for_each(|(index, (&lower, &upper))| check_interval(what, index, lower, upper))
 }
 
-/// The same of the bounds of one number.
+/// Checks the bounds of one number.
 pub(crate) fn check_interval(
     what: &'static str,
     index: usize,

@@ -20,7 +20,7 @@ pub(crate) struct Effort {
     pub(crate) patience: usize,
     /// Points for one contradiction that is allowed, beyond a few.
     pub(crate) points: usize,
-    /// Whether every round starts from the given point, where what the states leave free stays.
+    /// Whether rounds start from the given point, which keeps unknowns that the states leave free.
     pub(crate) anchored: bool,
     /// The proximal term with which the equations of the states are solved. States that are a little wrong may leave a
     /// motion free, which a small one lets go anywhere.
@@ -83,7 +83,7 @@ pub(crate) fn cross_over(
         is_found |= is_solution(condensed, &vertex, contradictions.is_empty());
         let is_dust = contradictions.is_empty();
         if is_dust && !is_found {
-            // What may be rounding is too much for the tolerance.
+            // Contradictions as small as rounding errors count too.
             contradictions = vertex.contradictions(problem, 0.0);
         }
         let (exchanged, largest) = (contradictions.len(), largest_of(&contradictions));

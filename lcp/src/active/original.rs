@@ -64,8 +64,8 @@ pub(crate) struct Refiner<'a> {
 }
 
 impl Refiner<'_> {
-    /// The point that the states of contacts lead to without rounding errors, where it is better than a given one: what is
-    /// small inherits the rounding errors of what is large until it is refined by itself.
+    /// The point of the states of contacts without rounding errors, if it is better than the given one: small numbers
+    /// inherit the rounding errors of large ones until they are refined.
     pub(crate) fn brought_right(
         &mut self,
         mut best: Judged,
@@ -85,7 +85,7 @@ impl Refiner<'_> {
                 && equation.max(natural) <= tolerance
                 && judge.residuals_of(scaled, &exact).worst() <= tolerance
             {
-                // Of the loads of a point that is exact but for its rounding that is no part.
+                // The residual of the loads less the rounding of the exact point.
                 near.residuals.loads =
                     judge.residuals(scaled, near.point(), Precision::Rounded).loads;
             }
@@ -145,8 +145,7 @@ pub(crate) trait Original {
     fn contacts(&self, basis: &Basis) -> Vec<ContactStatus>;
 }
 
-/// The state of a scaled point. What is given back are forces inside their cones: where these are large, what was cut
-/// off may be more than the loads.
+/// The state of a scaled point, with forces cut to their cones. The part cut off large forces may exceed the loads.
 fn state(problem: &Contact2d, scaled: &Scaled, at: PointRef<'_>) -> ContactState {
     let points = scaled.points.iter().zip(at.forces).zip(problem.mu());
     let inside = points.map(|((point, (t_n, t_t)), mu)| {

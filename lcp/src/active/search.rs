@@ -28,8 +28,8 @@ struct Best {
 }
 
 impl<'a> Search<'a> {
-    /// For a method, with the largest residual of a solution, and the linear system of a problem of the same pattern if one is
-    /// planned already.
+    /// The search of a method. `tolerance` is the largest residual of a solution, and `plan` the linear system of a
+    /// problem of the same pattern.
     pub(crate) fn new(
         method: Method,
         problem: &'a dyn Original,
@@ -152,7 +152,7 @@ impl<'a> Search<'a> {
         solution
     }
 
-    /// The same without its cost, and the linear system.
+    /// The best point without its cost, and the linear system.
     pub(crate) fn ended(self, otherwise: Status) -> (Solution, Condensed) {
         let Self { judge, tolerance, scaled, condensed, best, .. } = self;
         let Some(Best { point: best, exact }) = best else {
@@ -186,7 +186,7 @@ pub(crate) fn unplanned(method: Method, error: FaerError) -> Error {
 /// Quickly, and with all digits where the point may be a solution.
 fn judged(judge: &dyn Judge, scaled: &Scaled, at: PointRef<'_>, tolerance: f64) -> Judged {
     let quick = judged_by(judge, scaled, at, Precision::Quick);
-    // What is left of the loads is the same whatever rows matter.
+    // The residual of the loads does not depend on the rows that matter.
     if quick.residuals.loads > tolerance {
         return quick;
     }

@@ -4,7 +4,7 @@
 /// Up to this order, or so many contact points, pivots on a sparse matrix are as fast as factorisations, and say more.
 /// Chosen.
 pub(super) const FEW: usize = 500;
-/// Factorisations of active sets where they do not promise to arrive. Chosen.
+/// Factorisations of active sets if convergence is not guaranteed. Chosen.
 pub(super) const TRIAL: usize = 100;
 
 /// Attempts of pivots before choices of sides have their turn. Measured on planted indefinite problems: they find the

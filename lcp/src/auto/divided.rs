@@ -106,8 +106,8 @@ fn add_route(first: &mut Route, other: &Route) {
     }
 }
 
-/// Solves one part after the other, until one of them proves that the linear conditions have no solution. Of the time
-/// left all remaining parts have the same share: the smallest come first and leave theirs to the others.
+/// Solves one part after the other, until one of them proves that the linear conditions have no solution. The time left
+/// is divided evenly among the remaining parts: the smallest come first and leave theirs to the others.
 fn solve<P: Planned>(
     parts: Vec<Part<P>>,
     settings: &AutoSettings,

@@ -115,7 +115,7 @@ pub struct Budget<'a> {
 }
 
 impl Budget<'_> {
-    /// The methods that treat every problem. Problems have an arm for every other method of their chains.
+    /// A method that treats every problem. [`Planned::solver`] has the others.
     pub(super) fn common<P>(&self, method: Method) -> Box<dyn Solver<P>>
     where
         P: General,
@@ -141,7 +141,7 @@ impl Budget<'_> {
         }
     }
 
-    /// Steps are factorisations: where the method does not promise to arrive, they are few.
+    /// Steps are factorisations: they are few if convergence is not guaranteed.
     pub(super) fn newton(&self, is_sure: bool) -> SemismoothNewton {
         let Self { tolerance, time_limit, .. } = *self;
         let start = self.start.clone();

@@ -23,7 +23,7 @@ pub(crate) fn is_proof_of<'a>(
     separates(columns.into_iter().map(|column| Product::of(column, pi)), c, pi)
 }
 
-/// The same for the general form of a mixed problem, which is not put together.
+/// Whether a vector is a proof for a mixed problem, whose general form is not assembled.
 pub(crate) fn is_proof_of_mixed(problem: &MixedLcp, pi: &[f64]) -> bool {
     // `w - M z = q`, and the positive and the negative part of a free `z` take the place of `z` and `w`.
     let products = problem.free().iter().enumerate().flat_map(|(j, is_free)| {
@@ -34,8 +34,8 @@ pub(crate) fn is_proof_of_mixed(problem: &MixedLcp, pi: &[f64]) -> bool {
     separates(products, problem.q(), pi)
 }
 
-/// The same by the products with the columns. These may be positive by rounding errors of `pi`, relative to their terms, and
-/// `pi . c` has to be far above that.
+/// Whether the products of `pi` with the columns are a proof. These may be positive by rounding errors of `pi`,
+/// relative to their terms, if `pi . c` is far above that.
 fn separates(products: impl Iterator<Item = Product>, c: &[f64], pi: &[f64]) -> bool {
     if pi.len() != c.len() || pi.iter().any(|pi| !pi.is_finite()) {
         return false;

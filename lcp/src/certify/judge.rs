@@ -65,7 +65,7 @@ struct RowSums {
     unit: f64,
     /// The residual of every row.
     rest: Vec<f64>,
-    /// The sum of the sizes of its terms.
+    /// The sum of the sizes of the terms of a row.
     terms: Vec<f64>,
 }
 
@@ -83,7 +83,7 @@ impl<R: JudgedRows> RowJudge<R> {
         })
     }
 
-    /// The same of a point of twice the digits.
+    /// Residuals of a double-double point.
     pub(crate) fn residuals_of(&self, parts: &[&[Extended]]) -> Residuals {
         in_range(parts, |x, unit| self.judged(&self.at(x, unit), Precision::Exact))
     }
@@ -252,12 +252,12 @@ impl<'a, R: JudgedRows> Conditions<'a, R> {
         self.effect(Entry { variable, value })
     }
 
-    /// The largest part of the terms of a row that a variable is. One without any row counts by itself.
+    /// The largest share of a variable in the terms of a row; one without any row.
     fn effect(&self, entry: Entry) -> f64 {
         self.largest(entry, |i, v| self.share(i, v)).unwrap_or(1.0)
     }
 
-    /// The same in units of the loads. One without any row is never the smaller of a pair.
+    /// The largest term of a variable in units of the loads; infinite without any row.
     fn burden(&self, entry: Entry) -> f64 {
         let burden = |i, v: f64| v.abs() * self.judge.weight(self.point.unit, i);
         self.largest(entry, burden).unwrap_or(f64::INFINITY)

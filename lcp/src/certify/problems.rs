@@ -11,11 +11,10 @@ use crate::{BoxedLcp, ContactForces, Friction2d, HorizontalLcp, Lcp, Matrix, Mix
 impl HorizontalLcp {
     /// Residuals of a point, dimensionless, from the data as given; [`Residuals::worst`] decides.
     ///
-    /// What is left of row `i`, `r_i = (A t + B y - c)_i`, is measured by the terms of that row,
-    /// `(|A||t| + |B||y| + |c|)_i`, and so is what a component changes in its rows that violates its sign, or is the
-    /// smaller one of a pair whose variables are both positive. No unit matters, neither of a row nor of a
-    /// variable. In addition `loads` compares what is left with the largest right-hand side of the connected
-    /// part of the row.
+    /// The residual `r_i = (A t + B y - c)_i` of row `i` is measured by the terms of that row, `(|A||t| + |B||y| +
+    /// |c|)_i`, and so is the effect on its rows of a component that violates its sign, or is the smaller one of a pair
+    /// whose variables are both positive. The units of rows and variables do not matter. The residual `loads` compares
+    /// `r_i` with the largest right-hand side of the connected part of the row.
     ///
     /// A NaN in the point makes the residuals infinite, and so do terms that are far beyond the range of numbers.
     ///

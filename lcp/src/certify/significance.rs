@@ -1,10 +1,9 @@
 //! Which rows of a point matter to those that carry the loads.
 //!
-//! If all terms of a row are zero at the solution, a point that comes near has nothing in it but errors, and
-//! compared with these the row never holds. What would change if its variables were set to zero, which makes it hold,
-//! tells whether it matters: the share that they are of the largest term of other rows, times what these are
-//! worth. A row with a load is worth one, and any other the largest product of such shares along a chain from it to a
-//! row with a load. No unit enters.
+//! If all terms of a row are zero at the solution, a near point has only errors in that row, and the row never holds
+//! compared with these. The row would hold with its variables set to zero. A row matters by the shares of its variables
+//! in the largest terms of other rows, times the weights of these. A row with a load has the weight one, and any other
+//! the largest product of such shares along a chain from it to a row with a load. The weights do not depend on units.
 
 use std::collections::BinaryHeap;
 
@@ -47,7 +46,7 @@ pub(super) fn significance(
     }
     let links = Columns::by_rows(worth.len(), links.iter().copied());
     spread(&links, &mut worth);
-    // What no load reaches is measured by the loads around it, if there are any.
+    // Rows that no load reaches are measured by the loads around them, if any.
     for (i, worth) in worth[..rows].iter_mut().enumerate().filter(|(_, worth)| **worth == 0.0) {
         *worth = burden(i);
     }

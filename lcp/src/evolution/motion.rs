@@ -17,7 +17,7 @@ pub enum Ending {
     Rests,
     /// They move on for ever with the [velocity](crate::Evolution::velocity) that they have.
     Flows,
-    /// They have moved further than the problem means anything.
+    /// They have moved beyond the reach of the settings.
     Left,
     /// A limit was reached, or no step however short was solved ([`Status::Stalled`]).
     Open(Status),
@@ -29,7 +29,7 @@ impl Ending {
         self == Self::Rests
     }
 
-    /// The status that it is: a solution, that there is no equilibrium, or why neither is known.
+    /// The status of an ending: solved, no equilibrium, or the reason why neither is known.
     pub fn status(self) -> Status {
         match self {
             Self::Rests => Status::Solved,
@@ -40,9 +40,9 @@ impl Ending {
     }
 }
 
-/// A velocity has settled if it changes by a smaller part in a step of twice the length; what it strains resists it no
-/// more if that would take a smaller part of the work of the loads before the bodies are out of reach; gaps that it
-/// closes by a smaller part of what moves do not close. Chosen: far below what the limits of a structure depend on.
+/// A velocity is constant if it changes by a smaller part in a step of twice the length; its strains are no resistance
+/// if they would take a smaller part of the work of the loads within the reach; gaps that it closes by a smaller part
+/// of the motion do not close. Chosen: far below the accuracy of limit loads.
 const SETTLED: f64 = 1e-2;
 
 impl Evolution {
@@ -73,7 +73,7 @@ impl Evolution {
             if self.is_beyond(&self.state.u) {
                 return Ok(Ending::Left);
             }
-            // With so many halvings in sequence something else is wrong.
+            // So many halvings in sequence have another cause.
             if part < HALF_DIGITS {
                 return Ok(Ending::Open(Status::Stalled));
             }

@@ -20,8 +20,9 @@ pub struct EvolutionSettings {
     pub drag: f64,
     /// Whether bodies have inertia. Without it they come to rest as soon as nothing moves them any more.
     pub inertia: bool,
-    /// The largest displacement up to which the problem means anything: beyond it [`advance`](crate::Evolution::advance)
-    /// and [`settle`](crate::Evolution::settle) end with [`Ending::Left`](crate::Ending::Left), and no state there is rest.
+    /// The largest displacement for which the problem is valid: beyond it [`advance`](crate::Evolution::advance) and
+    /// [`settle`](crate::Evolution::settle) end with [`Ending::Left`](crate::Ending::Left), and no state counts as
+    /// rest.
     #[cfg_attr(feature = "serde", serde(with = "crate::json_numbers::infinity"))]
     pub reach: f64,
     /// Factorisations of one call; the step in which they are reached comes to its end.

@@ -155,8 +155,7 @@ impl Evolution {
             None => vec![0.0; added.len()],
         };
         close(&mut next, self.settings.tolerance);
-        // What is less than the rounding errors of displacements is no slip, and what is computed for a contact that sticks is
-        // an error.
+        // Slips below the rounding errors of displacements, and those of contacts that stick, are zero.
         let least = ROUNDING * max_abs(&next.u);
         let slipped = |slip: &f64| if slip.abs() <= least { 0.0 } else { *slip };
         let slid = contacts.iter().zip(&next.slip).map(|(contact, slip)| {
@@ -198,7 +197,7 @@ impl Evolution {
         step
     }
 
-    /// The same of contacts and supports, which slide by these lengths on the way to the next state.
+    /// The account of contacts and supports, which slide by these lengths to the next state.
     fn of_contacts(
         &self,
         Target { problem, data, .. }: Target<'_>,

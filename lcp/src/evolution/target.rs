@@ -64,7 +64,7 @@ pub(super) enum Taken {
     Yes(Account),
     /// It was taken, and the bodies rest at its end.
     Rests,
-    /// Why not: [`Status::Stalled`] where a shorter one may be, or a limit.
+    /// Not taken: [`Status::Stalled`] if a shorter step may be, or a limit.
     No(Status),
 }
 
@@ -76,7 +76,7 @@ pub(super) struct Course<'a, 'b> {
     pub(super) monitor: &'a mut Monitor<'b>,
 }
 
-/// Closes the gaps that are less than a solution may miss of the displacements, of contacts that press above all.
+/// Sets gaps to zero that are within the tolerance of the largest displacement.
 pub(super) fn close(state: &mut ContactState, tolerance: f64) {
     let least = tolerance * max_abs(&state.u);
     state.gap.iter_mut().filter(|gap| gap.abs() <= least).for_each(|gap| *gap = 0.0);

@@ -23,9 +23,9 @@ pub(super) const WIDE_ENOUGH: f64 = 2.0;
 /// three times are enough.
 pub(super) const WIDENING: f64 = 100.0;
 
-/// Multiples of the largest gap by which starts are opened, one after the other. Measured on walls of 1000 bricks: where gaps
-/// are not opened, those that are easy take a third less steps; where they are, by 1e3 or 1e4, walls near their limit and on
-/// open bases are solved in 35 to 80 steps, on which all other attempts jam, whatever the friction.
+/// Multiples of the largest gap by which starts are opened, one after the other. Measured on walls of 1000 bricks: easy
+/// walls take a third less steps from gaps that are not opened; walls near their limit and on open bases, on which all
+/// other attempts jam whatever the friction, are solved in 35 to 80 steps from gaps opened by 1e3 or 1e4.
 pub(super) const OPENINGS: [f64; 3] = [0.0, 1e4, 1e3];
 /// Steps without a reduction of the merit (mean product plus squared defect) by a tenth after which an attempt is left. Measured on settlements: with 12 an
 /// open base is lost that the path solves with 15; with 20 and 30 those that jam take 5 to 15 more, and no other is solved.
@@ -62,8 +62,8 @@ pub(super) const LONG: f64 = 0.7;
 
 /// Distance of a start of the homogeneous problem from the bounds, at least, relative to the largest pull. Measured on rigid
 /// walls of 10 000 bricks: open bases take 26, 39, 41 and 55 steps with a friction of 1, 0.6, 0.59 and 0.58, which is next to
-/// the least; with ten times the pull 24, 35, 51 and 72. Of 100 000 bricks one takes 65; with ten times 70, with 1.5 times
-/// 106. On a full floor nothing pulls, and the mean is enough.
+/// the least; with ten times the pull 24, 35, 51 and 72. A wall of 100 000 bricks takes 65, with ten times 70, with 1.5
+/// times 106. No contact of a full floor pulls, and the mean is enough.
 pub(super) const START_SHIFT: f64 = 20.0;
 
 /// Multiple of the largest load by which the balance of forces is measured at most. Measured on a tilted wall of 10 050

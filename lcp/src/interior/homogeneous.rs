@@ -89,7 +89,7 @@ fn balanced(program: &Program, factors: &ProgramFactors, at: &Variables) -> Vari
     };
     let mut at = at.clone();
     let mut rest = lack(&at.t);
-    // The largest does not grow but for rounding; the others are made good beside it.
+    // The largest may grow by rounding only, while the others are corrected.
     let most = max_abs(&rest).max(ROUNDING * max_abs(&at.t));
     for _ in 0..BALANCINGS {
         factors.gram.solve(&mut rest);
@@ -347,8 +347,8 @@ impl<'a> Newton<'a> {
         dot(by_u, &step.u) - dot(by_t, &step.t)
     }
 
-    /// The step that reduces the residuals of all equations by a part, with products of an aim in the end, less the
-    /// second-order term of a predictor.
+    /// The step that reduces the residuals of all equations by `part` and takes the products to `aim`, with the
+    /// second-order correction of a predictor.
     fn step(&self, part: f64, aim: f64, predictor: &Variables) -> Variables {
         let Variables { t, y, tau, kappa, .. } = self.at;
         let pairs = t.iter().zip(y).zip(predictor.t.iter().zip(&predictor.y));
@@ -402,7 +402,7 @@ impl<'a> Newton<'a> {
             t.iter_mut().zip(&y).zip(stiffness).for_each(|((t, y), s)| *t -= s * y);
             let data = aim.gaps.iter().zip(&aim.targets).zip(&program.compliance);
             let pairs = at.t.iter().zip(&at.y).zip(&t).zip(data);
-            // Of the two equations for `dy` the one that keeps the digits: the second where `t` is the larger one.
+            // The one of two equations for `dy` that keeps the digits: the second if `t` is the larger one.
             for (y, (((t, gap), dt), ((lack, target), c))) in y.iter_mut().zip(pairs) {
                 *y = if t > gap { (target - gap * dt) / t } else { *y + c * dt + aim.part * lack };
             }

@@ -62,8 +62,8 @@ impl Pairs {
         (self.slip_plus / plus, self.slip_minus / minus)
     }
 
-    /// The springs that Newton's method puts in the place of the contact. With a proximal term of half the digits in them, which
-    /// changes nothing where the iteration ends.
+    /// The springs that Newton's method puts in the place of the contact, with a proximal term of half the digits,
+    /// which does not change the limit of the iteration.
     pub(super) fn springs(&self, compliance: [f64; 2]) -> Springs {
         let nn = 1.0 / (self.gap / self.t_n + compliance[0] + HALF_DIGITS);
         if self.mu == 0.0 {

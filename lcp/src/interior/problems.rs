@@ -41,9 +41,8 @@ impl Solver<MixedLcp> for InteriorPoint {
 }
 
 impl InteriorPoint {
-    /// The path, and pivots from its end if the loads are balanced there but the states of no vertex nearby are consistent:
-    /// where rows have nothing but rounding errors in them, small against all others, no matrix of the path shows which of
-    /// their variables are basic.
+    /// Follows the path, and pivots from its end if the loads are balanced but no vertex nearby has consistent states:
+    /// the matrices of the path do not show which variables are basic in rows that have only rounding errors.
     fn to_vertex(
         &self,
         problem: &MixedLcp,

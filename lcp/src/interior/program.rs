@@ -43,7 +43,7 @@ impl Program {
         Self { k, f, a, x_0: vec![0.0; count], compliance: vec![1.0; count] }
     }
 
-    /// The same with variables of order one, and what they are measured in.
+    /// The program with variables of order one, and the units of these.
     pub(super) fn scaled(mut self) -> (Self, Units) {
         let mut largest = vec![0.0_f64; self.f.len()];
         for entry in self.a.triplet_iter() {

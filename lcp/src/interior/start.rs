@@ -22,7 +22,7 @@ pub(super) fn start(problem: &Scaled, condensed: &mut Condensed) -> Iterate {
         point.add_forces(-springs.nn * point.x_0, -springs.tt * point.s_0, &mut u);
     }
     condensed.solve(&mut u);
-    // Of the gap that the springs predict a compliant contact has less: its own force times its compliance.
+    // A compliant contact has a smaller gap than its spring predicts, by its force times its compliance.
     let gaps = problem.points.iter().zip(&springs);
     let gaps: Vec<f64> = gaps.map(|(point, springs)| springs.nn * point.gap(&u, 0.0)).collect();
     let mean = gaps.iter().map(|g| g.abs()).sum::<f64>() / gaps.len().max(1) as f64;
@@ -46,10 +46,10 @@ pub(super) fn start(problem: &Scaled, condensed: &mut Condensed) -> Iterate {
 
 /// The first step, from a start that is opened first if need be.
 ///
-/// A start knows how bodies are deformed, but not how far slender ones bend and loose ones turn. The predictor tells, with the
-/// forces of the start, that its gaps are too small for that: it changes them by more than twice their mean. Where wider gaps do not
-/// bring the change down by half, forces or the problem are at fault: if any decrease will do, the path of a rigid wedge that is
-/// pulled out jams.
+/// A start has the deformations of bodies, but not the bending of slender ones and the rotations of loose ones. Its
+/// gaps are too small for these if the predictor, with the forces of the start, changes them by more than twice their
+/// mean. Forces or the problem are at fault if wider gaps do not halve the change: with any smaller decrease, the path
+/// of a rigid wedge that is pulled out jams.
 pub(super) fn set_out(
     problem: &Scaled,
     condensed: &mut Condensed,
@@ -80,7 +80,7 @@ mod tests {
     use super::*;
     use crate::{Contact2d, ContactPoint};
 
-    /// What products miss decreases by the part of a step that is taken, up to the square of that part.
+    /// The error of products decreases by the part of a step that is taken, up to its square.
     #[test]
     fn newtons_step_is_exact_to_first_order() {
         let mut builder = Contact2d::builder([[2.0, 0.5], [0.5, 1.0]], vec![-1.0, 0.7]);

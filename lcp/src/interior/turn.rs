@@ -5,12 +5,13 @@ use super::iterate::{Direction, Iterate};
 use super::newton_system::NewtonSystem;
 use crate::solve::StepKind;
 
-/// A step along the central path where it turns, or nearly.
+/// A step along the central path near a turn.
 ///
-/// At a turn the determinant of Newton's equations changes its sign: while it is negative, the way forwards along the path, of
-/// points whose products all have one value `tau`, is the one on which `tau` grows (Allgower and Georg 1990). Near a turn the
-/// equations for a fixed `tau` have no solution or two, so that corrections grow beyond bounds. The correction here leaves the
-/// place along the path alone: `tau` becomes whatever belongs to it. To that comes a piece of the path.
+/// The path consists of the points whose products all have one value `tau`. The determinant of Newton's equations
+/// changes its sign at a turn: while it is negative, `tau` grows forwards along the path (Allgower and Georg 1990). The
+/// equations for a fixed `tau` near a turn have no solution or two, so that corrections grow beyond bounds. The
+/// correction here is normal to the path, in relative changes, and leaves `tau` free; a piece of arc length along the
+/// path is added.
 pub(super) fn turn(system: &NewtonSystem<'_>, at: &Iterate, predictor: &Iterate) -> Direction {
     let along = system.correction(&vec![[1.0; 3]; at.points.len()]);
     let (mut product, mut square, mut largest) = (0.0, 0.0, 0.0_f64);

@@ -32,7 +32,7 @@ impl Variables {
             *gap = stiffness * (*gap + x);
         }
         let mean = gaps.iter().map(|g| g.abs()).sum::<f64>() / gaps.len().max(1) as f64;
-        // What pulls cannot stay: the larger that is, the farther off the solution.
+        // Contacts that pull cannot stay: the larger the pull, the farther the solution.
         let pull = gaps.iter().fold(0.0, |max, gap| gap.max(max));
         let shift = mean.max(START_SHIFT * pull);
         let shift = if shift > 0.0 && shift.is_finite() { shift } else { 1.0 };

@@ -40,7 +40,7 @@ impl BasisMatrix {
         Self::from_columns(problem, &columns)
     }
 
-    /// Of any columns, as many as there are rows; none is the right-hand side.
+    /// The matrix of any columns, one per row; `None` is the right-hand side.
     pub(super) fn from_columns(
         problem: &Equilibrated<'_>,
         columns: &[Option<(usize, Side)>],
@@ -119,7 +119,7 @@ impl BasisMatrix {
         });
         self.solve_transpose(&mut step);
         let errors = sampled(&sizes, |sample| self.solve_transpose(sample));
-        // What refinement has made smaller and smaller is below the error of nothing.
+        // Numbers this small are zero, whatever the sampled errors.
         let least = f64::EPSILON * f64::EPSILON * max_abs(&y);
         let refined = y.iter().zip(&step).map(|(y, step)| y + step);
         refined

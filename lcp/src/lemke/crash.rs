@@ -124,7 +124,7 @@ fn grown(problem: &Equilibrated<'_>, preferred: &[Side], deadline: Option<Instan
     Crash::Partial { chosen, complement }
 }
 
-/// As many of the first columns as are independent, then other columns of the pairs without one, and the rows that stay
+/// Chooses independent columns, `first` ones before others of their pairs, at most one of a pair; also returns the rows
 /// without a column. `columns` are those of [`both_sides`].
 fn independent(
     columns: &Columns,

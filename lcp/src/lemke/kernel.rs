@@ -31,8 +31,8 @@ pub(super) trait Kernel {
     /// The entry of a row with these factors in the column of a nonbasic variable.
     fn entry(&self, row: usize, factors: &[f64], var: Var) -> f64;
 
-    /// Where rows cost much: in terms of the present basis a vector, always the same in start
-    /// coordinates, that parts ties as adding a little of it to the right-hand side would.
+    /// A vector that breaks ties as a small multiple of it on the right-hand side would, in terms of the
+    /// present basis and constant in start coordinates; only if rows cost much.
     fn parting(&self) -> Option<Vec<f64>>;
 
     /// Whether the exchanges held back should be dealt with.

@@ -244,7 +244,7 @@ impl Tracer<'_> {
         ParametricRay { dlambda: self.unit * speed, dt, dy }
     }
 
-    /// Of every pair the variable that is basic or entering.
+    /// The basic or entering variable of every pair.
     fn basis(&self, path: &Path<'_>, entering: Var) -> Basis {
         let n = self.problem.order();
         let mut z_is_basic = path.z_is_basic();

@@ -185,7 +185,7 @@ impl<'a> Path<'a> {
                     }
                     entering = self.exchange(row, entering, column);
                 }
-                // What looks like a ray may be drift: only a column that the data confirm counts.
+                // A ray may be drift: only a column that the data confirm counts.
                 None if !self.has_drifted(entering) => return self.at_ray(entering, column),
                 None if self.is_rebuilt() => return AttemptEnd::Singular,
                 None if !self.rebuild() => return AttemptEnd::Singular,

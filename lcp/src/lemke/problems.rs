@@ -12,7 +12,7 @@ use crate::{
 };
 
 impl Lemke {
-    /// With an observer of any method: see [`Iteration`].
+    /// Solves with an observer of any method: see [`Iteration`].
     fn solve_iterating(
         &self,
         problem: &HorizontalLcp,
@@ -81,8 +81,8 @@ impl Solver<Contact2d> for Lemke {
     }
 }
 
-/// The same problem with gaps and slips of zero in the place of rounding errors, if there are any: closed contacts
-/// contradict each other by them, so that no basis is quite right.
+/// The problem with gaps and slips of zero in the place of rounding errors, if there are any: closed contacts
+/// contradict each other by rounding errors, so that no basis is quite right.
 fn without_rounding(problem: &Contact2d) -> Option<Contact2d> {
     let points = Scaled::of_contact(problem).points;
     let mut has_any = false;

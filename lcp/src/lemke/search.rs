@@ -198,7 +198,7 @@ impl<'a> Attempts<'a> {
         }
     }
 
-    /// The start basis of a trial, if it is another one than the first; where it is singular, the first one is taken.
+    /// The start of a trial, if its basis is not the first one; a singular basis is replaced by the first one.
     fn other_start(
         &self,
         trial: &mut Trial,

@@ -28,7 +28,7 @@ pub(super) struct SparseStart {
     /// `[W Z]`.
     pub(super) columns: Columns,
     pub(super) right: Vec<f64>,
-    /// Of `W`.
+    /// Factors of `W`.
     pub(super) lu: SparseLu,
 }
 
@@ -37,7 +37,7 @@ pub(super) struct Sparse<'a> {
     start: &'a SparseStart,
     /// The column of the artificial variable.
     artificial: Vec<f64>,
-    /// What parts ties.
+    /// The vector that breaks ties.
     parting: Vec<f64>,
     factored: Factored<'a>,
     /// Pivots since the factorisation, and how many are allowed.
@@ -68,7 +68,7 @@ impl<'a> Sparse<'a> {
         for (k, &d) in covering.iter().enumerate().filter(|(_, d)| **d != 0.0) {
             start.columns.add_to(k, -d, &mut artificial);
         }
-        // Of ties in the first pivot the last row goes: there the part is the smallest.
+        // The last row of a tie in the first pivot leaves: its part is the smallest.
         let mut parting = vec![0.0; n];
         let mut random = SplitMix::new(n as u64);
         for (k, &d) in covering.iter().enumerate() {

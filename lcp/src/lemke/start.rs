@@ -96,7 +96,7 @@ impl<'a> Equilibrated<'a> {
         self.problem.c().iter().zip(&self.row).map(|(c, row)| c * row).collect()
     }
 
-    /// The equilibrated diagonal of a side all of whose columns have their only entry there.
+    /// The equilibrated diagonal of a side, if all its columns are zero elsewhere.
     pub(super) fn diagonal(&self, side: impl Fn(usize) -> Side) -> Option<Vec<f64>> {
         (0..self.order())
             .map(|j| match self.problem.column(j, side(j)).single() {
@@ -234,7 +234,7 @@ impl Start {
         self.free[pair]
     }
 
-    /// The same with free variables as two parts that are bounded like all others, so that a change of
+    /// The start with free variables as two parts that are bounded like all others, so that a change of
     /// sign is a pivot.
     pub(super) fn bounded(mut self) -> Self {
         self.free.fill(false);
@@ -274,7 +274,7 @@ impl Start {
         Basis::new(sides.map(|(side, &z)| if z { side.complement() } else { *side }).collect())
     }
 
-    /// The columns of `w + T z - d z0 = q` before the first pivot, for that covering vector.
+    /// The columns of `w + T z - d z0 = q` before the first pivot, `covering` being `d`.
     pub(super) fn kernel<'a>(&'a self, covering: &'a [f64]) -> Box<dyn Kernel + 'a> {
         match &self.data {
             StartData::Dense(t) => Box::new(Dense::new(t.as_ref(), covering, &self.q)),

@@ -33,7 +33,7 @@ impl<'a> Column<'a> {
         }
     }
 
-    /// The same, with the sizes of what is added.
+    /// `out += factor * column`, and `sizes` with absolute terms.
     pub(crate) fn add_with_sizes(self, factor: f64, out: &mut [f64], sizes: &mut [f64]) {
         self.for_each(|i, v| {
             let term = factor * v;

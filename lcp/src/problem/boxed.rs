@@ -31,7 +31,7 @@ pub struct BoxedLcp {
     upper: Vec<f64>,
 }
 
-/// What the bounds make of a variable, and its pairs `(t, y)` in the general form.
+/// The kind of a variable by its bounds, and its pairs `(t, y)` in the general form.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum BoundKind {
     /// `z = t - y`, `w = 0`.
@@ -200,7 +200,7 @@ impl BoxedLcp {
         (t, y)
     }
 
-    /// The same problem with what is at a bound fixed there, and what is between its bounds free; `None` if nothing is.
+    /// The problem with variables at a bound fixed there, and those between bounds free; `None` if none is free.
     pub(crate) fn held(&self, z: &[f64], w: &[f64]) -> Option<Self> {
         let is_inside = |j: usize| w[j] == 0.0 && self.lower[j] < z[j] && z[j] < self.upper[j];
         let mut held = Self { lower: z.to_vec(), upper: z.to_vec(), ..self.clone() };

@@ -125,7 +125,7 @@ impl Contact2d {
         Ok(Self { k, f, c_n, c_t, x_0, s_0, mu, compliance, friction })
     }
 
-    /// The same problem with springs in series with the contacts: the normal and the tangential compliance of every
+    /// Adds springs in series with the contacts: the normal and the tangential compliance of every
     /// point, in length per force. Without friction a point has no tangential force, and its tangential compliance does
     /// not matter.
     ///
@@ -152,7 +152,7 @@ impl Contact2d {
         Ok(Self { compliance, ..self })
     }
 
-    /// The same structure under other loads.
+    /// The structure under other loads.
     ///
     /// # Errors
     /// [`Error::Length`] or [`Error::NotFinite`] as [`new`](Self::new).
@@ -162,7 +162,7 @@ impl Contact2d {
         Ok(Self { f, ..self.clone() })
     }
 
-    /// The same problem with slips measured from the displacements `u`, for bodies that have moved there: `s_0` becomes
+    /// The problem with slips measured from the displacements `u`, for bodies that have moved there: `s_0` becomes
     /// `-C_t u`. Slips of a state with compliant contacts are taken off by [`slid`](Self::slid).
     ///
     /// # Errors
@@ -175,7 +175,7 @@ impl Contact2d {
         Ok(Self { s_0, ..self.clone() })
     }
 
-    /// The same problem with slips measured from where these `slips` have taken place: they are subtracted from `s_0`.
+    /// The problem with slips measured from the positions after `slips`, which are subtracted from `s_0`.
     ///
     /// # Errors
     /// [`Error::Length`] or [`Error::NotFinite`] as [`new`](Self::new).

@@ -87,8 +87,8 @@ impl MixedLcp {
         self.boxed.to_pairs(z, w)
     }
 
-    /// An entry that keeps `M` from being symmetric within the free and within the other variables, and skew between
-    /// them.
+    /// An entry that violates the symmetry of `M` among free or among other variables, or its skew symmetry between
+    /// both.
     pub(crate) fn asymmetry(&self) -> Option<(usize, usize)> {
         let free = self.free();
         self.m().asymmetry(|i, j| if free[i] == free[j] { 1.0 } else { -1.0 })

@@ -7,11 +7,12 @@ use super::program::ProgramRun;
 use crate::states::{PointRef, Scaled};
 use crate::{Status, active};
 
-/// Solves the program, and where there is friction the sequence of programs whose bounds are `mu` times
-/// the normal forces of the one before. Of every solution the states of the contacts are solved with Coulomb's
-/// own law, which ends the sequence as soon as they are right. `to_scaled` says what displacements and forces a point is.
+/// Solves the program, and if there is friction the sequence of programs whose bounds are `mu` times the
+/// normal forces of the one before. The states of the contacts of every solution are solved with Coulomb's
+/// law, which ends the sequence as soon as they are right. `to_scaled` gives the displacements and forces of a point.
 ///
-/// Says why it ended, where the best point is not good enough.
+/// # Errors
+/// The status if the best point is not good enough.
 pub(super) fn solve_programs(
     run: &mut ProgramRun<'_>,
     program: &mut Interior,
@@ -61,8 +62,8 @@ pub(super) fn solve_programs(
         if idle > IDLE || (idle >= DOUBTS && run.proof().is_some()) {
             break Err(Status::Stalled);
         }
-        // The first bounds are a guess, of which nothing is to be kept. Later whole steps would swing to and fro: where more
-        // load goes into friction at one place it is missing at others.
+        // The first bounds are a guess, and nothing of them is kept. Later whole steps would oscillate: load that
+        // friction takes at one place is missing at others.
         let next = if last.is_none() { image } else { halfway(&limits, &image) };
         last = Some(std::mem::replace(&mut limits, next));
     };

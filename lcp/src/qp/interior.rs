@@ -18,7 +18,7 @@ use crate::vector::{HALF_DIGITS, max_abs};
 /// How a run of the interior-point method ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum End {
-    /// With a point, more or less exact.
+    /// A point was found, more or less exact.
     ProgramPoint,
     /// The program is infeasible or unbounded, or seems so.
     NoPoint,
@@ -115,7 +115,7 @@ impl Interior {
 
     /// Solves for these bounds of the multipliers of cones, one for every row of the form, within a time.
     pub(super) fn solve(&mut self, limits: &[f64], time: Option<Duration>) -> Found {
-        // A bound of zero leaves the program without an interior. What this changes the exchange of states puts right.
+        // A bound of zero leaves the program without an interior. The exchange of states corrects the change.
         let largest = max_abs(limits);
         let floor = if largest > 0.0 { HALF_DIGITS * largest } else { HALF_DIGITS };
         let limits: Vec<f64> = limits.iter().map(|limit| limit.max(floor)).collect();
@@ -174,8 +174,8 @@ impl Interior {
     }
 }
 
-/// Whether a run was near a solution once and is on its way away from it: where the tolerance is below what
-/// rounding errors allow, which depends on the program, the iteration goes on and ends anywhere.
+/// Whether a run was near a solution once and now diverges from it: an iteration whose tolerance is below the
+/// rounding errors of the program goes on and ends anywhere.
 fn is_past_best() -> impl FnMut(&DefaultInfo<f64>) -> bool {
     let mut best = f64::INFINITY;
     move |info| {

@@ -24,7 +24,7 @@ pub(super) struct ProgramRun<'a> {
 }
 
 impl<'a> ProgramRun<'a> {
-    /// With so many programs at most.
+    /// A run of at most `max_programs`.
     pub(super) fn new(
         settings: &'a QuadraticProgramSettings,
         problem: &'a dyn Original,

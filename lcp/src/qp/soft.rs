@@ -119,7 +119,7 @@ impl QuadraticProgram {
         Ok(run.finish(end))
     }
 
-    /// The same solver for a problem that has its springs.
+    /// The solver without springs, for a problem that has them.
     fn without_soft(&self) -> Self {
         Self::new(QuadraticProgramSettings { soft: None, ..self.settings.clone() })
     }

@@ -79,7 +79,7 @@ struct Solve<'a> {
     at: ExtendedPoint,
     /// The change of `C^T t` by the last pass, relative to the largest.
     correction: f64,
-    /// The largest of these before a shift.
+    /// The largest correction before a shift.
     shifted: f64,
     passes: usize,
 }
@@ -146,7 +146,7 @@ impl<'a> Solve<'a> {
                 }
                 break;
             }
-            // What is left no displacements and forces can mend, and they only grow against it.
+            // No displacements and forces reduce the rest; they would only grow.
             self.shifts.absorb(&rest);
             self.shifted = self.shifted.max(self.correction);
             self.at = given.clone();

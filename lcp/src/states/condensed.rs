@@ -33,7 +33,7 @@ impl Springs {
 pub(crate) struct Condensed {
     pattern: Pattern,
     values: Vec<f64>,
-    /// The part of the values that `K` has.
+    /// The contribution of `K` to the values.
     stiffness: Vec<f64>,
     /// Places of the diagonal.
     of_diagonal: Vec<usize>,
@@ -64,7 +64,7 @@ impl Condensed {
         Ok(planned.reloaded(problem))
     }
 
-    /// The same plan for a problem of the same pattern, whose stiffness may have other values.
+    /// This plan for a problem of the same pattern, whose stiffness may have other values.
     pub(crate) fn reloaded(mut self, problem: &Scaled) -> Self {
         self.stiffness.fill(0.0);
         for j in 0..problem.order() {

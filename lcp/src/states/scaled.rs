@@ -92,7 +92,7 @@ impl Scaled {
                 }
             }
         }
-        // Of all together, so that what differs by the unit of `M` alone is the same problem.
+        // One stiffness for all, so that the unit of `M` does not change the scaled problem.
         let stiffness = power_of_two(max_abs(&largest).max(f64::MIN_POSITIVE));
         let factor = |v: &f64| if *v > 0.0 { power_of_two((stiffness / v).sqrt()) } else { 1.0 };
         let column: Vec<f64> = largest.iter().map(factor).collect();

@@ -61,7 +61,7 @@ pub fn read_matrix(content: &[u8], rows: usize, cols: usize) -> Result<Matrix, R
     } else {
         coordinates(&mut tokens, header, rows, cols)?
     };
-    tokens.end("correct the sizes, or take it out")?;
+    tokens.end("correct the sizes, or remove the rest")?;
     let all = entries.into_iter().flat_map(|(i, j, v)| {
         let mirrored = header.mirrored.filter(|_| i != j).map(|sign| (j, i, sign * v));
         [(i, j, v)].into_iter().chain(mirrored)

@@ -176,7 +176,7 @@ impl<'a> Tokens<'a> {
             }
         }
         match self.next().filter(number) {
-            Some(token) => Err(token.unexpected(END, "correct the sizes, or take it out")),
+            Some(token) => Err(token.unexpected(END, "correct the sizes, or remove the rest")),
             None => Ok(()),
         }
     }

@@ -36,7 +36,7 @@ struct Matching<'a> {
     columns: &'a Columns,
     n: usize,
     pair_of_row: Vec<Option<usize>>,
-    /// For a matched pair whether with the column of the other side.
+    /// Whether a matched pair has the column of the other side.
     is_other: Vec<Option<bool>>,
     /// Round in which a row was last seen.
     seen: Vec<usize>,

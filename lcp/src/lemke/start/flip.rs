@@ -11,9 +11,9 @@ use crate::solve::is_over;
 use crate::vector::max_abs;
 
 impl Start {
-    /// Another start basis: principal pivots on pairs drawn at random, where the pivot is sound; where
-    /// the diagonal is not, together with the pair that makes a block of order two sound. Of many
-    /// sparse pairs no more than some hundreds are drawn. Ends where it is when the time is over.
+    /// Another start basis: principal pivots on pairs drawn at random, alone if the pivot is sound, else
+    /// together with a pair that makes a block of order two sound. At most some hundred pairs of a
+    /// sparse problem are drawn. The basis so far if the time is over.
     pub(crate) fn flipped(&self, seed: u64, deadline: Option<Instant>) -> Basis {
         let n = self.q.len();
         let is_sparse = matches!(self.data, StartData::Sparse(_));

@@ -1,8 +1,8 @@
-//! What a contact does, and what follows for its forces.
+//! The state of a contact, and its consequences for forces.
 
 use std::ops::{Mul, Neg};
 
-/// What a contact of an answer does.
+/// The state of a contact.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum ContactStatus {

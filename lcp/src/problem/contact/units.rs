@@ -38,7 +38,7 @@ impl Contact2d {
         (0..self.points()).flat_map(|i| self.springs_of(i))
     }
 
-    /// The same of one point.
+    /// The springs of one point.
     pub(crate) fn springs_of(&self, i: usize) -> impl Iterator<Item = f64> + use<> {
         let carries = [true, self.mu[i] > 0.0];
         let both = self.compliance[i].into_iter().zip(carries);

@@ -250,8 +250,7 @@ impl<'a> Program<'a> {
 
     fn column_of(&self, name: &Token<'_>) -> Result<usize, ReadError> {
         let column = self.columns.get(name.text).copied();
-        column
-            .ok_or_else(|| name.unexpected("the name of a variable", "they stand in COLUMNS first"))
+        column.ok_or_else(|| name.unexpected("the name of a variable", "names go in COLUMNS first"))
     }
 
     /// The program of all lines.

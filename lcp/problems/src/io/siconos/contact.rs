@@ -22,7 +22,7 @@ pub(in crate::io) fn read_friction(text: &str) -> Result<Problem, ReadError> {
     if ahead.next().is_some_and(|token| matches!(token.text, "0" | "1")) {
         tokens = ahead;
     }
-    tokens.end("correct the sizes, or take it out")?;
+    tokens.end("correct the sizes, or remove the rest")?;
     posed(Friction2d::new(w, q, mu), Problem::Friction, at)
 }
 
@@ -42,7 +42,7 @@ pub(in crate::io) fn read_global(text: &str) -> Result<Problem, ReadError> {
     let q = tokens.numbers(n, "q")?;
     let b = tokens.numbers(2 * contacts, "b")?;
     let mu = frictions(&mut tokens, contacts)?;
-    tokens.end("correct the sizes, or take it out")?;
+    tokens.end("correct the sizes, or remove the rest")?;
     let [c_n, c_t] = [0, 1].map(|part| rows_of(&h, part));
     let of_contacts =
         |part: usize| -> Vec<f64> { b.iter().skip(part).step_by(2).copied().collect() };

@@ -85,7 +85,7 @@ fn ascending(
 ) -> Result<Vec<usize>, ReadError> {
     tokens.room_for(Some(count), what)?;
     if count == 0 && last > 0 {
-        let expected = format_args!("{what} up to {last}");
+        let expected = format_args!("{what} at {last}");
         return Err(ReadError::unexpected(tokens.position(), expected, "none", SIZES));
     }
     let mut least = step;
