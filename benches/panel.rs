@@ -10,9 +10,9 @@ use std::time::Duration;
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use faer::Mat;
-use masonry::method::forms::{Form, FormKind};
+use masonry::forms::reduction::Reduction;
+use masonry::forms::{Form, FormKind};
 use masonry::method::lemke::Pivots;
-use masonry::method::reduction::Reduction;
 use masonry::method::{Method, Request};
 use masonry::model::Model;
 use masonry::plan::Plan;

@@ -1,7 +1,7 @@
 //! Walls of many bricks as contact problems.
 
 use lcp::Contact2d;
-use masonry::method::forms::Sparse;
+use masonry::forms::Sparse;
 use masonry::model::Model;
 use masonry::scene::{Brick, Joint, Load, Material, Plane, Scene, Support, Wall};
 use masonry::system::System;

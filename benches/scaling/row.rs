@@ -6,8 +6,8 @@ use std::time::Instant;
 
 use masonry::analysis::outcome::Outcome;
 use masonry::analysis::solve::{Event, Run};
-use masonry::method::forms::Sparse;
-use masonry::method::info::PhaseTime;
+use masonry::data::info::PhaseTime;
+use masonry::forms::Sparse;
 use masonry::model::Model;
 use masonry::system::System;
 use masonry::{Evidence, Verdict};

@@ -3,7 +3,8 @@
 use std::fmt;
 use std::ops::ControlFlow;
 
-use masonry::method::statics::{self, Statics};
+use masonry::data::statics::Statics;
+use masonry::method::statics;
 use masonry::model::{DRY_JOINT, Model};
 use masonry::scene::{
     Brick, Joint, Load, Material, Movement, Plane, Scene, Stage, Support, Wall as Bond,

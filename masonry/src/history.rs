@@ -20,10 +20,10 @@ use std::collections::BTreeSet;
 
 use serde::{Deserialize, Serialize};
 
-use crate::method::info::Way;
+use crate::data::info::Way;
+use crate::data::state::Reaction;
 use crate::model::{Body, Model};
 use crate::scene::{Load, Movement, Route, Scene, Stage};
-use crate::state::Reaction;
 
 pub(crate) mod energy;
 pub(crate) mod spread;

@@ -18,7 +18,7 @@
 //! ```
 //!
 //! and `-T` along the normal is a load on both sides. So [`System`](crate::system::System) and everything built on it
-//! use `t_n'`, and only [`Friction::base`] is new there; [`State`](crate::state::State) has `t_n` again. Nothing else
+//! use `t_n'`, and only [`Friction::base`] is new there; [`State`](crate::data::state::State) has `t_n` again. Nothing else
 //! in the crate depends on the bound.
 
 //!

@@ -29,17 +29,18 @@
 //! | module | what it holds |
 //! |---|---|
 //! | [`units`], [`ids`], [`geometry`], [`material`], [`element`] | used by all others |
+//! | [`data`] | what modules tell one another: states, routes, proofs, verdicts |
 //! | [`law`] | the law of a joint: friction, cohesion, tensile strength |
 //! | [`scene`] | the input in its own units: text, checks, builders, bonds of bricks |
 //! | [`model`] | blocks, joints, contact points and meshes, in SI units |
 //! | [`system`] | stiffness, loads, contact rows (3.2), rigid motions |
-//! | [`state`] | displacements, contact forces, stresses: plain data |
-//! | [`method`] | one file per method, the choice among them (`auto`), the forms of the problem (3.27) and its reduction (3.18), (3.23), admissible forces |
+//! | [`forms`] | the forms of the problem (3.27) and its reduction (3.18), (3.23) |
 //! | [`recover`] | from contact forces to displacements, stresses, reactions |
+//! | [`method`] | one file per method, the choice among them (`auto`), admissible forces |
 //! | [`paper`] | parts of the paper's own program: augmented Lagrangian method, films with nodes |
 //! | [`history`] | loads and support positions of every step |
-//! | [`plan`] | the effects that the scene uses, and why |
 //! | [`verify`] | checks of a state: balances and contact law; the verdict: stands, falls or undecided |
+//! | [`plan`] | the effects that the scene uses, and why |
 //! | [`analysis`] | one solution, load histories, studies of accuracy |
 //! | [`report`] | text, pictures, tables, meshes |
 //!
@@ -48,9 +49,11 @@
 
 pub mod analysis;
 mod columns;
+pub mod data;
 pub mod element;
 #[doc(hidden)]
 pub mod files;
+pub mod forms;
 pub mod geometry;
 pub mod history;
 pub mod ids;
@@ -64,19 +67,18 @@ pub mod recover;
 pub mod report;
 mod rounding;
 pub mod scene;
-pub mod state;
 pub mod system;
 pub mod units;
 pub mod verify;
 
 pub use analysis::outcome::Outcome;
 pub use analysis::solve::{Run, SolveError, solve, solve_observed};
+pub use data::state::State;
+pub use data::verdict::{Evidence, Judgement, Verdict};
 pub use model::Model;
 pub use plan::Plan;
 pub use scene::{Scene, SceneError};
-pub use state::State;
 pub use units::Units;
-pub use verify::verdict::{Evidence, Judgement, Verdict};
 
 /// The programs of the README and of the guide are compiled and run with the tests.
 #[cfg(doctest)]

@@ -3,31 +3,30 @@
 //! | route | problem | method |
 //! |---|---|---|
 //! | [`forces`] | [`System`](crate::system::System) | admissible forces, by one convex program, or the proof that there are none |
-//! | [`lemke`] | [`Reduction`](crate::method::reduction::Reduction), dense | Lemke's method |
-//! | [`interior`] | [`Sparse`](crate::method::forms::Sparse) | interior-point method, with evidence if there is no equilibrium |
-//! | [`qp`] | [`Sparse`](crate::method::forms::Sparse) | convex quadratic programs, with proofs if there is no equilibrium |
-//! | [`pgs`] | [`Sparse`](crate::method::forms::Sparse) | projected Gauss-Seidel on the contacts of blocks on springs |
-//! | [`alm`](crate::paper::alm) | [`Sparse`](crate::method::forms::Sparse), or whole films | the augmented Lagrangian method of the paper |
+//! | [`lemke`] | [`Reduction`](crate::forms::reduction::Reduction), dense | Lemke's method |
+//! | [`interior`] | [`Sparse`](crate::forms::Sparse) | interior-point method, with evidence if there is no equilibrium |
+//! | [`qp`] | [`Sparse`](crate::forms::Sparse) | convex quadratic programs, with proofs if there is no equilibrium |
+//! | [`pgs`] | [`Sparse`](crate::forms::Sparse) | projected Gauss-Seidel on the contacts of blocks on springs |
+//! | [`alm`](crate::paper::alm) | [`Sparse`](crate::forms::Sparse), or whole films | the augmented Lagrangian method of the paper |
 //!
 //! All of them give an [`Answer`] to a [`Request`]. The [`Plan`](crate::plan::Plan) says which ones a scene uses.
 
 use std::ops::ControlFlow;
 
-use crate::method::forms::{RowState, Start};
-use crate::method::info::SolveInfo;
+use crate::data::info::SolveInfo;
+use crate::data::motion::Motion;
+use crate::data::state::RowState;
+use crate::forms::Start;
 use crate::scene::Form;
 
 pub(crate) mod auto;
 mod error;
 pub mod forces;
-pub mod forms;
-pub mod info;
 pub mod interior;
 pub mod lemke;
 pub(crate) mod loading;
 pub mod pgs;
 pub mod qp;
-pub mod reduction;
 pub(crate) mod sparse;
 pub mod statics;
 
@@ -86,17 +85,6 @@ pub struct Answer {
     pub moved: Option<Vec<f64>>,
     /// Works and energies on the way, if blocks moved.
     pub account: Option<lcp::Account>,
-}
-
-/// A motion of all blocks.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Motion {
-    /// Rates of the rigid amplitudes, three per block.
-    Rigid(Vec<f64>),
-    /// Displacements of the sparse problem, which are a rigid motion of every block and a little more.
-    Displacements(Vec<f64>),
-    /// Velocities of the sparse problem, of blocks that go on moving.
-    Velocities(Vec<f64>),
 }
 
 /// Progress of a route.

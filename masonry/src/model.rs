@@ -32,9 +32,9 @@ use crate::geometry::Quad;
 use crate::ids::{BlockId, FilmId, JointId, SupportId};
 use crate::law::{JointLaw, PointLaw};
 pub use crate::material::Elasticity;
+use crate::material::FilmMaterial;
 use crate::material::constitutive;
 use crate::model::mesh::BlockMesh;
-use crate::paper::film::FilmMaterial;
 pub use crate::scene::{Movement, Plane, PointRule};
 use crate::units::Units;
 

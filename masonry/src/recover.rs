@@ -2,15 +2,15 @@
 
 use nalgebra::{SVector, Vector2};
 
+use crate::data::state::{
+    ContactState, ContactStatus, ElementStress, FilmStress, Principal, Reaction, RowState, State,
+};
 use crate::element::quad4;
+use crate::forms::Sparse;
+use crate::forms::reduction::Reduction;
 use crate::ids::{BlockId, ContactId};
 use crate::material::constitutive;
-use crate::method::forms::{RowState, Sparse};
-use crate::method::reduction::Reduction;
 use crate::model::{Anchor, Body, ContactPoint, Model};
-use crate::state::{
-    ContactState, ContactStatus, ElementStress, FilmStress, Principal, Reaction, State,
-};
 use crate::system::{BodySystem, Direction, System, displaced_nodes};
 
 /// Gaps and slips below this fraction of the largest displacement or compression of a joint count as zero when points are called

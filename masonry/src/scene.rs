@@ -58,10 +58,11 @@ pub use self::key_path::KeyPath;
 pub use self::load::{EdgeStress, Load, LoadError, LoadKind};
 pub use self::materials::{Between, Joint, Material};
 pub use self::opening::{Bond, Opening, OpeningError};
-pub use self::solver::{Form, Route, Solver};
+pub use self::solver::{Form, Solver};
 use self::source::Source;
 pub use self::stages::{Movement, Stage};
 pub use self::wall::{Brick, Courses, Wall, WallJoints};
+pub use crate::data::route::Route;
 pub use crate::material::Plane;
 use crate::units::Units;
 

@@ -100,7 +100,7 @@ impl System {
         Self::build(model, Parts::MatrixAndFactor)
     }
 
-    /// The same without the dense factors of the stiffnesses, for [`Sparse`](crate::method::forms::Sparse): it
+    /// The same without the dense factors of the stiffnesses, for [`Sparse`](crate::forms::Sparse): it
     /// can be neither reduced nor used for [`elastic_displacements`](Self::elastic_displacements).
     ///
     /// # Errors

@@ -19,7 +19,7 @@ use lcp::{
     Method, ProjectedGaussSeidel, ProjectedGaussSeidelSettings, QuadraticProgram,
     QuadraticProgramSettings, Solver, Status,
 };
-use masonry::method::forms::Sparse;
+use masonry::forms::Sparse;
 use masonry::model::{Body, Model};
 use masonry::recover::stresses;
 use masonry::system::System;

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use faer::mat;
 use lcp::{Contact2d, InteriorPoint, Solver, Status};
-use masonry::method::forms::Sparse;
+use masonry::forms::Sparse;
 use masonry::model::Model;
 use masonry::paper::alm::{self, AlmError, Answer, Settings};
 use masonry::scene::Scene;

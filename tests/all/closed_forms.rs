@@ -10,11 +10,11 @@ use common::{
 use lcp::Status;
 use masonry::analysis::outcome::Outcome;
 use masonry::analysis::solve::solve;
+use masonry::data::verdict::Verdict;
 use masonry::ids::{BlockId, SupportId};
 use masonry::model::joints::PointRule;
 use masonry::model::{Body, Plane};
 use masonry::scene::{Block, Joint, Load, Material, Route, Scene, Support};
-use masonry::verify::verdict::Verdict;
 use nalgebra::{Point2, Vector2};
 
 /// Weight of the stone, kN/m3.

@@ -2,10 +2,10 @@
 
 use masonry::analysis::limit::{Laws, limit_by};
 use masonry::analysis::solve::solve;
+use masonry::data::verdict::Verdict;
 use masonry::geometry;
 use masonry::model::Model;
 use masonry::scene::{Block, Joint, Load, Material, Scene, Support};
-use masonry::verify::verdict::Verdict;
 
 use crate::common::M_KN;
 

@@ -2,6 +2,8 @@
 //! each other, be it around others. So every file can be read with those that it builds on, and without those that
 //! build on it.
 //!
+//! In `masonry` the top modules lie in layers, and import only from layers below them.
+//!
 //! What counts is where a name is defined: a file that passes it on by `pub use` imports nothing.
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -28,6 +30,42 @@ fn the_files_of_masonry_import_one_another_in_one_direction() {
     assert!(circles.is_empty(), "circles of imports:\n{}", circles.join("\n"));
 }
 
+/// The top modules of `masonry` from the ground up; those of one layer know nothing of each other.
+const LAYERS: [&[&str]; 15] = [
+    &["ids", "units"],
+    &["columns", "data", "element", "files", "geometry", "law", "material", "rounding"],
+    &["scene"],
+    &["model"],
+    &["system"],
+    &["forms"],
+    &["recover"],
+    &["method"],
+    &["paper"],
+    &["history"],
+    &["verify"],
+    &["plan"],
+    &["analysis"],
+    &["report"],
+    &["lib"],
+];
+
+#[test]
+fn the_modules_of_masonry_import_from_layers_below_them_only() {
+    let files = imports(&sources_in("masonry/src"));
+    let level = |names: &Names| {
+        let name = names.first().map_or("lib", String::as_str);
+        let at = LAYERS.iter().position(|layer| layer.contains(&name));
+        at.unwrap_or_else(|| panic!("{name} is in no layer"))
+    };
+    let upwards: Vec<String> = files
+        .iter()
+        .flat_map(|(from, targets)| targets.iter().map(move |to| (from, to)))
+        .filter(|(from, to)| from.first() != to.first() && level(from) <= level(to))
+        .map(|(from, to)| format!("{} -> {}", from.join("/"), to.join("/")))
+        .collect();
+    assert!(upwards.is_empty(), "imports that do not lead down:\n{}", upwards.join("\n"));
+}
+
 /// The graph without what files import from those that they are parts of.
 fn without_imports_upwards(files: &Graph) -> Graph {
     let mut graph = files.clone();
@@ -39,14 +77,18 @@ fn without_imports_upwards(files: &Graph) -> Graph {
 
 /// No circles of what lies in one module of each depth; of the largest, of files. The imports of all files.
 fn assert_no_circles(directory: &str, depths: &[usize]) -> Graph {
-    let mut sources = Sources::new();
-    read(&Path::new(env!("CARGO_MANIFEST_DIR")).join(directory), &[], &mut sources);
-    assert!(sources.len() > 1, "no sources in {directory}");
-    let files = imports(&sources);
+    let files = imports(&sources_in(directory));
     assert!(files.values().any(|targets| !targets.is_empty()), "no imports in {directory}");
     let found: Vec<String> = depths.iter().flat_map(|depth| listed(&files, *depth)).collect();
     assert!(found.is_empty(), "{directory} has circles of imports:\n{}", found.join("\n"));
     files
+}
+
+fn sources_in(directory: &str) -> Sources {
+    let mut sources = Sources::new();
+    read(&Path::new(env!("CARGO_MANIFEST_DIR")).join(directory), &[], &mut sources);
+    assert!(sources.len() > 1, "no sources in {directory}");
+    sources
 }
 
 /// Reads all modules; programs beside the library are none.

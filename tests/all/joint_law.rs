@@ -7,9 +7,9 @@ use common::{GRAVITY, M_KN, assert_admissible, assert_close, rectangle};
 use lcp::Status;
 use masonry::analysis::outcome::Outcome;
 use masonry::analysis::solve::solve;
+use masonry::data::verdict::{Evidence, Verdict};
 use masonry::model::Plane;
 use masonry::scene::{Joint, Load, Material, Movement, Route, Scene, Stage, Support};
-use masonry::verify::verdict::{Evidence, Verdict};
 
 /// Width, height and thickness of the block \[m\], its weight \[kN\] and its joint: mu, cohesion and tensile
 /// strength \[kN/m2\].

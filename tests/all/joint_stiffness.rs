@@ -11,6 +11,7 @@ use lcp::Status;
 use masonry::analysis::limit;
 use masonry::analysis::outcome::{ContactStatus, Outcome};
 use masonry::analysis::solve::solve;
+use masonry::data::verdict::{Evidence, Verdict};
 use masonry::model::{Model, Plane};
 use masonry::report::{csv, json, table};
 use masonry::scene::{
@@ -18,7 +19,6 @@ use masonry::scene::{
     Wall,
 };
 use masonry::units::{ForceUnit, LengthUnit, Units};
-use masonry::verify::verdict::{Evidence, Verdict};
 
 /// Width, height and thickness of a block \[m\], its weight \[kN\], and friction.
 const B: f64 = 0.8;

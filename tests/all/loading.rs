@@ -5,10 +5,10 @@ use crate::common;
 
 use common::M_KN;
 use masonry::analysis::limit;
+use masonry::data::verdict::Verdict;
 use masonry::model::Plane;
 use masonry::scene::{Block, Joint, Load, Material, Movement, Scene, Stage, Support};
 use masonry::solve;
-use masonry::verify::verdict::Verdict;
 
 const GRAVITY: f64 = 9.81;
 

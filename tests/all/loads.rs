@@ -12,10 +12,10 @@ use common::{
 };
 use masonry::analysis::outcome::Outcome;
 use masonry::analysis::solve::solve;
+use masonry::data::verdict::Verdict;
 use masonry::model::{Model, Plane};
 use masonry::report::summary;
 use masonry::scene::{Brick, Joint, Load, Material, Route, Scene, Support, Wall};
-use masonry::verify::verdict::Verdict;
 
 /// Weight of the stone, kN/m3.
 const WEIGHT: f64 = 2.0 * GRAVITY;

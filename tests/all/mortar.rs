@@ -11,8 +11,8 @@ use common::{
 };
 use lcp::{InteriorPoint, Solver};
 use masonry::analysis::outcome::{ContactStatus, Outcome};
+use masonry::forms::Sparse;
 use masonry::ids::FilmId;
-use masonry::method::forms::Sparse;
 use masonry::model::joints::PointRule;
 use masonry::model::{Body, Model, Plane};
 use masonry::paper::alm::{self, AlmError, Settings};

@@ -9,14 +9,15 @@ use common::{M_KN, applied_load, assert_admissible, assert_close, solved};
 use lcp::Status;
 use masonry::analysis::outcome::Outcome;
 use masonry::analysis::solve::{SolveError, solve};
-use masonry::method::forms::{Form, FormKind, RowState};
-use masonry::method::reduction::Reduction;
+use masonry::data::state::RowState;
+use masonry::data::verdict::{Evidence, Verdict};
+use masonry::forms::reduction::Reduction;
+use masonry::forms::{Form, FormKind};
 use masonry::model::{Model, Plane};
 use masonry::report::{summary, table};
 use masonry::scene::{self, Block, Brick, Joint, Load, Material, Route, Scene, Support, Wall};
 use masonry::system::{Direction, System};
 use masonry::units::Units;
-use masonry::verify::verdict::{Evidence, Verdict};
 
 const BRICK: Brick = Brick { length: 0.1, height: 0.1 };
 

@@ -10,9 +10,9 @@ use common::panels;
 
 use masonry::analysis::outcome::{Outcome, State};
 use masonry::analysis::solve::solve;
+use masonry::data::verdict::Verdict;
 use masonry::model::{Body, ContactPoint};
 use masonry::scene::{Route, Scene};
-use masonry::verify::verdict::Verdict;
 
 static OPEN: LazyLock<Outcome> = LazyLock::new(|| {
     // By pivots, as published: where the two loose bricks in the lowest course are is theirs.

@@ -6,8 +6,9 @@ use common::{GRAVITY, M_KN, applied_load, assert_admissible, assert_sound, state
 use lcp::Status;
 use masonry::analysis::outcome::{ContactState, Outcome};
 use masonry::analysis::solve::solve;
-use masonry::method::forms::{Form, FormKind, RowState};
-use masonry::method::reduction::Reduction;
+use masonry::data::state::RowState;
+use masonry::forms::reduction::Reduction;
+use masonry::forms::{Form, FormKind};
 use masonry::model::{Body, ContactPoint, Model, Plane};
 use masonry::scene::bond;
 use masonry::scene::{Block, Brick, Joint, Load, Material, Scene, Support, Wall};

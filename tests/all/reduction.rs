@@ -12,9 +12,9 @@ use common::{
 use lcp::Status;
 use masonry::analysis::outcome::{Outcome, State};
 use masonry::analysis::solve::solve;
+use masonry::forms::reduction::Reduction;
 use masonry::ids::BlockId;
 use masonry::method::lemke::Pivots;
-use masonry::method::reduction::Reduction;
 use masonry::method::{Method, Request};
 use masonry::model::{Model, Plane};
 use masonry::recover::recover;

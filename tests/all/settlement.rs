@@ -7,11 +7,11 @@ use std::ops::ControlFlow;
 use common::assert_close;
 use lcp::Status;
 use masonry::analysis::solve::{Run, solve};
-use masonry::method::info::Way;
+use masonry::data::info::Way;
+use masonry::data::state::ContactState;
+use masonry::data::verdict::Verdict;
 use masonry::scene::{Brick, Joint, Material, Movement, Plane, Route, Scene, Stage, Support, Wall};
-use masonry::state::ContactState;
 use masonry::units::{ForceUnit, LengthUnit, Units};
-use masonry::verify::verdict::Verdict;
 
 /// A wall of which a part of the foundation sinks: bricks slide and turn by thousands of times what they are
 /// deformed by, and answers are exact all the same.

@@ -9,10 +9,10 @@ use common::{M_KN, panels, rectangle, state};
 use lcp::Status;
 use masonry::analysis::outcome::Outcome;
 use masonry::analysis::solve::solve;
+use masonry::data::verdict::{Evidence, Verdict};
 use masonry::model::Plane;
 use masonry::report::{json, summary, table};
 use masonry::scene::{Joint, Load, Material, Movement, Route, Scene, Stage, Support};
-use masonry::verify::verdict::{Evidence, Verdict};
 use serde_json::Value;
 
 fn verdict(scene: &Scene) -> (Verdict, Evidence) {

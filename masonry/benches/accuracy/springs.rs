@@ -6,8 +6,8 @@ use std::time::{Duration, Instant};
 use lcp::Status;
 use masonry::analysis::solve::solve_observed;
 use masonry::analysis::study::{End, Errors};
+use masonry::data::state::State;
 use masonry::scene::{Route, Scene};
-use masonry::state::State;
 
 /// Relative to the stiffness of the blocks \[-\], from soft to stiff, which takes more and more rounds.
 const STIFFNESSES: [f64; 7] = [1e-8, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2];

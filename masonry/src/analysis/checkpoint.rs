@@ -6,14 +6,14 @@ use std::path::{Path, PathBuf};
 use nalgebra::Vector2;
 use serde::{Deserialize, Serialize};
 
+use crate::data::info::SolveInfo;
+use crate::data::state::{ContactState, State};
 use crate::files::write_atomically;
+use crate::forms::Start;
 use crate::history::StepRecord;
-use crate::method::forms::Start;
-use crate::method::info::SolveInfo;
 use crate::model::Model;
 use crate::recover;
 use crate::scene::{Output, Scene, SceneError, Solver};
-use crate::state::{ContactState, State};
 
 /// The version of the format.
 const VERSION: u32 = 4;

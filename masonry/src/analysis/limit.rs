@@ -47,8 +47,8 @@ pub use range::{Extremes, Range, ranges};
 pub use thickness::{Thickness, least_thickness, least_thickness_observed};
 pub use watch::{Bracket, Observer};
 
+use crate::data::info::PhaseTime;
 use crate::history::Actions;
-use crate::method::info::PhaseTime;
 use crate::model::Model;
 use crate::plan::Plan;
 use crate::scene::groups::WEIGHT;

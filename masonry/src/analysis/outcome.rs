@@ -2,15 +2,15 @@
 
 use nalgebra::Vector2;
 
-use crate::history::{History, Step};
-pub use crate::method::info::{PhaseTime, RouteEnd, SoftReport, SolveInfo};
-use crate::model::Model;
-use crate::plan::Plan;
-pub use crate::state::{
+pub use crate::data::info::{PhaseTime, RouteEnd, SoftReport, SolveInfo};
+pub use crate::data::state::{
     ContactState, ContactStatus, ElementStress, FilmStress, Principal, Reaction, State,
 };
+use crate::data::verdict::Judgement;
+use crate::history::{History, Step};
+use crate::model::Model;
+use crate::plan::Plan;
 use crate::verify::checks::Checks;
-use crate::verify::verdict::Judgement;
 
 /// Everything known about a scene after an attempt to solve it.
 ///

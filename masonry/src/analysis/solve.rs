@@ -14,8 +14,8 @@ pub use run::Run;
 
 use crate::analysis::checkpoint::CheckpointError;
 use crate::analysis::outcome::Outcome;
+use crate::data::info::PhaseTime;
 use crate::method::RouteError;
-use crate::method::info::PhaseTime;
 use crate::model::Model;
 use crate::plan::TooLarge;
 use crate::scene::{Route, Scene, SceneError};

@@ -11,10 +11,10 @@
 
 use nalgebra::Vector2;
 
+use crate::data::state::{ContactState, ContactStatus, State};
 use crate::ids::BlockId;
 use crate::model::{Body, Model};
 use crate::recover;
-use crate::state::{ContactState, ContactStatus, State};
 use crate::system::{System, displaced_nodes};
 
 /// What loads and supports need to have their work told.

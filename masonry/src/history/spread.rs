@@ -2,8 +2,8 @@
 
 use serde::Serialize;
 
+use crate::data::state::State;
 use crate::model::Model;
-use crate::state::State;
 
 /// How much two loadings have to differ for an answer to be called not unique. Chosen: engineers compare widths of cracks to
 /// a few per cent.

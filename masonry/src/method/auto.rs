@@ -14,7 +14,7 @@
 
 use lcp::Status;
 
-use crate::method::info::SolveInfo;
+use crate::data::info::SolveInfo;
 use crate::scene::{Form, Route, Solver};
 
 /// Pivots on dense matrices of this order take about a second; the time grows with the cube.

@@ -6,9 +6,10 @@
 use lcp::{ContactState, Residuals, Status};
 
 use super::{Answer, sparse};
-use crate::method::forms::Sparse;
-use crate::method::info::SolveInfo;
-use crate::method::statics::{Decision, Statics};
+use crate::data::info::SolveInfo;
+use crate::data::statics::Statics;
+use crate::forms::Sparse;
+use crate::method::statics::Decision;
 use crate::scene::Route;
 use crate::system::System;
 

@@ -12,8 +12,9 @@ use lcp::{
 use super::loading::{self, Led, Loading};
 use super::sparse::Found;
 use super::{Answer, Method, Observer, Request, RouteError, Step, sparse};
-use crate::method::forms::Sparse;
-use crate::method::info::{SolveInfo, Way};
+use crate::data::info::{SolveInfo, Way};
+use crate::data::motion::Motion;
+use crate::forms::Sparse;
 use crate::scene::Route;
 
 /// The route on a sparse problem.
@@ -110,7 +111,7 @@ impl Interior<'_> {
         answer.account = Some(led.account);
         answer.moved = Some(self.sparse.by_rows(&led.slips));
         if status == Status::NoEquilibrium {
-            answer.motion = Some(super::Motion::Velocities(led.velocity));
+            answer.motion = Some(Motion::Velocities(led.velocity));
         }
         Ok(answer)
     }

@@ -9,10 +9,12 @@
 use lcp::lemke::{Attempt, AttemptCovering, AttemptEnd, AttemptStart};
 use lcp::{Basis, Covering, Lemke, LemkeSettings, Residuals, Side, Status, WarmStart};
 
-use super::{Answer, Method, Motion, Observer, Request, RouteError, Step};
-use crate::method::forms::{Form, FormKind, RowState, Start};
-use crate::method::info::SolveInfo;
-use crate::method::reduction::Reduction;
+use super::{Answer, Method, Observer, Request, RouteError, Step};
+use crate::data::info::SolveInfo;
+use crate::data::motion::Motion;
+use crate::data::state::RowState;
+use crate::forms::reduction::Reduction;
+use crate::forms::{Form, FormKind, Start};
 use crate::scene;
 use crate::system::System;
 

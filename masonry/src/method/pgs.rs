@@ -15,8 +15,8 @@ use lcp::{
 
 use super::sparse::Found;
 use super::{Answer, Method, Observer, Request, RouteError, Step, sparse};
-use crate::method::forms::Sparse;
-use crate::method::info::SoftReport;
+use crate::data::info::SoftReport;
+use crate::forms::Sparse;
 use crate::scene::Route;
 
 /// Stiffness of the springs if the scene gives none: soft springs need fewer rounds, and more sweeps in each.

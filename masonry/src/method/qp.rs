@@ -11,8 +11,8 @@ use lcp::{QuadraticProgram, QuadraticProgramSettings, Solver, Status};
 
 use super::sparse::Found;
 use super::{Answer, Method, Observer, Request, RouteError, sparse};
-use crate::method::forms::Sparse;
-use crate::method::info::SoftReport;
+use crate::data::info::SoftReport;
+use crate::forms::Sparse;
 use crate::scene::Route;
 
 /// The route on a sparse problem.

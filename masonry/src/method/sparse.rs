@@ -2,9 +2,10 @@
 
 use lcp::{Contact2d, ContactState, Residuals, Solution, Status};
 
-use super::{Answer, Motion};
-use crate::method::forms::Sparse;
-use crate::method::info::{SoftReport, SolveInfo};
+use super::Answer;
+use crate::data::info::{SoftReport, SolveInfo};
+use crate::data::motion::Motion;
+use crate::forms::Sparse;
 use crate::scene::Route;
 
 /// The name of the problem in reports, in the place of a form.

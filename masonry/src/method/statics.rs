@@ -16,6 +16,7 @@
 
 use lcp::{LeastForces, Observer, Status};
 
+use crate::data::statics::{Proof, Statics};
 use crate::model::Model;
 use crate::system::System;
 use program::Program;
@@ -25,19 +26,6 @@ pub mod limit;
 mod program;
 pub mod proof;
 mod sharpen;
-
-pub use proof::Proof;
-
-/// What is known about forces that balance the loads.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Statics {
-    /// These do: of all rows of the [`System`] \[N\].
-    Admissible(Vec<f64>),
-    /// There are none.
-    Impossible(Proof),
-    /// Undecided.
-    Open,
-}
 
 /// A decision and what it cost.
 #[derive(Debug, Clone, PartialEq)]

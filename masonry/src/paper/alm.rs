@@ -33,7 +33,7 @@ mod structure;
 
 use std::ops::ControlFlow;
 
-pub use crate::method::info::Iteration;
+pub use crate::data::info::Iteration;
 pub use films::{AttachError, Segment};
 use lcp::{Contact2d, ContactState, Residuals, Status};
 pub use mortared::{MortaredError, MortaredState, MortaredWall};

@@ -2,9 +2,9 @@
 
 use nalgebra::Vector2;
 
+use crate::data::motion::Motion;
+use crate::forms::Sparse;
 use crate::ids::BlockId;
-use crate::method::Motion;
-use crate::method::forms::Sparse;
 use crate::model::{ContactPoint, Model};
 use crate::system::{System, displaced_nodes};
 

@@ -6,8 +6,8 @@ use std::borrow::Cow;
 
 pub use self::history::history;
 use super::format::{InUnits, block_name, body_name, shortest};
+use crate::data::state::{ContactStatus, FilmStress, State};
 use crate::model::{Body, Model};
-use crate::state::{ContactStatus, FilmStress, State};
 
 /// The text of `contacts.csv`: one row per contact point, in the order of the model.
 ///

@@ -2,10 +2,10 @@
 
 use nalgebra::{Point2, Vector2};
 
+use crate::data::state::ContactState;
 use crate::ids::{JointId, SupportId};
 use crate::model::{Body, Joint, Model};
 use crate::recover;
-use crate::state::ContactState;
 
 /// Forces below this part of the largest are rounding errors.
 const NO_FORCE: f64 = 1e-9;

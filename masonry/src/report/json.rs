@@ -11,17 +11,17 @@ use super::summary::{
     largest_displacement, load_groups, reason, weight,
 };
 use crate::analysis::outcome::Outcome;
-use crate::method::info::{RouteEnd, SoftReport};
+use crate::data::info::Iteration;
+use crate::data::info::{RouteEnd, SoftReport};
+use crate::data::state::Reaction;
+use crate::data::verdict::{Evidence, Verdict};
 use crate::model;
-use crate::paper::alm::Iteration;
 use crate::plan::Plan;
 use crate::scene::Route;
-use crate::state::Reaction;
-use crate::verify::verdict::{Evidence, Verdict};
 
 /// The object of `result.json` and of `masonry solve --json`, pretty-printed.
 ///
-/// `verdict`, `evidence`, `sentence` and `warnings` come first, as in [`Judgement`](crate::verify::verdict::Judgement).
+/// `verdict`, `evidence`, `sentence` and `warnings` come first, as in [`Judgement`](crate::data::verdict::Judgement).
 ///
 /// Physical quantities are in the units of the scene, which `units` names one by one. Without a
 /// solution `residuals`, `balance`, `reactions`, `contacts`, `strain_energy`, `max_displacement` and the stresses

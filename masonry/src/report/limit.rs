@@ -14,8 +14,8 @@ pub use table::{range_table, table, table_both, thickness_table};
 
 use super::{OutputError, svg, write_files};
 use crate::analysis::limit::{Limit, Thickness};
+use crate::data::state::ContactState;
 use crate::model::Model;
-use crate::state::ContactState;
 
 /// Writes `forces.svg` and `mechanism.svg`, where there are forces and a mechanism, the same of the path with its curve, and
 /// `limit.json`, which lists them, into `dir`, which is created.

@@ -3,12 +3,12 @@
 use nalgebra::{Point2, Vector2};
 
 use crate::analysis::outcome::Outcome;
+use crate::data::state::{FilmStress, State};
+use crate::data::verdict::Evidence;
 use crate::geometry;
 use crate::history::Step;
 use crate::ids::BlockId;
 use crate::model::{Block, Body, Cause, EdgeLoad, Load, Model};
-use crate::state::{FilmStress, State};
-use crate::verify::verdict::Evidence;
 
 /// The displacement component of largest size, with its sign and place.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -12,11 +12,11 @@ use super::summary::{
     extreme_stresses, largest_displacement, reason, total_reaction, weight,
 };
 use crate::analysis::outcome::Outcome;
-use crate::method::info::SoftReport;
+use crate::data::info::SoftReport;
+use crate::data::state::{FilmStress, State};
+use crate::data::verdict::Evidence;
 use crate::plan::{Choice, Plan};
 use crate::scene::Route;
-use crate::state::{FilmStress, State};
-use crate::verify::verdict::Evidence;
 
 const WIDTH: u16 = 100;
 

@@ -6,8 +6,8 @@ use nalgebra::Vector2;
 
 use super::format::InUnits;
 use super::summary::nodes;
+use crate::data::state::{ElementStress, State};
 use crate::model::Model;
-use crate::state::{ElementStress, State};
 
 const QUAD: u8 = 9;
 const POLYGON: u8 = 7;

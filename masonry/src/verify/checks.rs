@@ -29,8 +29,8 @@
 
 use serde::Serialize;
 
+use crate::data::state::{ContactStatus, State};
 use crate::model::Model;
-use crate::state::{ContactStatus, State};
 
 mod bodies;
 mod contact;

@@ -3,7 +3,7 @@
 //!
 //! * **Stands**: an equilibrium was found and verified. For rigid blocks at rest any forces within friction that
 //!   balance the loads are an equilibrium; loading from a state without stresses has to lead to rest as well.
-//! * **Falls**: no contact forces within friction balance the loads, with a [proof](crate::method::statics::Proof)
+//! * **Falls**: no contact forces within friction balance the loads, with a [proof](crate::data::statics::Proof)
 //!   that was checked in the geometry; or the blocks move and do not come to rest, which is evidence.
 //! * **Undecided**: all other cases. Neither a secondary ray nor springs that keep their load prove that a wall
 //!   falls.
@@ -12,75 +12,21 @@ mod sentence;
 mod unique;
 
 use nalgebra::Vector2;
-use serde::Serialize;
 
+use crate::data::info::{SolveInfo, Way};
+use crate::data::state::State;
+use crate::data::statics::Statics;
+use crate::data::verdict::{Evidence, Judgement, Verdict};
 use crate::geometry;
 use crate::history::History;
 use crate::ids::BlockId;
-use crate::method::info::{SolveInfo, Way};
-use crate::method::statics::Statics;
 use crate::model::{Body, ContactPoint, Model};
 use crate::recover;
-use crate::state::State;
 use crate::system::displaced_nodes;
 use crate::system::mass;
 use crate::system::rigid::Modes;
 
 pub(crate) use unique::circulating;
-
-/// Whether a wall stands.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Verdict {
-    /// It does.
-    Stands,
-    /// It does not.
-    Falls,
-    /// Neither is known.
-    Undecided,
-}
-
-impl std::fmt::Display for Verdict {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        std::fmt::Debug::fmt(self, f)
-    }
-}
-
-/// The evidence of a verdict.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize)]
-#[non_exhaustive]
-pub enum Evidence {
-    /// An equilibrium, verified by its residuals and the balance of every block.
-    #[serde(rename = "equilibrium")]
-    Equilibrium,
-    /// Forces within friction that balance the loads: sufficient for rigid blocks at rest only.
-    #[serde(rename = "admissible forces")]
-    AdmissibleForces,
-    /// There are no such forces, with a checked proof.
-    #[serde(rename = "no admissible forces")]
-    NoAdmissibleForces,
-    /// A slow motion under the loads that does not come to rest. If forces within
-    /// friction balance the loads, this is no proof that the wall falls under every order of loading.
-    #[serde(rename = "motion")]
-    Motion,
-    /// Nothing.
-    #[serde(rename = "none")]
-    None,
-}
-
-/// A verdict with its evidence and explanation.
-#[derive(Debug, Clone, PartialEq)]
-#[non_exhaustive]
-pub struct Judgement {
-    /// The verdict.
-    pub verdict: Verdict,
-    /// The evidence.
-    pub evidence: Evidence,
-    /// Both in one sentence; for a load history also how far it went.
-    pub sentence: String,
-    /// Limitations of the result.
-    pub warnings: Vec<String>,
-}
 
 /// Where loading from a state without stresses leads rigid blocks that some forces within friction would hold.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -9,9 +9,9 @@ mod program;
 mod walls;
 
 use masonry::analysis::solve::solve;
+use masonry::data::verdict::{Evidence, Verdict};
 use masonry::scene::{Brick, Joint, Material, Scene, Support, Wall};
 use masonry::units::{ForceUnit, LengthUnit, Units};
-use masonry::verify::verdict::{Evidence, Verdict};
 
 use program::{Limit, largest_tilt};
 use walls::{Kind, Random, Tiltable};

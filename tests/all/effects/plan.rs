@@ -3,8 +3,8 @@
 use super::common::routes::{ROUTES, routes_for};
 use super::scenes::{boxed, elastic, in_mortar, piers, stack};
 use super::{built, effect};
-use masonry::method::forms::{Form, FormKind, Sparse};
-use masonry::method::reduction::Reduction;
+use masonry::forms::reduction::Reduction;
+use masonry::forms::{Form, FormKind, Sparse};
 use masonry::model::Model;
 use masonry::plan::Plan;
 use masonry::scene::{self, Films, Joint, Material, Route, Scene};

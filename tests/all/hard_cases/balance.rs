@@ -1,8 +1,8 @@
 //! The balance of every block in numbers of twice the digits: what the judge's sums lose by rounding, these keep.
 
+use masonry::data::state::State;
 use masonry::geometry;
 use masonry::model::{Block, Model};
-use masonry::state::State;
 use nalgebra::Vector2;
 
 use super::double::Double;

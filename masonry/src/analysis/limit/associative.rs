@@ -5,11 +5,12 @@ use serde::Serialize;
 
 use super::watch::Watch;
 use super::{LimitError, Structure};
+use crate::data::state::{ContactState, Reaction};
+use crate::data::statics::Statics;
+use crate::method::statics;
 use crate::method::statics::limit::Growing;
-use crate::method::statics::{self, Statics};
 use crate::model::Model;
 use crate::recover;
-use crate::state::{ContactState, Reaction};
 use crate::verify::moving::moving;
 
 /// The outcome for a structure under a growing group of loads.

@@ -11,11 +11,11 @@ use steps::{End, Rest, Steps};
 
 use super::watch::{Bracket, Watch};
 use super::{Answer, Associative, LimitError, Structure};
-use crate::method::forms::Sparse;
+use crate::data::state::{ContactState, Reaction};
+use crate::forms::Sparse;
 use crate::method::loading;
 use crate::model::Model;
 use crate::recover;
-use crate::state::{ContactState, Reaction};
 use crate::system::{System, mass};
 
 /// Steps up to the bound of associated flow. Measured on the walls of Ferris and Tin-Loi, whose published limits are met to

@@ -6,8 +6,10 @@ use lcp::Iteration;
 use nalgebra::Vector2;
 
 use super::{LimitError, rigid};
-use crate::method::statics::limit::{Extreme, extreme};
-use crate::method::statics::{self, Statics};
+use crate::data::statics::Extreme;
+use crate::data::statics::Statics;
+use crate::method::statics;
+use crate::method::statics::limit::extreme;
 use crate::model::{Body, Model};
 use crate::scene::Scene;
 use crate::system::{Direction, System};

@@ -6,12 +6,13 @@ use nalgebra::Vector2;
 
 use super::watch::{Observer, Watch};
 use super::{LimitError, rigid};
-use crate::method::statics::{self, Statics};
+use crate::data::state::ContactState;
+use crate::data::statics::Statics;
+use crate::method::statics;
 use crate::model::Model;
 use crate::recover;
 use crate::rounding::{Side, outwards};
 use crate::scene::{Known, Scene};
-use crate::state::ContactState;
 use crate::system::System;
 
 /// Where the thicknesses on both sides of the least one differ by less than this part of them, the search ends.

@@ -9,23 +9,24 @@ use super::chain::{Attempt, Before, Chain};
 use super::{Clock, Event, SolveError};
 use crate::analysis::checkpoint::{Checkpoint, CheckpointError};
 use crate::analysis::outcome::{Frame, Outcome};
+use crate::data::info::SolveInfo;
+use crate::data::state::State;
+use crate::data::statics::Statics;
+use crate::data::verdict::Judgement;
+use crate::forms::{Sparse, Start};
 use crate::history::energy::{self, Friction, Snapshot};
 use crate::history::spread::AtEnd;
 use crate::history::{self, History, SecondLoading, Step, StepRecord};
 use crate::method::Request;
-use crate::method::forms::{Sparse, Start};
-use crate::method::info::SolveInfo;
 use crate::method::sparse::UNKNOWN;
-use crate::method::statics::Statics;
 use crate::model::Model;
 use crate::plan::Plan;
 use crate::recover;
 use crate::rounding::cleared;
 use crate::scene::{Scene, Solver};
-use crate::state::State;
 use crate::system::System;
 use crate::verify::checks::Checks;
-use crate::verify::verdict::{self, Judgement, Known, Led};
+use crate::verify::verdict::{self, Known, Led};
 
 /// A scene that is solved step by step.
 ///

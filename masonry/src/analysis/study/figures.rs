@@ -3,10 +3,10 @@
 use nalgebra::Vector2;
 use serde::Serialize;
 
+use crate::data::state::State;
 use crate::geometry;
 use crate::model::{Anchor, Block, Model};
 use crate::recover;
-use crate::state::State;
 
 /// Errors of an answer relative to a reference \[-\]; `None` where the reference has nothing but zeros.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]

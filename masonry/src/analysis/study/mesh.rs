@@ -6,10 +6,10 @@ use serde::Serialize;
 use super::figures::{Figures, relative};
 use super::reference::{self, Found, Reference};
 use super::runs::Runner;
+use crate::data::state::State;
 use crate::model::{Block, Body, Model};
 use crate::recover;
 use crate::scene::Scene;
-use crate::state::State;
 
 /// A mesh and its reference.
 #[derive(Debug, Clone, PartialEq, Serialize)]

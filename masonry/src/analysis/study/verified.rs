@@ -5,10 +5,10 @@ use lcp::refine::{ContactStatus, Extended, Refined};
 use serde::Serialize;
 
 use crate::analysis::outcome::Outcome;
-use crate::method::forms::Sparse;
+use crate::data::state::State;
+use crate::forms::Sparse;
 use crate::model::Model;
 use crate::recover;
-use crate::state::State;
 use crate::system::System;
 
 /// The verification of a solution in double-double arithmetic: see [`lcp::Contact2d::verify`]. For a load history it

@@ -10,7 +10,8 @@ use lcp::{Observer, Status};
 
 use super::engine::Engine;
 use super::program::Program;
-use super::{Proof, sharpen};
+use super::sharpen;
+use crate::data::statics::{Extreme, Proof};
 use crate::model::Model;
 use crate::rounding;
 use crate::system::System;
@@ -62,22 +63,6 @@ pub struct Growing<'a> {
     pub growth: &'a [f64],
     /// The blocks that do not move, whatever forces that takes; nothing if there are none.
     pub held: &'a [bool],
-}
-
-/// The largest value of a linear function of admissible forces.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Extreme {
-    /// What forces reach, and what by a motion no forces exceed \[N\].
-    Value {
-        /// The first.
-        value: f64,
-        /// The second.
-        bound: f64,
-    },
-    /// Forces that balance one another make it as large as one likes.
-    Unlimited,
-    /// Neither came out.
-    Open,
 }
 
 /// The largest value of `of_rows . t` over the admissible forces `t` of all rows of a system.

@@ -7,6 +7,7 @@
 
 use nalgebra::{Point2, Vector2};
 
+use crate::data::statics::Proof;
 use crate::geometry;
 use crate::ids::BlockId;
 use crate::model::{Anchor, Block, ContactPoint, Model};
@@ -17,18 +18,6 @@ const ROUNDING: f64 = 4.0 * f64::EPSILON;
 /// Forces that would balance the loads in spite of the rounding errors of the motion are this much larger than all
 /// loads together.
 const CLEAR: f64 = 1e6;
-
-/// A motion that was checked to be a proof.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Proof {
-    /// Displacement rates of the corners of every block, scaled to a largest component of one.
-    pub rates: Vec<Vec<Vector2<f64>>>,
-    /// Work of the loads on them, less what cohesion and tensile strength take, relative to the sum of all of these
-    /// forces \[-\].
-    pub work: f64,
-    /// The largest work that a contact force of one could do against it, relative to the force \[-\]: rounding errors.
-    pub error: f64,
-}
 
 impl Proof {
     /// Checks a motion, three amplitudes for every block ([`Modes`]); `None` where it proves nothing.

@@ -12,11 +12,11 @@ use nalgebra::Vector2;
 use super::films::{AttachError, Segment, attached};
 use super::structure::Structure;
 use super::{AlmError, Answer, Iteration, Settings, run};
-use crate::method::forms::Sparse;
+use crate::data::state::{Reaction, State};
+use crate::forms::Sparse;
 use crate::model::{Body, Model};
 use crate::paper::film::pointwise::FilmResponse;
 use crate::recover;
-use crate::state::{Reaction, State};
 use crate::system::{System, SystemError};
 
 /// Why a wall could not be set up.

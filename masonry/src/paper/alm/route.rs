@@ -3,7 +3,7 @@
 use lcp::Error;
 
 use super::{AlmError, Settings, solve};
-use crate::method::forms::Sparse;
+use crate::forms::Sparse;
 use crate::method::sparse::{self, Found};
 use crate::method::{Answer, Method, Observer, Request, RouteError, Step};
 use crate::scene::Route;

@@ -4,7 +4,7 @@
 use lcp::{ContactState, Status};
 
 use super::{MortaredError, MortaredWall, Settings};
-use crate::method::forms::Sparse;
+use crate::forms::Sparse;
 use crate::method::sparse::{self, Found};
 use crate::method::{Answer, Method, Observer, Request, RouteError, Step};
 use crate::model::Model;

@@ -3,8 +3,8 @@
 use serde::Serialize;
 
 use super::{ByName, Contacts, Force, named_force};
+use crate::data::info::Way;
 use crate::history::{History, SecondLoading, Step, StepRecord};
-use crate::method::info::Way;
 use crate::model::Support;
 use crate::report::format::InUnits;
 use crate::scene::{Movement, Route};

@@ -5,7 +5,7 @@ use serde::Serialize;
 use crate::analysis::limit::{
     Answer, Directions, Extremes, Governs, Limit, Range, Rest, Thickness,
 };
-use crate::method::statics::limit::Extreme;
+use crate::data::statics::Extreme;
 use crate::report::format::InUnits;
 use crate::report::json::{ByName, Force, named_force, rates_by_name};
 

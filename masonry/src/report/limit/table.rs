@@ -4,13 +4,13 @@ use super::json::path::sides;
 use crate::analysis::limit::{
     Associative, Change, Directions, Governs, Limit, Path, Range, Rest, Stand, Thickness,
 };
-use crate::method::statics::limit::Extreme;
+use crate::data::state::Reaction;
+use crate::data::statics::Extreme;
 use crate::model::Model;
 use crate::report::format::{InUnits, aligned, significant};
 use crate::report::moving::moving_part;
 use crate::report::table::{head, pairs, section, table as columns};
 use crate::rounding::{Side, outwards};
-use crate::state::Reaction;
 
 /// So many events are printed; all are in the JSON object.
 const EVENTS: usize = 20;

@@ -5,6 +5,7 @@ use nalgebra::Vector2;
 use super::tables::{self, Cell, Table};
 use super::{Choice, Page, size};
 use crate::analysis::limit::{Answer, Associative, Change, Limit, Path, Thickness};
+use crate::data::state::{ContactState, Reaction};
 use crate::model::Model;
 use crate::report::format::{InUnits, significant};
 use crate::report::hinges::yielding;
@@ -12,7 +13,6 @@ use crate::report::limit::{carried_by_rest, table, thickness_table};
 use crate::report::moving::moving_part;
 use crate::report::svg;
 use crate::rounding::{Side, outwards};
-use crate::state::{ContactState, Reaction};
 
 /// Rates of the corners of one block.
 type Rates = Vec<Vector2<f64>>;

@@ -3,6 +3,8 @@
 use super::tables::{self, Cell, Table};
 use super::{Choice, Page, Step, size};
 use crate::analysis::outcome::{Frame, Outcome};
+use crate::data::state::State;
+use crate::data::verdict::Verdict;
 use crate::history::History;
 use crate::report::format::{InUnits, block_name, significant, stress_text};
 use crate::report::hinges::yielding;
@@ -13,8 +15,6 @@ use crate::report::summary::{
 use crate::report::svg::pictures::{Pictures, Shown, pictures};
 use crate::report::svg::{self, ReferenceLines};
 use crate::report::table;
-use crate::state::State;
-use crate::verify::verdict::Verdict;
 
 /// So many steps of a load history have pictures; of more, every second, third and so on.
 const FRAMES: usize = 40;

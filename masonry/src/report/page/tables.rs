@@ -1,11 +1,11 @@
 //! Tables that a click on a column sorts.
 
+use crate::data::state::{ContactState, Reaction};
 use crate::model::Model;
 use crate::report::format::{InUnits, body_name, significant};
 use crate::report::hinges::YieldingJoint;
 use crate::report::joints::{self, JointForce, Opening};
 use crate::report::svg::escaped;
-use crate::state::{ContactState, Reaction};
 
 /// A table with its heading.
 #[derive(Debug)]

@@ -5,10 +5,10 @@ use nalgebra::Vector2;
 use super::canvas::{Canvas, Pixel, fixed};
 use super::marks::{self, BRICK, OUTLINE};
 use super::sheet::{Frame, Margins, Sheet};
+use crate::data::state::ContactState;
 use crate::model::{Joint, Model};
 use crate::report::format::{InUnits, round_down, significant};
 use crate::report::joints::{self, Opening};
-use crate::state::ContactState;
 
 /// From the narrowest to the widest: readable in grey, and by the colour-blind.
 const WIDTHS: [&str; 5] = ["#fdd49e", "#fdab5f", "#ef6548", "#c41e1e", "#67000d"];

@@ -5,10 +5,10 @@ use nalgebra::{Point2, Vector2};
 use super::canvas::{Pixel, before, fixed};
 use super::marks::{self, OUTLINE};
 use super::sheet::{Bounds, Margins, Sheet};
+use crate::data::state::State;
 use crate::model::{Block, Model};
 use crate::report::format::{InUnits, round_down, significant};
 use crate::report::summary::{largest_displacement, nodes};
-use crate::state::State;
 
 const UNDEFORMED: &str = "#a8a8a8";
 const FILLED: &str = "#f0dcc3";

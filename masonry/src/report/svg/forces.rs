@@ -9,10 +9,10 @@ use super::labels::Labels;
 use super::loads::Loads;
 use super::marks::{self, BRICK, COMPRESSION, OUTLINE, TENSION};
 use super::sheet::{Bounds, Frame, Margins, Sheet};
+use crate::data::state::ContactState;
 use crate::model::{Body, Model};
 use crate::report::format::InUnits;
 use crate::report::joints::{self, JointForce};
-use crate::state::ContactState;
 use reactions::Reactions;
 
 /// Resultants below this part of the largest are not drawn.

@@ -1,11 +1,11 @@
 //! The curves of a load history: loads or reactions against displacements, and both step by step.
 
 use super::curve::{Chart, Curve, charts};
+use crate::data::state::Reaction;
 use crate::history::{History, StepRecord};
 use crate::model::Model;
 use crate::report::format::InUnits;
 use crate::scene::Movement;
-use crate::state::Reaction;
 
 /// Curves of one chart are at most so many.
 const MOST: usize = 7;

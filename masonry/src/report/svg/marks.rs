@@ -5,10 +5,10 @@ use nalgebra::{Point2, Vector2};
 use super::canvas::{Canvas, Pixel, before, fixed};
 use super::labels::Labels;
 use super::sheet::{Bounds, Frame, Sheet};
+use crate::data::state::{ContactState, ContactStatus};
 use crate::geometry;
 use crate::ids::SupportId;
 use crate::model::{Block, Body, ContactPoint, Model, Support};
-use crate::state::{ContactState, ContactStatus};
 
 /// Compression: a blue that the colour-blind tell from [`TENSION`].
 pub(super) const COMPRESSION: &str = "#0072b2";

@@ -4,9 +4,9 @@ use super::cracks::{self, widest};
 use super::deformed::{self, Magnified};
 use super::forces::{self, Shared};
 use super::stresses::{self, ReferenceLines, large};
+use crate::data::state::{ContactState, State};
 use crate::model::Model;
 use crate::report::joints;
-use crate::state::{ContactState, State};
 
 /// A structure in a state, and the title of its pictures.
 #[derive(Debug, Clone, Copy)]

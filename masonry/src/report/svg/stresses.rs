@@ -6,13 +6,13 @@ use super::canvas::{Canvas, Pixel, fixed};
 use super::marks::{self, BRICK, COMPRESSION, OUTLINE, TENSION};
 use super::sheet::{Frame, Margins, Sheet, draw_bar};
 use super::style::DARK;
+use crate::data::state::{ElementStress, State};
 use crate::geometry;
 use crate::model::Model;
 use crate::report::format::{InUnits, round_down, stress_text};
 use crate::report::summary::extreme_stresses;
 use crate::scene::bond::{self, JointThickness, PlacedBrick};
 use crate::scene::{Scene, Wall};
-use crate::state::{ElementStress, State};
 
 const REFERENCE: &str = "#009e73";
 

@@ -4,10 +4,10 @@ use nalgebra::{Point2, Vector2};
 
 use super::elements::Nodes;
 use super::{LARGEST_ERROR, known, larger, relative};
+use crate::data::state::State;
 use crate::geometry;
 use crate::model::{Anchor, Block, Model};
 use crate::recover;
-use crate::state::State;
 
 /// The forces on all blocks.
 pub(super) struct Bodies(Vec<Body>);

@@ -3,9 +3,9 @@
 use super::bodies::Bodies;
 use super::kinematics::{displaced, terms};
 use super::{Lengths, larger};
+use crate::data::state::{ContactState, State};
 use crate::law::PointLaw;
 use crate::model::{ContactPoint, Model};
-use crate::state::{ContactState, State};
 
 /// A contact point as displacements and forces have it, and what both are compared with.
 pub(super) struct Pair {

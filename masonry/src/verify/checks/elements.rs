@@ -4,10 +4,10 @@ use nalgebra::Vector2;
 
 use super::kinematics::{displaced, shares, stretched, terms};
 use super::{known, larger, relative};
+use crate::data::state::State;
 use crate::element::quad4;
 use crate::material::constitutive;
 use crate::model::{Anchor, Block, ContactPoint, Model};
-use crate::state::State;
 use crate::system::nodal_loads;
 
 /// The terms at a node: eight of each of four elements.

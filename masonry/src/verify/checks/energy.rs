@@ -5,9 +5,9 @@ use nalgebra::{Point2, Vector2};
 use super::contact::Pair;
 use super::kinematics::displaced;
 use super::{larger, relative};
+use crate::data::state::State;
 use crate::geometry;
 use crate::model::{Block, Model};
-use crate::state::State;
 use crate::system::nodal_loads;
 
 /// `f.u + t.y = 2 U + t.x`, and friction that does work, relative to all terms.

@@ -2,9 +2,9 @@
 
 use nalgebra::Vector2;
 
+use crate::data::state::State;
 use crate::model::mesh::BlockMesh;
 use crate::model::{Anchor, Block, ContactPoint, Model};
-use crate::state::State;
 
 /// How the displacement of a place enters gap and slip of a contact point, and so how its forces act there.
 pub(super) struct Term {

@@ -5,8 +5,8 @@ use nalgebra::Vector2;
 use super::bodies::Bodies;
 use super::elements::Nodes;
 use super::{known, larger};
+use crate::data::state::{ContactState, State};
 use crate::model::{ContactPoint, Model};
-use crate::state::{ContactState, State};
 
 /// The largest lengths \[m\].
 pub(super) struct Lengths {

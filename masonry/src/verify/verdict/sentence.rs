@@ -3,8 +3,8 @@
 use lcp::Status;
 
 use super::{Evidence, Known, Movement, Verdict};
+use crate::data::statics::Statics;
 use crate::history::{History, SecondLoading, Step};
-use crate::method::statics::Statics;
 use crate::model::Model;
 use crate::scene::Movement as Place;
 

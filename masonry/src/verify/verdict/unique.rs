@@ -6,8 +6,8 @@ use lcp::Contact2d;
 use lcp_linalg::Gram;
 
 use crate::columns::{Columns, column};
+use crate::data::state::{ContactState, State};
 use crate::model::{ContactPoint, Model};
-use crate::state::{ContactState, State};
 
 /// Normal forces below this part of the largest are none, and forces this near to an edge of the cone are on it.
 const NONE: f64 = 1e-9;

@@ -1,6 +1,6 @@
 //! All solutions of a tiny complementarity problem with a nonsingular basis, by trying every basis.
 
-use masonry::method::forms::Form;
+use masonry::forms::Form;
 use nalgebra::{DMatrix, DVector};
 
 /// All basic solutions `(t, y)`; those of degenerate bases may repeat.

@@ -4,11 +4,12 @@
 //! single elements, contact rows found by searching the boundary for the contact points' places.
 //! [`by_reduction`] uses equilibrium and compatibility in the contact forces.
 
+use masonry::data::state::RowState;
 use masonry::element::quad4;
+use masonry::forms::reduction::Reduction;
+use masonry::forms::{Form, FormKind};
 use masonry::geometry;
 use masonry::material::constitutive;
-use masonry::method::forms::{Form, FormKind, RowState};
-use masonry::method::reduction::Reduction;
 use masonry::model::{Block, Model};
 use masonry::system::System;
 use masonry::system::rigid::Modes;

@@ -4,6 +4,7 @@ use masonry::analysis::outcome::{
     ContactState, ContactStatus, ElementStress, Outcome, PhaseTime, Principal, Reaction, State,
 };
 use masonry::analysis::solve::solve;
+use masonry::data::verdict::{Evidence, Verdict};
 use masonry::ids::{BlockId, JointId, LoadId, SupportId};
 use masonry::law::JointLaw;
 use masonry::model::mesh::BlockMesh;
@@ -14,7 +15,6 @@ use masonry::model::{
 use masonry::plan::{Choice, Effect, Plan};
 use masonry::scene::{self, Material, Route, Scene};
 use masonry::units::{ForceUnit, LengthUnit, Units};
-use masonry::verify::verdict::{Evidence, Verdict};
 use nalgebra::{Point2, Vector2};
 
 /// Sizes of the wall.

@@ -6,10 +6,10 @@ use super::Stand;
 use super::steps::{End, Rest, Steps};
 use crate::analysis::limit::LimitError;
 use crate::analysis::limit::watch::Watch;
+use crate::data::state::ContactStatus;
+use crate::forms::Sparse;
 use crate::ids::JointId;
-use crate::method::forms::Sparse;
 use crate::model::Model;
-use crate::state::ContactStatus;
 use crate::system::System;
 
 /// Gaps below this part of the largest displacement are closed, and forces nearer to the bound of friction than this part of

@@ -2,7 +2,7 @@
 
 use lcp::{Contact2d, ContactState, Ending, Observer, Solver};
 
-use crate::method::forms::Sparse;
+use crate::forms::Sparse;
 use crate::method::loading::{self, Loading};
 
 /// The blocks where they rest.

@@ -12,18 +12,16 @@
 use faer::Mat;
 use lcp::HorizontalLcp;
 
+use crate::data::state::RowState;
+use crate::forms::reduction::Reduction;
 use crate::law::Friction;
-use crate::method::reduction::Reduction;
 use crate::rounding::{cleared, largest};
 use crate::system::System;
 
 mod coulomb;
 mod mixed;
 mod reduced;
-mod sparse;
 mod stewart_trinkle;
-
-pub use sparse::Sparse;
 
 /// Which variables are used.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -70,15 +68,6 @@ impl Start {
     pub fn last(t_basic: Vec<bool>) -> Self {
         Self { name: Self::LAST, t_basic }
     }
-}
-
-/// Forces and relative displacements of all rows of a [`System`], in SI units.
-#[derive(Debug, Clone, PartialEq)]
-pub struct RowState {
-    /// Contact forces \[N\].
-    pub t: Vec<f64>,
-    /// Relative displacements \[m\].
-    pub y: Vec<f64>,
 }
 
 /// A contact problem `A t + B y = c`, `t >= 0`, `y >= 0`, `t.y = 0`, dimensionless.

@@ -23,6 +23,15 @@ pub struct State {
     pub strain_energy: f64,
 }
 
+/// Forces and relative displacements of all rows of a [`System`](crate::system::System), in SI units.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RowState {
+    /// Contact forces \[N\].
+    pub t: Vec<f64>,
+    /// Relative displacements \[m\].
+    pub y: Vec<f64>,
+}
+
 /// The state of one contact point.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct ContactState {

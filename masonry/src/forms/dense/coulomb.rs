@@ -2,7 +2,7 @@
 
 use super::reduced::{normal_start, tangents_in_i};
 use super::{Equations, Form, FormKind, Start, reduced};
-use crate::method::reduction::Reduction;
+use crate::forms::reduction::Reduction;
 use crate::system::System;
 
 pub(super) fn build(system: &System, reduction: &Reduction) -> Result<Form, lcp::Error> {

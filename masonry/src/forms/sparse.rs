@@ -3,11 +3,10 @@
 use faer::sparse::{SparseColMat, Triplet};
 use lcp::{Contact2d, ContactState, Residuals};
 
-use super::RowState;
+use crate::data::state::{RowState, State};
 use crate::ids::BlockId;
 use crate::model::Model;
 use crate::rounding::cleared;
-use crate::state::State;
 use crate::system::{BodySystem, System, displaced_nodes};
 
 /// A [`System`] as a sparse contact problem in SI units, and back.

@@ -13,7 +13,7 @@
 use faer::Mat;
 
 use super::{Equations, Form, FormKind, Layout, Scale};
-use crate::method::reduction::Reduction;
+use crate::forms::reduction::Reduction;
 use crate::system::System;
 
 pub(super) fn build(system: &System, reduction: &Reduction) -> Result<Form, lcp::Error> {

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Deserializer, Serialize};
 
-use crate::scene::Route;
+use crate::data::route::Route;
 
 /// How a state was found.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -37,7 +37,7 @@ pub struct SolveInfo {
     /// All routes that were tried, in order.
     pub routes: Vec<RouteEnd>,
     /// The form that was solved: `coulomb`, `stewart-trinkle` or `mixed`
-    /// ([`FormKind`](crate::method::forms::FormKind)) of the pivoting route, `contact` of the others.
+    /// ([`FormKind`](crate::forms::FormKind)) of the pivoting route, `contact` of the others.
     pub form: String,
     /// Order of the complementarity problem; of the augmented Lagrangian method, of its linear systems.
     pub order: usize,

@@ -3,7 +3,7 @@
 use faer::Mat;
 
 use super::{Equations, FormKind, Layout, Scale, Start};
-use crate::method::reduction::Reduction;
+use crate::forms::reduction::Reduction;
 use crate::system::System;
 
 /// A problem of the given order with one equation for every row of the system, at the same position:

@@ -1,0 +1,21 @@
+//! What modules tell one another: plain data, built on numbers of parts alone.
+//!
+//! | module | content |
+//! |---|---|
+//! | [`route`] | the routes to a solution |
+//! | [`info`] | how a state was found: work, routes and times |
+//! | [`state`] | displacements, contact forces, stresses, reactions |
+//! | [`statics`] | admissible forces, or the proof that there are none |
+//! | [`motion`] | motions of a structure that has no equilibrium |
+//! | [`verdict`] | whether a wall stands, with the evidence |
+//!
+//! What makes these data, and what they come to, is beside what makes them: [`Proof::of`](statics::Proof::of) is in
+//! [`method::statics`](crate::method::statics), [`Principal::of`](state::Principal::of) in
+//! [`recover`](crate::recover).
+
+pub mod info;
+pub mod motion;
+pub mod route;
+pub mod state;
+pub mod statics;
+pub mod verdict;

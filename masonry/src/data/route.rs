@@ -1,0 +1,43 @@
+//! The routes to a solution.
+
+use serde::{Deserialize, Serialize};
+
+/// The route to the solution: a form of the equations and a method.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
+#[serde(rename_all = "lowercase")]
+pub enum Route {
+    /// The fastest route for the scene, and further ones if it fails.
+    #[default]
+    Auto,
+    /// Forces within friction that balance the loads, by one convex program; for rigid blocks without gaps, or a
+    /// proof that there are none.
+    Forces,
+    /// Lemke's method on the problem reduced to contact forces, with dense matrices.
+    Lemke,
+    /// The interior-point method on the sparse problem with all displacements.
+    Interior,
+    /// Convex quadratic programs on the sparse problem; a sequence of them for friction.
+    Qp,
+    /// Projected Gauss-Seidel on the sparse problem; springs hold the blocks, and are re-centred until they carry
+    /// nothing.
+    Pgs,
+    /// The augmented Lagrangian method on the sparse problem, for elastic blocks only.
+    Alm,
+}
+
+impl Route {
+    /// The name in scenes and reports.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Auto => "auto",
+            Self::Forces => "forces",
+            Self::Lemke => "lemke",
+            Self::Interior => "interior",
+            Self::Qp => "qp",
+            Self::Pgs => "pgs",
+            Self::Alm => "alm",
+        }
+    }
+}

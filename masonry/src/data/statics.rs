@@ -1,0 +1,42 @@
+//! What is known about forces that balance the loads.
+
+use nalgebra::Vector2;
+
+/// What is known about forces that balance the loads.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Statics {
+    /// These do: of all rows of the system \[N\].
+    Admissible(Vec<f64>),
+    /// There are none.
+    Impossible(Proof),
+    /// Undecided.
+    Open,
+}
+
+/// A motion that was checked to be a proof.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Proof {
+    /// Displacement rates of the corners of every block, scaled to a largest component of one.
+    pub rates: Vec<Vec<Vector2<f64>>>,
+    /// Work of the loads on them, less what cohesion and tensile strength take, relative to the sum of all of these
+    /// forces \[-\].
+    pub work: f64,
+    /// The largest work that a contact force of one could do against it, relative to the force \[-\]: rounding errors.
+    pub error: f64,
+}
+
+/// The largest value of a linear function of admissible forces.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Extreme {
+    /// What forces reach, and what by a motion no forces exceed \[N\].
+    Value {
+        /// The first.
+        value: f64,
+        /// The second.
+        bound: f64,
+    },
+    /// Forces that balance one another make it as large as one likes.
+    Unlimited,
+    /// Neither came out.
+    Open,
+}
