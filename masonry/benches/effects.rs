@@ -195,7 +195,7 @@ fn answered(scene: &Scene) -> Outcome {
 fn built(scene: &Scene) -> [usize; 3] {
     let model = Model::from_scene(scene).expect("the scene is sound");
     let system = System::new(&model).expect("the blocks are sound");
-    if scene.solver.route == Route::Lemke {
+    if scene.solver.route == Route::Lemke.into() {
         let reduction = Reduction::new(&system, None).expect("no block is free");
         let form = Form::new(FormKind::Coulomb, &system, &reduction).expect("all is finite");
         return [0, form.points(), form.order() - form.points()];

@@ -58,7 +58,7 @@ pub use self::key_path::KeyPath;
 pub use self::load::{EdgeStress, Load, LoadError, LoadKind};
 pub use self::materials::{Between, Joint, Material};
 pub use self::opening::{Bond, Opening, OpeningError};
-pub use self::solver::{Form, Solver};
+pub use self::solver::{Form, RouteSetting, Solver};
 use self::source::Source;
 pub use self::stages::{Movement, Stage};
 pub use self::wall::{Brick, Courses, Wall, WallJoints};

@@ -8,7 +8,8 @@ use lcp::Status;
 use masonry::analysis::outcome::Outcome;
 use masonry::analysis::solve::solve;
 use masonry::scene::{
-    Block, Brick, Joint, Load, Material, Movement, Plane, Route, Scene, Stage, Support, Wall,
+    Block, Brick, Joint, Load, Material, Movement, Plane, Route, RouteSetting, Scene, Stage,
+    Support, Wall,
 };
 use masonry::units::Units;
 
@@ -239,7 +240,7 @@ fn a_step_that_fails_keeps_the_one_before() {
             .stage(Stage::new("press"))
             .stage(Stage::new("load").steps(10).load("weight", 1.0))
     };
-    for route in [Route::Auto, Route::Lemke, Route::Interior] {
+    for route in [RouteSetting::Auto, Route::Lemke.into(), Route::Interior.into()] {
         let outcome = solve(&scene(route)).unwrap();
         assert_ne!(outcome.solve.status, Status::Solved, "{route:?}");
         let history = outcome.history.as_ref().unwrap();

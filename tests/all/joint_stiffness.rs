@@ -15,8 +15,8 @@ use masonry::data::verdict::{Evidence, Verdict};
 use masonry::model::{Model, Plane};
 use masonry::report::{csv, json, table};
 use masonry::scene::{
-    Brick, Films, Form, Joint, Load, Material, Movement, PointRule, Route, Scene, Stage, Support,
-    Wall,
+    Brick, Films, Form, Joint, Load, Material, Movement, PointRule, Route, RouteSetting, Scene,
+    Stage, Support, Wall,
 };
 use masonry::units::{ForceUnit, LengthUnit, Units};
 
@@ -276,8 +276,10 @@ fn all_routes_and_forms_have_the_same_answer() {
         let by_pivots = forms.map(|form| scene.clone().form(form));
         let others = routes_for(&scene).into_iter().map(|route| scene.clone().route(route));
         for scene in by_pivots.into_iter().chain(others) {
-            let route =
-                if scene.solver.route == Route::Auto { Route::Lemke } else { scene.solver.route };
+            let route = match scene.solver.route {
+                RouteSetting::Auto => Route::Lemke,
+                RouteSetting::Only(route) => route,
+            };
             let what = format!("{route:?} {:?}", scene.solver.form);
             let Some(other) = answer_by(&scene, route) else { continue };
             assert_eq!(other.solve.route, route);

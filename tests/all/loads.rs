@@ -15,7 +15,7 @@ use masonry::analysis::solve::solve;
 use masonry::data::verdict::Verdict;
 use masonry::model::{Model, Plane};
 use masonry::report::summary;
-use masonry::scene::{Brick, Joint, Load, Material, Route, Scene, Support, Wall};
+use masonry::scene::{Brick, Joint, Load, Material, Route, RouteSetting, Scene, Support, Wall};
 
 /// Weight of the stone, kN/m3.
 const WEIGHT: f64 = 2.0 * GRAVITY;
@@ -78,7 +78,7 @@ fn a_block_slides_or_rocks_under_an_acceleration() {
             assert_close(critical([0.0, 1.0], |alpha| stands(&shaken(alpha))), limit, 1e-6);
             for (part, verdict) in [(1.0 - 1e-5, Verdict::Stands), (1.0 + 1e-5, Verdict::Falls)] {
                 let scene = shaken(part * limit);
-                assert_eq!(scene.solver.route, Route::Auto);
+                assert_eq!(scene.solver.route, RouteSetting::Auto);
                 assert_eq!(solve(&scene).unwrap().judgement.verdict, verdict, "{sizes:?}");
             }
         }
@@ -169,7 +169,7 @@ fn an_acceleration_is_gravity_that_leans() {
         let two = wall(material)
             .load(Load::acceleration("one", [0.3 * GRAVITY, -0.2]))
             .load(Load::acceleration("other", [-0.2 * GRAVITY, 0.2]));
-        for route in [Route::Auto, Route::Lemke, Route::Interior] {
+        for route in [RouteSetting::Auto, Route::Lemke.into(), Route::Interior.into()] {
             let [shaken, leaning, two] =
                 [&shaken, &leaning, &two].map(|scene| solved(&scene.clone().route(route)));
             assert_same(&shaken, &leaning, 1e-12);

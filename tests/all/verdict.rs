@@ -12,7 +12,7 @@ use masonry::analysis::solve::solve;
 use masonry::data::verdict::{Evidence, Verdict};
 use masonry::model::Plane;
 use masonry::report::{json, summary, table};
-use masonry::scene::{Joint, Load, Material, Movement, Route, Scene, Stage, Support};
+use masonry::scene::{Joint, Load, Material, Movement, Route, RouteSetting, Scene, Stage, Support};
 use serde_json::Value;
 
 fn verdict(scene: &Scene) -> (Verdict, Evidence) {
@@ -158,7 +158,7 @@ fn pushed(force: f64, material: Material) -> Scene {
 #[test]
 fn a_block_that_slides_away_does_not_stand() {
     for material in [Material::rigid(), Material::elastic(1e6, 0.2)] {
-        for route in [Route::Auto, Route::Interior, Route::Lemke] {
+        for route in [RouteSetting::Auto, Route::Interior.into(), Route::Lemke.into()] {
             let scene = pushed(6.0006, material).tolerance(1e-4).route(route);
             let falls = (Verdict::Falls, Evidence::NoAdmissibleForces);
             assert_eq!(verdict(&scene), falls, "{route:?} {material:?}");

@@ -284,7 +284,11 @@ pub fn study<'a>(
         let (mesh, figures) = mesh::studied(&finer, factor, &mut runner);
         for &route in &settings.routes {
             for &tolerance in &settings.tolerances {
-                records.push(runner.record(&finer, (factor, route, tolerance), figures.as_ref()));
+                records.push(runner.record(
+                    &finer,
+                    Progress { mesh: factor, route, tolerance },
+                    figures.as_ref(),
+                ));
             }
         }
         meshes.push(mesh);

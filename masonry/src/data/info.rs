@@ -66,11 +66,11 @@ pub struct SolveInfo {
 }
 
 impl SolveInfo {
-    /// A status and residuals only.
-    pub fn new(status: lcp::Status, residuals: lcp::Residuals) -> Self {
+    /// A route, a status and residuals only.
+    pub fn new(route: Route, status: lcp::Status, residuals: lcp::Residuals) -> Self {
         Self {
             status,
-            route: Route::Auto,
+            route,
             because: String::new(),
             routes: Vec::new(),
             form: String::new(),

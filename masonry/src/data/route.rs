@@ -2,15 +2,12 @@
 
 use serde::{Deserialize, Serialize};
 
-/// The route to the solution: a form of the equations and a method.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
+/// A route to the solution: a form of the equations and a method.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
 #[serde(rename_all = "lowercase")]
 pub enum Route {
-    /// The fastest route for the scene, and further ones if it fails.
-    #[default]
-    Auto,
     /// Forces within friction that balance the loads, by one convex program; for rigid blocks without gaps, or a
     /// proof that there are none.
     Forces,
@@ -31,7 +28,6 @@ impl Route {
     /// The name in scenes and reports.
     pub fn name(self) -> &'static str {
         match self {
-            Self::Auto => "auto",
             Self::Forces => "forces",
             Self::Lemke => "lemke",
             Self::Interior => "interior",

@@ -223,6 +223,14 @@ impl FormKind {
         }
     }
 
+    /// Unknowns that a frictional point has besides its normal force.
+    pub(crate) fn unknowns_per_friction(self) -> usize {
+        match self {
+            Self::Coulomb => 2,
+            Self::StewartTrinkle | Self::Mixed => 3,
+        }
+    }
+
     /// The factors in `t_t = factor (t+ - t-)` and `y_t = factor (y+ - y-)`, where `t+`, `y+` are the
     /// variables of the second group of pairs and `t-`, `y-` those of the third.
     fn tangential_weights(self) -> (f64, f64) {

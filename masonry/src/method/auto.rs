@@ -1,5 +1,6 @@
-//! The rules of `auto`: which routes a scene uses and in which order, how long each may take, and when a result is
-//! final. [`Plan::routes`](crate::plan::Plan::routes) has the list with its reasons, and `masonry plan` prints it.
+//! The rules of `auto`: which routes a scene uses and in which order, how long each may take, when a result is final,
+//! and what is asked besides. Nothing else in the crate decides this: [`Plan::routes`](crate::plan::Plan::routes) has
+//! the list with its reasons, and [`analysis`](crate::analysis::solve) runs it.
 //!
 //! The cheapest method that can decide runs first; slower ones follow only for what they alone can decide:
 //!
@@ -15,7 +16,9 @@
 use lcp::Status;
 
 use crate::data::info::SolveInfo;
-use crate::scene::{Form, Route, Solver};
+use crate::data::route::Route;
+use crate::forms::FormKind;
+use crate::scene::{Form, RouteSetting, Solver};
 
 /// Pivots on dense matrices of this order take about a second; the time grows with the cube.
 const FEW: usize = 2000;
@@ -35,14 +38,14 @@ pub(crate) struct Facts {
 pub(crate) fn routes(solver: &Solver, facts: Facts) -> Vec<(Route, String)> {
     let given = |route: Route| format!("solver.route = \"{}\"", route.name());
     match solver.route {
-        Route::Auto if solver.form != Form::Auto => {
+        RouteSetting::Auto if solver.form != Form::Auto => {
             vec![(Route::Lemke, "solver.form is given, which is a form of this route".to_owned())]
         }
-        Route::Auto if solver.max_pivots.is_some() => {
+        RouteSetting::Auto if solver.max_pivots.is_some() => {
             vec![(Route::Lemke, "solver.max_pivots is given, which limits this route".to_owned())]
         }
-        Route::Auto => chosen(facts),
-        Route::Pgs if solver.soft.is_none() => vec![(
+        RouteSetting::Auto => chosen(facts),
+        RouteSetting::Only(Route::Pgs) if solver.soft.is_none() => vec![(
             Route::Pgs,
             format!(
                 "{}; blocks float, so springs hold them, solver.soft = {}",
@@ -50,7 +53,7 @@ pub(crate) fn routes(solver: &Solver, facts: Facts) -> Vec<(Route, String)> {
                 crate::method::pgs::SOFT
             ),
         )],
-        route => vec![(route, given(route))],
+        RouteSetting::Only(route) => vec![(route, given(route))],
     }
 }
 
@@ -93,6 +96,16 @@ fn chosen(facts: Facts) -> Vec<(Route, String)> {
     list
 }
 
+/// The forms that pivots try, one after the other until one has a solution.
+pub(crate) fn forms(form: Form) -> &'static [FormKind] {
+    match form {
+        Form::Auto => &[FormKind::Coulomb, FormKind::Mixed],
+        Form::Coulomb => &[FormKind::Coulomb],
+        Form::StewartTrinkle => &[FormKind::StewartTrinkle],
+        Form::Mixed => &[FormKind::Mixed],
+    }
+}
+
 /// Pivots of one attempt, in multiples of the order: two to three are usual.
 const PIVOTS: usize = 5;
 
@@ -105,6 +118,24 @@ pub(crate) fn max_pivots(route: Route, order: usize, routes: usize) -> Option<us
 pub(crate) fn is_asked(route: Route, known: Rank) -> bool {
     // Forces that balance the loads are none that the loading leads to; that there are none is a proof.
     known != Rank::Motion || route == Route::Forces
+}
+
+/// Whether a route that takes many steps is asked to wait for the proof that there is no equilibrium, since the routes
+/// after it would look for one.
+pub(crate) fn may_be_cut(mut later: impl Iterator<Item = Route>) -> bool {
+    later.any(|route| route == Route::Forces)
+}
+
+/// Whether the verdict needs to know if any forces balance the loads: without an answer, with one far away, and of blocks at
+/// rest, of which such forces are all there is to know, whatever tolerance another route has found them to.
+pub(crate) fn needs_statics(status: Status, is_far: bool, at_rest: bool) -> bool {
+    status != Status::Cancelled && (status != Status::Solved || is_far || at_rest)
+}
+
+/// Whether the verdict needs to know where loading from a state without stresses leads: blocks at rest with friction may be
+/// held by a prestress that nothing brings about.
+pub(crate) fn needs_loading(status: Status, at_rest: bool, has_friction: bool) -> bool {
+    status == Status::Solved && at_rest && has_friction
 }
 
 /// How much an attempt says; what comes first says more.

@@ -43,14 +43,13 @@ pub fn answer(system: &System, sparse: &Sparse, decision: &Decision, tolerance: 
     };
     let residuals = at_rest.as_ref().map_or(sparse::UNKNOWN, |(_, residuals)| *residuals);
     let info = SolveInfo {
-        route: Route::Forces,
         form: FORM.to_owned(),
         order: 3 * system.bodies.len() + system.points() + system.friction.len(),
         attempts: vec![format!("forces: {line}, after {} factorisations", decision.steps)],
         iterations: decision.steps,
         factorisations: decision.steps,
         proved: status == Status::Infeasible,
-        ..SolveInfo::new(status, residuals)
+        ..SolveInfo::new(Route::Forces, status, residuals)
     };
     let state = at_rest.map(|(state, _)| state).filter(|_| status == Status::Solved);
     Answer {

@@ -9,13 +9,13 @@
 use lcp::lemke::{Attempt, AttemptCovering, AttemptEnd, AttemptStart};
 use lcp::{Basis, Covering, Lemke, LemkeSettings, Residuals, Side, Status, WarmStart};
 
-use super::{Answer, Method, Observer, Request, RouteError, Step};
+use super::{Answer, Method, Observer, Request, RouteError, Step, auto};
 use crate::data::info::SolveInfo;
 use crate::data::motion::Motion;
+use crate::data::route::Route;
 use crate::data::state::RowState;
 use crate::forms::reduction::Reduction;
 use crate::forms::{Form, FormKind, Start};
-use crate::scene;
 use crate::system::System;
 
 /// Start bases of a reduced form that are tried.
@@ -44,12 +44,6 @@ pub struct Pivots<'a> {
 impl Method for Pivots<'_> {
     fn solve(&self, request: &Request, observer: Observer<'_>) -> Result<Answer, RouteError> {
         let Self { system, reduction, start } = *self;
-        let kinds: &[FormKind] = match request.form {
-            scene::Form::Auto => &[FormKind::Coulomb, FormKind::Mixed],
-            scene::Form::Coulomb => &[FormKind::Coulomb],
-            scene::Form::StewartTrinkle => &[FormKind::StewartTrinkle],
-            scene::Form::Mixed => &[FormKind::Mixed],
-        };
         let mut search = Search {
             request,
             start,
@@ -59,7 +53,7 @@ impl Method for Pivots<'_> {
             coulomb: None,
         };
         let mut answer = None;
-        for &kind in kinds {
+        for &kind in auto::forms(request.form) {
             let form = Form::new(kind, system, reduction)?;
             let found = search.run(form, observer)?;
             let done = found.rows.is_some() || found.info.status == Status::Cancelled;
@@ -105,14 +99,13 @@ impl Search<'_> {
         let solution = last.unwrap_or_else(|| unreachable!("there is at least one start"));
         let rows = solution.is_solved().then(|| form.rows(&solution.t, &solution.y));
         let info = SolveInfo {
-            route: scene::Route::Lemke,
             form: form.kind.name().to_owned(),
             order: form.order(),
             attempts: self.attempts.clone(),
             pivots: self.pivots,
             factorisations: self.factorisations,
             coulomb_residuals: rows.as_ref().and_then(|rows| self.against_coulomb(&form, rows)),
-            ..SolveInfo::new(solution.status, solution.residuals)
+            ..SolveInfo::new(Route::Lemke, solution.status, solution.residuals)
         };
         let ray = solution.ray().filter(|_| form.kind == FormKind::Mixed).cloned();
         let ray = ray.and_then(|ray| form.amplitudes(&ray.dt));

@@ -55,7 +55,6 @@ pub(crate) fn answer(
 ) -> Answer {
     let problem = &sparse.problem;
     let info = SolveInfo {
-        route,
         form: FORM.to_owned(),
         order: problem.order(),
         attempts: vec![describe(route, &found)],
@@ -63,7 +62,7 @@ pub(crate) fn answer(
         factorisations: found.factorisations,
         proved: found.proof.is_some(),
         soft,
-        ..SolveInfo::new(found.status, found.residuals)
+        ..SolveInfo::new(route, found.status, found.residuals)
     };
     // In the rows of the displacements a proof is a motion on which the loads do more work than the contacts can take.
     let motion = found.proof.map(|mut proof| {

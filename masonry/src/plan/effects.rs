@@ -41,7 +41,7 @@ struct FirstRoute<'a> {
 
 impl FirstRoute<'_> {
     fn pivots(&self) -> bool {
-        matches!(self.with.route, Route::Auto | Route::Lemke)
+        self.with.route == Route::Lemke
     }
 
     /// An effect without which the sizes would be these.

@@ -1,6 +1,8 @@
 //! How large the problem of a model is on each route, and what it would be without an effect.
 
 use super::choice::Choice;
+use crate::forms::FormKind;
+use crate::method::auto;
 use crate::model::{Anchor, Block, ContactPoint, Model};
 use crate::paper::alm::Strips;
 use crate::scene::{Form, Route};
@@ -194,7 +196,7 @@ impl Sizes {
             memory_bytes: self.sparse_bytes(),
         };
         match route {
-            Route::Auto | Route::Lemke => self.lemke(form),
+            Route::Lemke => self.lemke(form),
             Route::Interior => sparse,
             // An edge of the cone for every normal force, and one more with friction; a force between two bounds for
             // cohesion.
@@ -226,13 +228,14 @@ impl Sizes {
     }
 
     fn lemke(&self, form: Form) -> Choice {
-        let order_of = |form| {
+        let order_of = |kind: &FormKind| {
             self.points
-                + unknowns_per_friction(form) * self.frictional
+                + kind.unknowns_per_friction() * self.frictional
                 // Each free unknown, rigid amplitude or bar, is a difference of two nonnegative ones.
-                + if form == Form::Mixed { 2 * (self.rigid_modes() + self.bars) } else { 0 }
+                + if *kind == FormKind::Mixed { 2 * (self.rigid_modes() + self.bars) } else { 0 }
         };
-        let largest_order = order_of(if form == Form::Auto { Form::Mixed } else { form });
+        let orders: Vec<usize> = auto::forms(form).iter().map(order_of).collect();
+        let largest_order = orders.iter().copied().max().unwrap_or(0);
         // At the peak about nine matrices of the largest order (the problem, its equilibrated copy, the
         // tableau at the start and now, factors), and stiffness and factor of the largest block.
         let square = |n: usize| n.saturating_mul(n);
@@ -241,7 +244,7 @@ impl Sizes {
         Choice {
             route: Route::Lemke,
             because: String::new(),
-            order: order_of(form),
+            order: orders[0],
             largest_order,
             dense_numbers,
             memory_bytes: dense_numbers.saturating_mul(size_of::<f64>()),
@@ -265,14 +268,6 @@ impl Sizes {
         let moved =
             if self.bars > 0 { self.displacements() } else { 2 * self.largest_block.max(3) };
         forces.saturating_mul(moved).saturating_mul(PER_NUMBER)
-    }
-}
-
-/// Unknowns that a frictional point has besides its normal force.
-fn unknowns_per_friction(form: Form) -> usize {
-    match form {
-        Form::Auto | Form::Coulomb => 2,
-        Form::StewartTrinkle | Form::Mixed => 3,
     }
 }
 

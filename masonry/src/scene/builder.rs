@@ -5,7 +5,8 @@ use std::collections::BTreeMap;
 use super::source::Source;
 use super::{
     Arch, Between, Block, Bond, Brick, Contact, Courses, Films, Form, Joint, Limit, Load, Material,
-    Opening, Output, Plane, PointRule, Route, Scene, Solver, Stage, Support, Wall, WallJoints,
+    Opening, Output, Plane, PointRule, RouteSetting, Scene, Solver, Stage, Support, Wall,
+    WallJoints,
 };
 use crate::units::Units;
 
@@ -170,10 +171,10 @@ impl Scene {
         self
     }
 
-    /// Sets the route to the solution.
+    /// Sets the route to the solution: one of them, or [`RouteSetting::Auto`].
     #[must_use]
-    pub fn route(mut self, route: Route) -> Self {
-        self.solver.route = route;
+    pub fn route(mut self, route: impl Into<RouteSetting>) -> Self {
+        self.solver.route = route.into();
         self
     }
 

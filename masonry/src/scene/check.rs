@@ -9,8 +9,8 @@ use super::rules::{
     value,
 };
 use super::{
-    Between, Block, Courses, Fault, Form, KeyPath, Known, Material, Route, Scene, SceneError,
-    SceneErrorKind, Solver, Support, Wall,
+    Between, Block, Courses, Fault, Form, KeyPath, Known, Material, Route, RouteSetting, Scene,
+    SceneError, SceneErrorKind, Solver, Support, Wall,
 };
 use crate::geometry::{self, PolygonError};
 use crate::scene::bond::JointThickness;
@@ -234,8 +234,8 @@ impl Scene {
     /// Keys of the solver that the route has no use for.
     fn check_route(&self, at: &KeyPath) -> Check {
         let Solver { route, form, max_pivots, max_steps, soft, .. } = self.solver;
-        let pivots = matches!(route, Route::Auto | Route::Lemke);
-        let springs = matches!(route, Route::Qp | Route::Pgs);
+        let pivots = route.allows(Route::Lemke);
+        let springs = [Route::Qp, Route::Pgs].map(RouteSetting::Only).contains(&route);
         let otherwise = ", or set route = \"lemke\"";
         if form != Form::Auto && !pivots {
             let because = "is used by the routes `auto` and `lemke` only";
@@ -245,7 +245,7 @@ impl Scene {
             let because = "is used by the routes `auto` and `lemke` only";
             return Err(unwanted(at, "max_pivots", because, otherwise));
         }
-        if max_steps.is_some() && !matches!(route, Route::Auto | Route::Interior) {
+        if max_steps.is_some() && !route.allows(Route::Interior) {
             let because = "is used by the routes `auto` and `interior` only";
             return Err(unwanted(at, "max_steps", because, ", or set route = \"interior\""));
         }

@@ -1,6 +1,7 @@
 //! How a scene is solved: route, form, limits.
 
-use serde::{Deserialize, Serialize};
+use serde::de::value::StrDeserializer;
+use serde::{Deserialize, Deserializer, Serialize};
 
 use crate::data::route::Route;
 
@@ -14,7 +15,7 @@ pub struct Solver {
     pub tolerance: f64,
     /// The route to the solution.
     #[serde(default)]
-    pub route: Route,
+    pub route: RouteSetting,
     /// The form of the reduced problem; belongs to [`Route::Lemke`].
     #[serde(default)]
     pub form: Form,
@@ -36,11 +37,80 @@ impl Default for Solver {
     fn default() -> Self {
         Self {
             tolerance: default_tolerance(),
-            route: Route::default(),
+            route: RouteSetting::default(),
             form: Form::default(),
             max_pivots: None,
             max_steps: None,
             soft: None,
+        }
+    }
+}
+
+/// The route that a scene asks for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(rename_all = "lowercase")]
+pub enum RouteSetting {
+    /// The fastest route for the scene, and further ones if it fails.
+    #[default]
+    Auto,
+    /// This one and no other.
+    #[serde(untagged)]
+    Only(Route),
+}
+
+impl RouteSetting {
+    /// The name in scenes.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Auto => "auto",
+            Self::Only(route) => route.name(),
+        }
+    }
+
+    /// Whether this route may be among those that are tried.
+    pub fn allows(self, route: Route) -> bool {
+        matches!(self, Self::Auto) || self == Self::Only(route)
+    }
+}
+
+impl From<Route> for RouteSetting {
+    fn from(route: Route) -> Self {
+        Self::Only(route)
+    }
+}
+
+impl<'de> Deserialize<'de> for RouteSetting {
+    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
+        let name = String::deserialize(from)?;
+        if name == Self::Auto.name() {
+            return Ok(Self::Auto);
+        }
+        Route::deserialize(StrDeserializer::new(&name)).map(Self::Only)
+    }
+}
+
+#[cfg(feature = "cli")]
+impl clap::ValueEnum for RouteSetting {
+    fn value_variants<'a>() -> &'a [Self] {
+        &[
+            Self::Auto,
+            Self::Only(Route::Forces),
+            Self::Only(Route::Lemke),
+            Self::Only(Route::Interior),
+            Self::Only(Route::Qp),
+            Self::Only(Route::Pgs),
+            Self::Only(Route::Alm),
+        ]
+    }
+
+    fn to_possible_value(&self) -> Option<clap::builder::PossibleValue> {
+        match self {
+            Self::Auto => {
+                let value = clap::builder::PossibleValue::new(self.name());
+                Some(value.help("The fastest route for the scene, and further ones if it fails"))
+            }
+            Self::Only(route) => route.to_possible_value(),
         }
     }
 }

@@ -3,7 +3,7 @@
 use masonry::model::joints::PointRule;
 use masonry::model::{Body, Model};
 use masonry::scene::{
-    Block, Brick, Joint, Load, Material, Route, Scene, SceneErrorKind, Support, Wall,
+    Block, Brick, Joint, Load, Material, Route, RouteSetting, Scene, SceneErrorKind, Support, Wall,
 };
 use masonry::{Units, solve};
 
@@ -96,7 +96,7 @@ fn contact_points_follow_their_class() {
             .any(|point| (point.position - joint.from).norm() < 1e-9);
         assert_eq!(at_ends, class.name != "glue");
     }
-    for route in [Route::Auto, Route::Lemke, Route::Interior] {
+    for route in [RouteSetting::Auto, Route::Lemke.into(), Route::Interior.into()] {
         let outcome = solve(&scene.clone().route(route)).unwrap();
         assert_eq!(outcome.solve.status, lcp::Status::Solved, "{route:?}");
     }

@@ -123,7 +123,8 @@ impl<'a> Chain<'a> {
             };
             let limit = auto::max_pivots(choice.route, choice.largest_order, routes.len());
             self.request.max_pivots = self.request.max_pivots.or(limit);
-            self.may_be_cut = routes[position + 1..].iter().any(|it| it.route == Route::Forces);
+            self.may_be_cut =
+                auto::may_be_cut(routes[position + 1..].iter().map(|choice| choice.route));
             match self.attempt(choice.route) {
                 Ok(mut attempt) => {
                     attempt.info.because.clone_from(&choice.because);
@@ -162,13 +163,11 @@ impl<'a> Chain<'a> {
         Ok(best)
     }
 
-    /// What a verdict needs where there is no answer, or one far away: whether any forces balance the loads.
+    /// Whether any forces balance the loads, if the verdict needs it.
     fn add_statics(&mut self, best: &mut Attempt) {
         let is_far =
             best.state.as_ref().is_some_and(|state| Movement::of(self.model, state).is_large());
-        // Of blocks at rest they are all there is to know, whatever tolerance another route has found them to.
-        let is_open = best.info.status != Status::Solved || is_far || self.system.is_at_rest();
-        if !is_open || best.info.status == Status::Cancelled {
+        if !auto::needs_statics(best.info.status, is_far, self.system.is_at_rest()) {
             return;
         }
         // Data that overflow leave it open.
@@ -178,11 +177,10 @@ impl<'a> Chain<'a> {
         }
     }
 
-    /// Where loading from a state without stresses leads rigid blocks that have admissible forces: a prestress may hold them
-    /// that nothing brings about.
+    /// Where loading from a state without stresses leads rigid blocks that have admissible forces, if the verdict needs it.
     fn add_loading(&mut self, best: &mut Attempt) -> Result<(), SolveError> {
-        let is_solved = best.info.status == Status::Solved;
-        if !is_solved || !self.system.is_at_rest() || self.system.friction.is_empty() {
+        let has_friction = !self.system.friction.is_empty();
+        if !auto::needs_loading(best.info.status, self.system.is_at_rest(), has_friction) {
             return Ok(());
         }
         let mut model = self.model.clone();
@@ -226,7 +224,7 @@ impl<'a> Chain<'a> {
 
     fn attempt(&mut self, route: Route) -> Result<Attempt, SolveError> {
         match route {
-            Route::Auto | Route::Lemke => self.by_pivots(),
+            Route::Lemke => self.by_pivots(),
             Route::Forces => self.by_forces(),
             _ => self.on_sparse(route),
         }

@@ -239,7 +239,7 @@ impl Run {
         if let Some((model, _)) = &stepped {
             let (number, of) = (self.solved + 1, self.steps.len());
             if observer(Event::Step { number, of }).is_break() {
-                let info = SolveInfo::new(Status::Cancelled, UNKNOWN);
+                let info = SolveInfo::new(self.plan.routes[0].route, Status::Cancelled, UNKNOWN);
                 self.last = Some(Last { info, statics: None, led: None, mechanism: None });
                 return Ok(true);
             }
@@ -257,7 +257,8 @@ impl Run {
             Ok(found) => self.take(step, stepped, found),
             Err(error) if self.solved == 0 => return Err(error),
             Err(error) => {
-                let info = SolveInfo::new(Status::NumericalTrouble, UNKNOWN);
+                let info =
+                    SolveInfo::new(self.plan.routes[0].route, Status::NumericalTrouble, UNKNOWN);
                 self.last = Some(Last { info, statics: None, led: None, mechanism: None });
                 let Step { stage, number, .. } = step;
                 let error = Box::new(error);
@@ -396,7 +397,7 @@ impl Run {
     pub fn finish(self) -> Outcome {
         let failed = self.steps.get(self.solved).cloned();
         let Last { info, statics, led, mechanism } = self.last.unwrap_or_else(|| {
-            let info = SolveInfo::new(Status::Cancelled, UNKNOWN);
+            let info = SolveInfo::new(self.plan.routes[0].route, Status::Cancelled, UNKNOWN);
             Last { info, statics: None, led: None, mechanism: None }
         });
         let steps = self.steps.len();

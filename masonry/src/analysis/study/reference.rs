@@ -3,9 +3,9 @@
 use lcp::Status;
 use serde::Serialize;
 
-use super::runs::{Ran, Runner, on_route};
+use super::runs::{Ran, Runner};
 use super::verified::{Exact, Verified};
-use super::{End, Errors, Figures};
+use super::{End, Errors, Figures, Progress};
 use crate::analysis::outcome::Outcome;
 use crate::scene::{Route, Scene};
 use crate::verify::checks::Checks;
@@ -63,7 +63,7 @@ pub(super) fn find(scene: &Scene, mesh: u32, runner: &mut Runner) -> Option<Foun
     let mut found: Vec<Candidate> = Vec::new();
     for route in ROUTES {
         if found.len() < 2 {
-            found.extend(tightest(scene, (mesh, route), runner));
+            found.extend(tightest(scene, mesh, route, runner));
         }
     }
     found.sort_by(|a, b| a.rank().0.cmp(&b.rank().0).then(a.rank().1.total_cmp(&b.rank().1)));
@@ -105,10 +105,10 @@ impl Candidate {
     }
 }
 
-fn tightest(scene: &Scene, (mesh, route): (u32, Route), runner: &mut Runner) -> Option<Candidate> {
+fn tightest(scene: &Scene, mesh: u32, route: Route, runner: &mut Runner) -> Option<Candidate> {
     let tolerances = if route == Route::Alm { &CONVERGED[..] } else { &TOLERANCES[..] };
     for &tolerance in tolerances {
-        let ran = runner.run(&on_route(scene, route, tolerance), mesh);
+        let ran = runner.run(scene, Progress { mesh, route, tolerance });
         if let (Some(outcome), Some(seconds)) = (ran.solved(), ran.seconds) {
             let exact = Exact::of(outcome);
             let reference = Reference {

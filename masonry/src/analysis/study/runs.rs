@@ -76,7 +76,7 @@ pub(super) struct Runner<'a> {
     settings: &'a Settings,
     observer: &'a mut Observer<'a>,
     is_interrupted: bool,
-    beyond: Vec<(Beyond, u32, Route, f64)>,
+    beyond: Vec<(Beyond, Progress)>,
     /// The last record by pivots, with its balances.
     pivots: Option<(Record, Checks)>,
 }
@@ -100,13 +100,14 @@ impl<'a> Runner<'a> {
     pub(super) fn record(
         &mut self,
         scene: &Scene,
-        (mesh, route, tolerance): (u32, Route, f64),
+        at: Progress,
         reference: Option<&Figures>,
     ) -> Record {
-        if let Some(same) = self.same_pivots((mesh, route, tolerance)) {
+        if let Some(same) = self.same_pivots(at) {
             return same;
         }
-        let ran = self.run(&on_route(scene, route, tolerance), mesh);
+        let ran = self.run(scene, at);
+        let Progress { mesh, route, tolerance } = at;
         let count = |outcome: &Outcome| match route {
             Route::Lemke => outcome.solve.pivots,
             _ => outcome.solve.iterations,
@@ -134,7 +135,8 @@ impl<'a> Runner<'a> {
 
     /// Pivots are the same to every tolerance that their residual is below: only what is called solved
     /// depends on it.
-    fn same_pivots(&self, (mesh, route, tolerance): (u32, Route, f64)) -> Option<Record> {
+    fn same_pivots(&self, at: Progress) -> Option<Record> {
+        let Progress { mesh, route, tolerance } = at;
         let (last, checks) = self.pivots.as_ref()?;
         let is_same = route == Route::Lemke && last.mesh == mesh && tolerance <= last.tolerance;
         let is_reached = last.residual.is_some_and(|residual| residual <= tolerance);
@@ -144,24 +146,23 @@ impl<'a> Runner<'a> {
 
     /// Solves a scene, several times if that is quick. Where the time ran out to a looser tolerance, or on
     /// a coarser mesh, it is not tried; nor where iterations did to a looser tolerance.
-    pub(super) fn run(&mut self, scene: &Scene, mesh: u32) -> Ran {
-        let (route, tolerance) = (scene.solver.route, scene.solver.tolerance);
-        let is_easier = |(beyond, other, by, looser): &&(Beyond, u32, Route, f64)| {
-            let on_mesh = *other == mesh || *beyond == Beyond::Time && *other <= mesh;
-            *by == route && on_mesh && *looser >= tolerance
+    pub(super) fn run(&mut self, scene: &Scene, at: Progress) -> Ran {
+        let is_easier = |(beyond, other): &&(Beyond, Progress)| {
+            let on_mesh = other.mesh == at.mesh || *beyond == Beyond::Time && other.mesh <= at.mesh;
+            other.route == at.route && on_mesh && other.tolerance >= at.tolerance
         };
-        if let Some((beyond, mesh, _, tolerance)) = self.beyond.iter().find(is_easier) {
+        if let Some((beyond, easier)) = self.beyond.iter().find(is_easier) {
             let what = match beyond {
                 Beyond::Time => "the time",
                 Beyond::Iterations => "the number of iterations",
             };
-            let mesh = self.settings.mesh_name(*mesh);
-            return Ran::skipped(format!("{what} ran out to {tolerance:e} on {mesh}"));
+            let mesh = self.settings.mesh_name(easier.mesh);
+            return Ran::skipped(format!("{what} ran out to {:e} on {mesh}", easier.tolerance));
         }
-        let at = Progress { mesh, route, tolerance };
         if self.ask(at).is_break() {
             return Ran::skipped("the study was interrupted".to_owned());
         }
+        let scene = &on_route(scene, at);
         if let Some(order) = dense_order(scene).filter(|order| *order > LARGEST_DENSE) {
             return Ran::skipped(format!(
                 "it may build dense matrices of order {order}, and those above {LARGEST_DENSE} take long"
@@ -169,7 +170,7 @@ impl<'a> Runner<'a> {
         }
         let mut ran = self.once(scene, at);
         if let Some(beyond) = ran.is_beyond() {
-            self.beyond.push((beyond, mesh, route, tolerance));
+            self.beyond.push((beyond, at));
         }
         let mut times: Vec<f64> = ran.seconds.into_iter().collect();
         let is_short = times.iter().all(|time| *time < SHORT.as_secs_f64());
@@ -208,7 +209,7 @@ impl<'a> Runner<'a> {
 }
 
 /// The scene by a route to a tolerance, with the stresses that are compared.
-pub(super) fn on_route(scene: &Scene, route: Route, tolerance: f64) -> Scene {
+fn on_route(scene: &Scene, Progress { route, tolerance, .. }: Progress) -> Scene {
     let mut scene = scene.clone().route(route).tolerance(tolerance).stresses(true);
     scene.solver.soft = None;
     if route != Route::Lemke {
@@ -220,7 +221,8 @@ pub(super) fn on_route(scene: &Scene, route: Route, tolerance: f64) -> Scene {
 
 /// The order of the largest matrix of the route by pivots.
 fn dense_order(scene: &Scene) -> Option<usize> {
-    let model = Model::from_scene(scene).ok().filter(|_| scene.solver.route == Route::Lemke)?;
+    let model =
+        Model::from_scene(scene).ok().filter(|_| scene.solver.route == Route::Lemke.into())?;
     let plan = Plan::of(scene, &model);
     Some(plan.largest_order.max(plan.largest_block))
 }

@@ -24,7 +24,7 @@ use masonry::files::write_atomically;
 use masonry::model::Model;
 use masonry::plan::Plan;
 use masonry::report::{svg, table};
-use masonry::scene::{Route, Scene};
+use masonry::scene::{RouteSetting, Scene};
 
 /// How a wall or an arch of blocks carries its load.
 #[derive(Debug, Parser)]
@@ -60,7 +60,7 @@ struct PlanArgs {
     scene: PathBuf,
     /// The route to the solution, in place of that of the scene.
     #[arg(long)]
-    route: Option<Route>,
+    route: Option<RouteSetting>,
     /// Print one JSON object instead of the report.
     #[arg(long)]
     json: bool,

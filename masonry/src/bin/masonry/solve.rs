@@ -16,7 +16,7 @@ use masonry::analysis::outcome::{Frame, Outcome};
 use masonry::analysis::solve::Run;
 use masonry::report::svg::ReferenceLines;
 use masonry::report::{self, Options, json, table};
-use masonry::scene::{Route, Scene};
+use masonry::scene::{RouteSetting, Scene};
 
 /// The state after the last step, in the directory of a load history.
 const CHECKPOINT: &str = "checkpoint.json";
@@ -30,7 +30,7 @@ pub(super) struct SolveArgs {
     out: Option<PathBuf>,
     /// The route to the solution, in place of that of the scene.
     #[arg(long)]
-    route: Option<Route>,
+    route: Option<RouteSetting>,
     /// Continue a load history from `checkpoint.json` in the directory of `--out`.
     #[arg(long, requires = "out")]
     resume: bool,

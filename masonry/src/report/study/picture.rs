@@ -45,7 +45,7 @@ fn series(study: &Study, route: Route) -> Series {
 /// A route has the same colour in every picture.
 pub fn style(route: Route) -> usize {
     match route {
-        Route::Auto | Route::Forces | Route::Lemke => 0,
+        Route::Forces | Route::Lemke => 0,
         Route::Interior => 1,
         Route::Qp => 2,
         Route::Pgs => 3,
