@@ -18,9 +18,9 @@
 //! ```
 //!
 //! and `-T` along the normal is a load on both sides. So [`System`](crate::system::System) and everything built on it
-//! use `t_n'`, and only [`Friction::base`] is new there; [`State`](crate::data::state::State) has `t_n` again. Nothing else
-//! in the crate depends on the bound.
-
+//! use `t_n'`; [`State`](crate::data::state::State) has `t_n` again. These forces are a [`Cone`]: edges, along which forces have
+//! any size, and caps, which bound a force in both directions. Nothing else in the crate knows the bound. A strength in
+//! compression would be a cap along the normal.
 //!
 //! The faces of a joint may give way before it opens or slides: with a stiffness `k_n` and `k_t` \[Pa/m\] they are springs
 //! in series with this law, of the compliance `1 / (k A)` \[m/N\] at a point. Gap and slip are what is left beyond these.
@@ -92,9 +92,10 @@ impl PointLaw {
         self.mu > 0.0 || self.cohesion > 0.0
     }
 
-    /// `C_0 = C - mu T` \[N\]: resistance to sliding when the joint is about to open.
-    pub fn base(&self) -> f64 {
-        (self.cohesion - self.mu * self.tension).max(0.0)
+    /// The forces that the point can carry in `t_n' = t_n + T`.
+    pub fn cone(&self) -> Cone {
+        let base = (self.cohesion - self.mu * self.tension).max(0.0);
+        Cone { mu: self.mu, base }
     }
 
     /// The largest tangential force \[N\] at a normal force.
@@ -102,10 +103,10 @@ impl PointLaw {
     /// ```
     /// use masonry::law::PointLaw;
     /// let law = PointLaw { mu: 0.5, cohesion: 3.0, tension: 2.0 };
-    /// assert_eq!((law.bound(4.0), law.bound(-2.0), law.base()), (5.0, 2.0, 2.0));
+    /// assert_eq!((law.bound(4.0), law.bound(-2.0), law.cone().base), (5.0, 2.0, 2.0));
     /// ```
     pub fn bound(&self, t_n: f64) -> f64 {
-        self.base() + (self.mu * (t_n + self.tension)).max(0.0)
+        self.cone().bound(t_n + self.tension)
     }
 
     /// The violation \[N\] of the law by a force; zero or negative if there is none.
@@ -113,52 +114,117 @@ impl PointLaw {
         (-self.tension - t_n).max(t_t.abs() - self.mu * t_n - self.cohesion)
     }
 
-    /// The largest work \[J\] that forces of size one along the edges of the cone do against a motion in which the
-    /// joint opens and slides by these lengths \[m\]; positive only if `mu` times the slip
-    /// exceeds the opening.
-    pub fn against(&self, opens: f64, slides: f64) -> f64 {
-        (self.mu * slides.abs() - opens) / self.mu.hypot(1.0)
-    }
-
     /// The work \[J\] of cohesion and tensile strength in a motion in which no force of the cone does work against
     /// it.
     pub fn strength(&self, opens: f64, slides: f64) -> f64 {
-        self.tension * opens + self.base() * slides.abs()
+        self.tension * opens + self.cone().base * slides.abs()
     }
 
     /// The tangential unknown of a point, if it has one.
     pub(crate) fn sliding(&self, contact: ContactId) -> Option<Friction> {
-        self.resists_sliding().then(|| Friction { contact, mu: self.mu, base: self.base() })
+        self.resists_sliding().then(|| Friction { contact, cone: self.cone() })
     }
 }
 
-/// The bound of one tangential force in a [`System`](crate::system::System): `|t_t| <= mu t_n' + base`, where `t_n' = t_n + T`
-/// is the normal unknown.
+/// The bound of one tangential force in a [`System`](crate::system::System).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Friction {
     /// The contact point.
     pub contact: ContactId,
+    /// The forces that it can carry.
+    pub cone: Cone,
+}
+
+/// The forces that a point can carry: `t_n' >= 0` and `|t_t| <= mu t_n' + C_0`. They are the sums of nonnegative forces along
+/// the [edges](Self::edges), and of a tangential force no larger than the [cap](Self::cap). By default there is one edge,
+/// that of contact without friction.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Cone {
     /// Coefficient of Coulomb friction \[-\].
     pub mu: f64,
-    /// `C_0` \[N\].
+    /// `C_0 = C - mu T` \[N\]: resistance to sliding when the joint is about to open.
     pub base: f64,
 }
 
-impl Friction {
+/// A force of one along an edge of a cone.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Edge {
+    /// Its normal part \[-\].
+    pub normal: f64,
+    /// Its tangential part \[-\].
+    pub tangential: f64,
+}
+
+impl Cone {
+    /// Friction and nothing else.
+    pub fn friction(mu: f64) -> Self {
+        Self { mu, base: 0.0 }
+    }
+
+    /// The edges: one along the normal without friction; with friction the one of positive tangential forces, and its mirror
+    /// image.
+    ///
+    /// ```
+    /// use masonry::law::{Cone, Edge};
+    /// let edges: Vec<Edge> = Cone::friction(0.75).edges().collect();
+    /// let (normal, tangential) = (0.8, 0.6);
+    /// assert_eq!(edges, [Edge { normal, tangential }, Edge { normal, tangential: -tangential }]);
+    /// assert_eq!(Cone::default().edges().count(), 1);
+    /// ```
+    pub fn edges(&self) -> impl Iterator<Item = Edge> + use<> {
+        let length = self.mu.hypot(1.0);
+        let (normal, tangential) = (1.0 / length, self.mu / length);
+        let other = (self.mu > 0.0).then_some(Edge { normal, tangential: -tangential });
+        [Edge { normal, tangential }].into_iter().chain(other)
+    }
+
+    /// The size \[N\] of the tangential force that does not depend on the normal force, if there is one.
+    pub fn cap(&self) -> Option<f64> {
+        (self.base > 0.0).then_some(self.base)
+    }
+
+    /// The normal and the tangential part \[N\] of forces along the edges, in multiples of a unit \[N\].
+    pub(crate) fn force(&self, along: &[f64], unit: f64) -> [f64; 2] {
+        let length = self.mu.hypot(1.0);
+        let across = along.get(1).map_or(0.0, |other| along[0] - other);
+        [unit * along.iter().sum::<f64>() * (1.0 / length), unit * (self.mu / length) * across]
+    }
+
     /// The largest tangential force \[N\].
     pub fn bound(&self, normal: f64) -> f64 {
         self.mu * normal.max(0.0) + self.base
     }
 
-    /// The distances to the two edges of the cone, `p+ = mu t_n' + base + t_t` and `p- = mu t_n' + base - t_t` (3.24).
+    /// The distances of a force from the two sides, `p+ = mu t_n' + C_0 + t_t` and `p- = mu t_n' + C_0 - t_t` (3.24).
     pub fn distances(&self, normal: f64, tangential: f64) -> [f64; 2] {
         [1.0, -1.0].map(|sign| self.mu * normal + self.base + sign * tangential)
     }
 
-    /// What of a tangential force friction carries, and what the constant part.
+    /// What of a tangential force friction carries, and what the cap.
     pub(crate) fn shares(&self, normal: f64, tangential: f64) -> [f64; 2] {
         let bound = self.mu * normal.max(0.0);
         let friction = tangential.clamp(-bound, bound);
         [friction, tangential - friction]
+    }
+
+    /// The change of a tangential force at its bound by that of the normal force \[-\].
+    pub(crate) fn slope(&self, tangential: f64) -> f64 {
+        self.mu.copysign(tangential)
+    }
+
+    /// How many times the bound has the errors of the normal force; one at least.
+    pub(crate) fn sensitivity(&self) -> f64 {
+        self.mu.max(1.0)
+    }
+
+    /// The opening \[m\] of a joint that slides by associated flow, at which its sides still touch.
+    pub fn lift(&self, slides: f64) -> f64 {
+        self.mu * slides.abs()
+    }
+
+    /// The largest work \[J\] that forces of size one along the edges do against a motion in which the joint opens and
+    /// slides by these lengths \[m\]; positive only if the opening is less than the [lift](Self::lift).
+    pub fn against(&self, opens: f64, slides: f64) -> f64 {
+        (self.lift(slides) - opens) / self.mu.hypot(1.0)
     }
 }

@@ -14,7 +14,7 @@ use lcp::HorizontalLcp;
 
 use crate::data::state::RowState;
 use crate::forms::reduction::Reduction;
-use crate::law::Friction;
+use crate::law::{Cone, Friction};
 use crate::rounding::{cleared, largest};
 use crate::system::System;
 
@@ -182,11 +182,11 @@ impl Form {
         let y_n = rows.y[..*points].iter().map(|y| y / length);
         let (mut t, mut y): (Vec<f64>, Vec<f64>) = (t_n.collect(), y_n.collect());
         let tangential = |k: usize| (rows.t[points + k] / force, rows.y[points + k] / length);
-        for sign in [1.0, -1.0] {
+        for (side, sign) in [1.0, -1.0].into_iter().enumerate() {
             for (k, friction) in friction.iter().enumerate() {
                 let (t_t, y_t) = tangential(k);
                 if self.kind == FormKind::Coulomb {
-                    t.push(friction.mu * t[friction.contact.index()] + friction.base + sign * t_t);
+                    t.push(friction.cone.distances(t[friction.contact.index()], t_t)[side]);
                     y.push((sign * y_t).max(0.0));
                 } else {
                     t.push((sign * t_t).max(0.0));
@@ -198,7 +198,8 @@ impl Form {
             for (k, friction) in friction.iter().enumerate() {
                 let (t_t, y_t) = tangential(k);
                 t.push(y_t.abs());
-                y.push(friction.mu * t[friction.contact.index()] + friction.base - t_t.abs());
+                let [_, nearer] = friction.cone.distances(t[friction.contact.index()], t_t.abs());
+                y.push(nearer);
             }
         }
         if self.kind == FormKind::Mixed {
@@ -254,7 +255,10 @@ struct Layout {
 
 impl Layout {
     fn of(system: &System, scale: Scale) -> Self {
-        let in_units = |it: &Friction| Friction { base: it.base / scale.force, ..*it };
+        let in_units = |it: &Friction| {
+            let cone = Cone { base: it.cone.base / scale.force, ..it.cone };
+            Friction { cone, ..*it }
+        };
         let friction = system.friction.iter().map(in_units).collect();
         Self { points: system.points(), friction, bars: system.stretches.len() }
     }

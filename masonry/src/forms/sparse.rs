@@ -82,12 +82,12 @@ impl Sparse {
         let mut constant = Vec::new();
         let mut carriers = Vec::with_capacity(system.friction.len());
         for friction in &system.friction {
-            let has_base = friction.base > 0.0;
+            let cap = friction.cone.cap();
             carriers.push(Carriers {
-                friction: (friction.mu > 0.0).then_some(friction.contact.index()),
-                constant: has_base.then_some(m + constant.len()),
+                friction: (friction.cone.mu > 0.0).then_some(friction.contact.index()),
+                constant: cap.map(|_| m + constant.len()),
             });
-            constant.extend(has_base.then_some(friction.base));
+            constant.extend(cap);
         }
         let points_of = |row: usize| match row.checked_sub(m) {
             None => Carriers { friction: Some(row), constant: None },
@@ -159,7 +159,7 @@ impl Sparse {
             system.friction.iter().zip(&system.rows[m..]).zip(&carriers)
         {
             carriers.points().for_each(|point| s_0[point] = row.offset);
-            mu[friction.contact.index()] = friction.mu;
+            mu[friction.contact.index()] = friction.cone.mu;
         }
         mu[m..].fill(1.0);
         let mut x_0: Vec<f64> = system.rows[..m].iter().map(|row| row.offset).collect();
@@ -248,9 +248,9 @@ impl Sparse {
             system.friction.iter().zip(tangential).zip(&self.carriers)
         {
             let point = friction.contact.index();
-            let [by_friction, constant] = friction.shares(normal[point], *force);
+            let [by_friction, constant] = friction.cone.shares(normal[point], *force);
             match carriers.constant {
-                Some(other) => (t_n[other], t_t[other]) = (friction.base, constant),
+                Some(other) => (t_n[other], t_t[other]) = (friction.cone.base, constant),
                 None => t_t[point] = *force,
             }
             if carriers.are_two() {

@@ -51,7 +51,7 @@ impl Giving {
         points.fold(Self::default(), |it, point| Self {
             points: it.points + 1,
             sheared: it.sheared + usize::from(point.law.resists_sliding()),
-            shared: it.shared + usize::from(point.law.mu > 0.0 && point.law.base() > 0.0),
+            shared: it.shared + usize::from(point.law.mu > 0.0 && point.law.cone().cap().is_some()),
         })
     }
 
@@ -102,7 +102,7 @@ impl Sizes {
             points: points.len(),
             frictional: frictional.clone().count(),
             coulomb: frictional.clone().filter(|point| point.law.mu > 0.0).count(),
-            cohesive: frictional.clone().filter(|point| point.law.base() > 0.0).count(),
+            cohesive: frictional.clone().filter(|point| point.law.cone().cap().is_some()).count(),
             in_films: giving(true, false),
             in_stiff_joints: giving(false, true),
             in_both: giving(true, true),

@@ -77,7 +77,7 @@ pub fn yielding(model: &Model, rates: &[Vec<Vector2<f64>>]) -> Vec<YieldingJoint
             mean: 0.5 * (front + behind),
             opens: apart.dot(&joint.normal).max(0.0),
             slides,
-            lifts: contact.law.mu * slides,
+            lifts: contact.law.cone().lift(slides),
         });
     }
     let fastest = of_joints.iter().flatten().map(|it| it.opens.max(it.slides)).fold(0.0, f64::max);

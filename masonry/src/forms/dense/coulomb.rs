@@ -11,8 +11,8 @@ pub(super) fn build(system: &System, reduction: &Reduction) -> Result<Form, lcp:
     for (k, friction) in form.layout.friction.iter().enumerate() {
         let (plus, minus) = (form.layout.pair(1, k), form.layout.pair(2, k));
         let row = form.layout.rows() + k;
-        form.a[(row, friction.contact.index())] = -2.0 * friction.mu;
-        form.c[row] = 2.0 * friction.base;
+        form.a[(row, friction.contact.index())] = -2.0 * friction.cone.mu;
+        form.c[row] = 2.0 * friction.cone.base;
         form.a[(row, plus)] = 1.0;
         form.a[(row, minus)] = 1.0;
     }

@@ -80,8 +80,8 @@ pub(super) fn build(system: &System, reduction: &Reduction) -> Result<Form, lcp:
         m[(minus, lambda)] = 1.0;
         m[(lambda, plus)] = -1.0;
         m[(lambda, minus)] = -1.0;
-        m[(lambda, friction.contact.index())] = friction.mu;
-        q[lambda] = friction.base;
+        m[(lambda, friction.contact.index())] = friction.cone.mu;
+        q[lambda] = friction.cone.base;
     }
     let a = -m;
     let b = Mat::identity(order, order);

@@ -18,8 +18,8 @@ pub(super) fn build(system: &System, reduction: &Reduction) -> Result<Form, lcp:
         // w = mu t_n + C_0 - b+ - b-
         let row = row + layout.friction.len();
         form.b[(row, lambda)] = 1.0;
-        form.a[(row, friction.contact.index())] = -friction.mu;
-        form.c[row] = friction.base;
+        form.a[(row, friction.contact.index())] = -friction.cone.mu;
+        form.c[row] = friction.cone.base;
         form.a[(row, plus)] = 1.0;
         form.a[(row, minus)] = 1.0;
     }

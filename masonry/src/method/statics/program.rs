@@ -4,6 +4,7 @@ use faer::sparse::{SparseColMat, SparseColMatRef};
 use lcp::{InteriorPoint, InteriorPointSettings, LeastForces, Observer};
 
 use crate::columns::{Columns, column, first_columns};
+use crate::law::{Cone, Edge};
 use crate::rounding;
 use crate::system::System;
 
@@ -20,6 +21,8 @@ const BALANCED: f64 = 1e-9;
 /// The forces that contacts may have, and the balance of the blocks.
 pub(super) struct Program<'a> {
     system: &'a System,
+    /// The forces that every contact point can carry.
+    cones: Vec<Cone>,
     /// The first edge of every contact point, and one past the last.
     first: Vec<usize>,
     /// The frictional points with a constant part of friction, and `C_0` of each in units of the largest load.
@@ -44,21 +47,22 @@ impl<'a> Program<'a> {
     }
 
     fn with(system: &'a System, growth: Option<&[f64]>) -> Self {
-        let mut counts = vec![1; system.points()];
-        for friction in system.friction.iter().filter(|friction| friction.mu > 0.0) {
-            counts[friction.contact.index()] = 2;
+        let mut cones = vec![Cone::default(); system.points()];
+        for friction in &system.friction {
+            cones[friction.contact.index()] = friction.cone;
         }
         let mut first = vec![0];
-        first.extend(counts.iter().scan(0, |sum, count| {
-            *sum += count;
+        first.extend(cones.iter().scan(0, |sum, cone| {
+            *sum += cone.edges().count();
             Some(*sum)
         }));
         let resultants = system.resultants();
         let largest = rounding::largest(resultants.iter().chain(growth.into_iter().flatten()));
         let unit = if largest > 0.0 { largest } else { 1.0 };
         let mut loads: Vec<f64> = resultants.iter().map(|f| f / unit).collect();
-        let with_base = system.friction.iter().enumerate().filter(|(_, it)| it.base > 0.0);
-        let constant: Vec<(usize, f64)> = with_base.map(|(k, it)| (k, it.base / unit)).collect();
+        let caps = system.friction.iter().enumerate();
+        let caps = caps.filter_map(|(k, it)| Some((k, it.cone.cap()? / unit)));
+        let constant: Vec<(usize, f64)> = caps.collect();
         let sides = Sides::of(system);
         for (k, base) in &constant {
             for (b, modes) in sides.of_row(system.points() + k) {
@@ -66,12 +70,12 @@ impl<'a> Program<'a> {
             }
         }
         loads.extend(constant.iter().map(|(_, base)| -2.0 * base));
-        let mut columns = edges(system, &constant, &sides);
+        let mut columns = edges(system, &cones, &constant, &sides);
         if let Some(growth) = growth {
             columns.push(growth.iter().map(|g| g / unit).enumerate());
         }
         let e = columns.assembled(loads.len());
-        Self { system, first, constant, e, loads, unit }
+        Self { system, cones, first, constant, e, loads, unit }
     }
 
     /// The same with some blocks held by whatever forces that takes: their balance is left out.
@@ -150,17 +154,14 @@ impl<'a> Program<'a> {
     fn of_rows(&self, p: &[f64]) -> Vec<f64> {
         let points = self.system.points();
         let mut forces = vec![0.0; self.system.rows.len()];
-        for point in 0..points {
-            let along: f64 = p[self.first[point]..self.first[point + 1]].iter().sum();
-            forces[point] = self.unit * along * parts(self.system, point)[0];
+        let of_point = |point: usize| {
+            self.cones[point].force(&p[self.first[point]..self.first[point + 1]], self.unit)
+        };
+        for (point, force) in forces[..points].iter_mut().enumerate() {
+            [*force, _] = of_point(point);
         }
-        for (k, friction) in self.system.friction.iter().enumerate() {
-            let point = friction.contact.index();
-            if friction.mu > 0.0 {
-                let edge = self.first[point];
-                forces[points + k] =
-                    self.unit * parts(self.system, point)[1] * (p[edge] - p[edge + 1]);
-            }
+        for (friction, force) in self.system.friction.iter().zip(&mut forces[points..]) {
+            [_, *force] = of_point(friction.contact.index());
         }
         let pairs = p[self.edges()..self.forces()].chunks_exact(2);
         for ((k, base), q) in self.constant.iter().zip(pairs) {
@@ -168,14 +169,6 @@ impl<'a> Program<'a> {
         }
         forces
     }
-}
-
-/// The normal and the tangential part of a force of one along an edge of the cone of a point.
-fn parts(system: &System, point: usize) -> [f64; 2] {
-    let found = system.friction.binary_search_by_key(&point, |it| it.contact.index());
-    let mu = found.map_or(0.0, |k| system.friction[k].mu);
-    let length = mu.hypot(1.0);
-    [1.0 / length, mu / length]
 }
 
 /// The blocks that every row acts on.
@@ -214,24 +207,20 @@ impl<'a> Sides<'a> {
 }
 
 /// The columns of `E` that are forces.
-fn edges(system: &System, constant: &[(usize, f64)], sides: &Sides<'_>) -> Columns {
+fn edges(system: &System, cones: &[Cone], constant: &[(usize, f64)], sides: &Sides<'_>) -> Columns {
     let mut columns = Columns::default();
     let points = system.points();
     let on_blocks = |(b, modes): (usize, [f64; 3])| {
         modes.into_iter().enumerate().map(move |(j, value)| (3 * b + j, value))
     };
     let mut friction = system.friction.iter().enumerate().peekable();
-    for point in 0..points {
+    for (point, cone) in cones.iter().enumerate() {
         let tangent = friction.next_if(|(_, it)| it.contact.index() == point);
         let normal = sides.of_row(point);
-        let Some((k, _)) = tangent.filter(|(_, it)| it.mu > 0.0) else {
-            columns.push(normal.iter().map(|(b, normal)| (*b, **normal)).flat_map(on_blocks));
-            continue;
-        };
-        // The normal force of one along both edges, the friction along each in its own direction.
-        let [n, t] = parts(system, point);
-        for t in [t, -t] {
-            let both = normal.iter().zip(sides.of_row(points + k));
+        // A point that does not resist sliding has one edge, along its normal.
+        let tangent = tangent.map_or(normal, |(k, _)| sides.of_row(points + k));
+        for Edge { normal: n, tangential: t } in cone.edges() {
+            let both = normal.iter().zip(tangent);
             let edge = both.map(|((b, normal), (_, tangent))| {
                 (*b, [0, 1, 2].map(|j| n * normal[j] + t * tangent[j]))
             });

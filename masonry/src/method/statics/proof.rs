@@ -47,7 +47,7 @@ impl Proof {
         let mut error = ROUNDING;
         for contact in &model.contacts {
             let [opens, slides] = motion.apart(model, contact);
-            error = error.max(contact.law.against(opens, slides));
+            error = error.max(contact.law.cone().against(opens, slides));
             work -= contact.law.strength(opens, slides);
             total += contact.law.cohesion + contact.law.tension;
         }

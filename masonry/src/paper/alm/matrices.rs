@@ -8,6 +8,7 @@ use lcp::ContactState;
 
 use super::AlmError;
 use super::structure::Structure;
+use crate::law::Cone;
 use crate::paper::film::pointwise::FilmResponse;
 
 /// The state of a contact, which decides what of it stands in the matrix.
@@ -109,7 +110,8 @@ impl<'a> Matrices<'a> {
             if t_n <= 0.0 {
                 return (0.0, 0.0, Contact::Open);
             }
-            let (t_t, bound) = (at.t_t[i] - self.rho_t[i] * at.slip[i], mu * t_n);
+            let (t_t, bound) =
+                (at.t_t[i] - self.rho_t[i] * at.slip[i], Cone::friction(*mu).bound(t_n));
             match *mu {
                 0.0 => (t_n, 0.0, Contact::Stick),
                 _ if t_t.abs() <= bound => (t_n, t_t, Contact::Stick),

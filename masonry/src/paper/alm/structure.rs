@@ -5,6 +5,7 @@ use lcp::{Contact2d, ContactState, Residuals};
 
 use super::AlmError;
 use super::films::Segment;
+use crate::law::Cone;
 use crate::paper::film::pointwise::FilmResponse;
 use crate::rounding::{cleared, largest};
 
@@ -144,11 +145,11 @@ impl<'a> Structure<'a> {
         for (i, mu) in self.problem.mu().iter().enumerate() {
             let in_normal = rounding(&self.normal[i], self.problem.initial_gaps()[i]);
             let in_tangent = rounding(&self.tangent[i], self.problem.initial_slips()[i]);
-            let bound = mu * t_n[i];
+            let [plus, minus] = Cone::friction(*mu).distances(t_n[i], t_t[i]);
             let pairs = [
                 (t_n[i], gap[i] - in_normal),
-                (bound + t_t[i], slip[i] - in_tangent),
-                (bound - t_t[i], -slip[i] - in_tangent),
+                (plus, slip[i] - in_tangent),
+                (minus, -slip[i] - in_tangent),
             ];
             for (t, y) in pairs.into_iter().take(if *mu > 0.0 { 3 } else { 1 }) {
                 worst = worst.max(ratio(t.max(0.0), force).min(ratio(y.max(0.0), length)));

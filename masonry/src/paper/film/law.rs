@@ -17,6 +17,7 @@
 use nalgebra::{Matrix3, Vector3};
 
 use super::{FilmError, FilmMaterial, positive};
+use crate::law::Cone;
 
 /// The memory of one point of a film.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -58,7 +59,7 @@ pub struct PointResponse {
 pub struct FilmLaw {
     matrix: Matrix3<f64>,
     thickness: f64,
-    mu: f64,
+    cone: Cone,
 }
 
 impl FilmLaw {
@@ -85,7 +86,7 @@ impl FilmLaw {
             return Err(FilmError::Friction { mu });
         }
         let thickness = positive("thickness", thickness)?;
-        Ok(Self { matrix: material.matrix()?, thickness, mu })
+        Ok(Self { matrix: material.matrix()?, thickness, cone: Cone::friction(mu) })
     }
 
     /// The stress for strains `(eps_x, eps_y, gamma)` from the state before the step.
@@ -94,7 +95,7 @@ impl FilmLaw {
         let trial = self.matrix * elastic;
         if trial.y > 0.0 {
             self.open(strain, trial)
-        } else if trial.z.abs() <= -self.mu * trial.y && self.mu > 0.0 {
+        } else if trial.z.abs() <= self.cone.bound(-trial.y) && self.cone.mu > 0.0 {
             PointResponse {
                 stress: trial,
                 tangent: self.matrix,
@@ -125,7 +126,7 @@ impl FilmLaw {
     }
 
     fn slipping(&self, trial: Vector3<f64>, before: FilmState) -> PointResponse {
-        let slope = -self.mu * trial.z.signum();
+        let slope = -self.cone.slope(trial.z);
         let tau = slope * trial.y;
         let advance = self.thickness * (trial.z - tau) / self.matrix[(2, 2)];
         let mut tangent = self.matrix;

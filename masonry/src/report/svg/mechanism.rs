@@ -214,7 +214,7 @@ fn dilates(model: &Model, rates: &[Vec<Vector2<f64>>]) -> bool {
         let joint = &model.joints[contact.joint.index()];
         let apart = at(contact.b) - contact.a.map_or_else(Vector2::zeros, at);
         let (opens, slides) = (apart.dot(&joint.normal), apart.dot(&joint.tangent()).abs());
-        let edge = contact.law.mu * slides;
+        let edge = contact.law.cone().lift(slides);
         edge > AT_REST.sqrt() && (opens - edge).abs() <= AT_REST * edge.max(opens)
     })
 }

@@ -73,7 +73,7 @@ impl Pair {
 
     /// How many times the bound of friction has the errors of the normal force.
     fn sensitivity(&self) -> f64 {
-        self.law.mu.max(1.0)
+        self.law.cone().sensitivity()
     }
 }
 

@@ -59,8 +59,8 @@ fn changes(model: &Model, problem: &Contact2d, state: &State) -> Option<Changes>
             effects.push(column(normals, point));
             effects.push(column(tangents, point));
         } else {
-            let edge = if law.mu > 0.0 { law.mu.copysign(t_t) } else { 0.0 };
-            effects.push(sum(column(normals, point), (edge, column(tangents, point))));
+            let slope = law.cone().slope(t_t);
+            effects.push(sum(column(normals, point), slope, column(tangents, point)));
         }
     }
     Some(Changes { points, effects: effects.assembled(problem.displacements()) })
@@ -69,7 +69,8 @@ fn changes(model: &Model, problem: &Contact2d, state: &State) -> Option<Changes>
 /// The entries of the sum of a column and of a multiple of another one.
 fn sum(
     first: impl Iterator<Item = (usize, f64)>,
-    (factor, other): (f64, impl Iterator<Item = (usize, f64)>),
+    factor: f64,
+    other: impl Iterator<Item = (usize, f64)>,
 ) -> Vec<(usize, f64)> {
     let mut entries: Vec<(usize, f64)> = first.chain(other.map(|(i, v)| (i, factor * v))).collect();
     entries.sort_by_key(|(i, _)| *i);

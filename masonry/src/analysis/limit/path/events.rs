@@ -158,7 +158,7 @@ fn statuses(system: &System, sparse: &Sparse, rest: &Rest) -> Vec<ContactStatus>
         .collect();
     for (friction, t_t) in system.friction.iter().zip(&rows.t[points..]) {
         let point = friction.contact.index();
-        let bound = friction.bound(rows.t[point]);
+        let bound = friction.cone.bound(rows.t[point]);
         if statuses[point] == ContactStatus::Stick && t_t.abs() >= bound - ZERO * force {
             statuses[point] = ContactStatus::Slip;
         }

@@ -3,26 +3,21 @@
 use faer::sparse::{SparseColMat, Triplet};
 use lcp::MixedLcp;
 
-use super::{Program, parts};
+use super::Program;
 use crate::columns::{Columns, column};
 
 impl Program<'_> {
     /// What each force along a column adds to a linear function of the forces of all rows.
     pub(in crate::method::statics) fn gain(&self, of_rows: &[f64]) -> Vec<(usize, f64)> {
         let (normals, tangents) = of_rows.split_at(self.system.points());
-        let mut gain = Vec::new();
-        for (point, normal) in normals.iter().enumerate() {
-            let [along, _] = parts(self.system, point);
-            gain.extend((self.first[point]..self.first[point + 1]).map(|k| (k, along * normal)));
-        }
+        let mut of_points: Vec<[f64; 2]> = normals.iter().map(|normal| [*normal, 0.0]).collect();
         for (friction, tangent) in self.system.friction.iter().zip(tangents) {
-            if friction.mu > 0.0 {
-                let point = friction.contact.index();
-                let (edge, [_, across]) = (self.first[point], parts(self.system, point));
-                gain[edge].1 += across * tangent;
-                gain[edge + 1].1 -= across * tangent;
-            }
+            of_points[friction.contact.index()][1] = *tangent;
         }
+        let edges = self.cones.iter().zip(of_points).flat_map(|(cone, [normal, tangent])| {
+            cone.edges().map(move |edge| edge.normal * normal + edge.tangential * tangent)
+        });
+        let mut gain: Vec<(usize, f64)> = edges.enumerate().collect();
         let constant = self.constant.iter().enumerate();
         gain.extend(constant.map(|(place, (k, _))| (self.edges() + 2 * place, tangents[*k])));
         gain
