@@ -86,9 +86,9 @@ pub fn from_displacements(
     if is_at_rest(system, u, tolerance) {
         let rest = vec![0.0; u.len()];
         let rows = RowState { t: rows.t.clone(), y: vec![0.0; rows.y.len()] };
-        return of_blocks((model, system, sparse), (&rows, &rest), with_stresses);
+        return of_blocks(model, system, sparse, &rows, &rest, with_stresses);
     }
-    of_blocks((model, system, sparse), (rows, u), with_stresses)
+    of_blocks(model, system, sparse, rows, u, with_stresses)
 }
 
 fn is_at_rest(system: &System, u: &[f64], tolerance: f64) -> bool {
@@ -98,8 +98,11 @@ fn is_at_rest(system: &System, u: &[f64], tolerance: f64) -> bool {
 }
 
 fn of_blocks(
-    (model, system, sparse): (&Model, &System, &Sparse),
-    (rows, u): (&RowState, &[f64]),
+    model: &Model,
+    system: &System,
+    sparse: &Sparse,
+    rows: &RowState,
+    u: &[f64],
     with_stresses: bool,
 ) -> State {
     let mut strain_energy = 0.0;

@@ -133,8 +133,11 @@ struct Version {
 impl Checkpoint {
     pub(crate) fn new(
         origin: String,
-        (records, mut solve): (Vec<StepRecord>, SolveInfo),
-        (state, slips, basis): (&State, &[f64], Option<&Start>),
+        records: Vec<StepRecord>,
+        mut solve: SolveInfo,
+        state: &State,
+        slips: &[f64],
+        basis: Option<&Start>,
     ) -> Self {
         solve.routes.iter_mut().for_each(|route| route.seconds = 0.0);
         let side = |is_t: &bool| if *is_t { 't' } else { 'y' };

@@ -84,12 +84,12 @@ impl Reduction {
         };
         let bars = Bars::of(system);
         if let Some(bars) = &bars {
-            bars.stiffen(&mut a, (&isostatic, &others), r.as_ref());
+            bars.stiffen(&mut a, &isostatic, &others, r.as_ref());
         }
 
         let mut t = vec![0.0; system.rows.len()];
         isostatic.iter().zip(&t0).for_each(|(row, force)| t[*row] = *force);
-        let y = relative_displacements(system, (&compliances, bars.as_ref()), &t);
+        let y = relative_displacements(system, &compliances, bars.as_ref(), &t);
         let y_isostatic = Mat::from_fn(isostatic.len(), 1, |i, _| y[isostatic[i]]);
         let carried = r.transpose() * y_isostatic;
         let c = others.iter().enumerate().map(|(k, row)| y[*row] + carried[(k, 0)]).collect();
@@ -99,13 +99,13 @@ impl Reduction {
     /// Relative displacements `F t + C K^+ f + x` \[m\] of all rows for forces `t` \[N\], without the
     /// rigid motions.
     pub fn elastic_gaps(&self, system: &System, t: &[f64]) -> Vec<f64> {
-        relative_displacements(system, (&self.compliances, self.bars.as_ref()), t)
+        relative_displacements(system, &self.compliances, self.bars.as_ref(), t)
     }
 
     /// The same as if no strip of mortar had a bar: with the forces of the [`bars`](Self::bars) as
     /// unknowns of their own, as the mixed form has them.
     pub fn block_gaps(&self, system: &System, t: &[f64]) -> Vec<f64> {
-        relative_displacements(system, (&self.compliances, None), t)
+        relative_displacements(system, &self.compliances, None, t)
     }
 
     /// The forces `q` \[N\] of the bars of strips on their blocks for forces `t` \[N\] of all rows.
@@ -169,7 +169,8 @@ fn compliances(system: &System) -> Vec<Compliance> {
 
 fn relative_displacements(
     system: &System,
-    (blocks, bars): (&[Compliance], Option<&Bars>),
+    blocks: &[Compliance],
+    bars: Option<&Bars>,
     t: &[f64],
 ) -> Vec<f64> {
     let own = system.rows.iter().zip(t).map(|(row, t)| row.offset + row.compliance * t);

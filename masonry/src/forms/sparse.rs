@@ -151,7 +151,7 @@ impl Sparse {
             let rows = if row < m { &mut c_n } else { &mut c_t };
             rows.extend(points_of(row).points().map(|point| Triplet::new(point, gives, 1.0)));
         }
-        k.extend(pressing(&k, &c_t, (m, faces_end)));
+        k.extend(pressing(&k, &c_t, m, faces_end));
         c_n.extend((0..constant.len()).map(|i| Triplet::new(m + i, faces_end + i, 1.0)));
         f.extend(constant.iter().map(|base| -base));
         let (mut s_0, mut mu) = (vec![0.0; all_points], vec![0.0; all_points]);
@@ -224,7 +224,7 @@ impl Sparse {
             normal.iter().map(|row| contacts[row.contact.index()].t_n + row.tension).collect();
         let tangential: Vec<f64> =
             tangential.iter().map(|row| contacts[row.contact.index()].t_t).collect();
-        self.with_forces(system, u, (&normal, &tangential))
+        self.with_forces(system, u, &normal, &tangential)
     }
 
     /// The state with these displacements of the blocks, or of everything, and with the forces of the normal and of the
@@ -233,7 +233,8 @@ impl Sparse {
         &self,
         system: &System,
         mut u: Vec<f64>,
-        (normal, tangential): (&[f64], &[f64]),
+        normal: &[f64],
+        tangential: &[f64],
     ) -> ContactState {
         let (n, m) = (self.problem.displacements(), self.problem.points());
         if u.len() < n {
@@ -298,7 +299,8 @@ impl Sparse {
 fn pressing(
     k: &[Triplet<usize, usize, f64>],
     c_t: &[Triplet<usize, usize, f64>],
-    (point, displacement): (usize, usize),
+    point: usize,
+    displacement: usize,
 ) -> Vec<Triplet<usize, usize, f64>> {
     let mut diagonal = vec![0.0; displacement];
     for entry in k.iter().filter(|entry| entry.row == entry.col) {

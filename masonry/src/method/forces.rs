@@ -21,7 +21,7 @@ pub fn answer(system: &System, sparse: &Sparse, decision: &Decision, tolerance: 
     let problem = &sparse.problem;
     let (status, at_rest, line) = match &decision.statics {
         Statics::Admissible(forces) if system.is_at_rest() => {
-            let (state, residuals) = rested((system, sparse), forces, tolerance);
+            let (state, residuals) = rested(system, sparse, forces, tolerance);
             let solved = residuals.worst() <= tolerance;
             let status = if solved { Status::Solved } else { Status::AlmostSolved };
             let line =
@@ -65,14 +65,15 @@ pub fn answer(system: &System, sparse: &Sparse, decision: &Decision, tolerance: 
 
 /// The state at rest under forces of all rows; brought to the last digit where that is needed.
 fn rested(
-    (system, sparse): (&System, &Sparse),
+    system: &System,
+    sparse: &Sparse,
     forces: &[f64],
     tolerance: f64,
 ) -> (ContactState, Residuals) {
     let problem = &sparse.problem;
     let (normal, friction) = forces.split_at(system.points());
     let rest = vec![0.0; problem.displacements()];
-    let state = sparse.with_forces(system, rest, (normal, friction));
+    let state = sparse.with_forces(system, rest, normal, friction);
     let residuals = problem.residuals(&state);
     if residuals.worst() <= tolerance {
         return (state, residuals);

@@ -56,7 +56,7 @@ pub fn decide(
     let statics = match program.admissible(&t) {
         Some(forces) => Statics::Admissible(forces),
         // Where there are none, the multipliers of the balance are a motion that proves it.
-        None => sharpen::candidates((&u, &[]), program.columns())
+        None => sharpen::candidates(&u, &[], program.columns())
             .find_map(|motion| Proof::of(model, &motion[..3 * model.blocks.len()]))
             .map_or(Statics::Open, Statics::Impossible),
     };

@@ -33,7 +33,7 @@ enum Group {
 impl Classes {
     pub(super) fn of(scene: &Scene, blocks: &[Block]) -> Result<Self, Fault> {
         let mut list: Vec<JointClass> =
-            scene.joints.iter().map(|joint| joint_class(scene, joint)).collect();
+            scene.joints.iter().map(|(name, joint)| joint_class(scene, name, joint)).collect();
         let given = list.len();
         let mut index = |name: &str| {
             list.iter().position(|class| class.name == name).unwrap_or_else(|| {
@@ -53,8 +53,8 @@ impl Classes {
         for (k, between) in scene.between.iter().enumerate() {
             let at = KeyPath::of("between").item(k).key("blocks");
             let [first, second] = &between.blocks;
-            let first = Group::of(scene, blocks, (first, at.item(0)))?;
-            let second = Group::of(scene, blocks, (second, at.item(1)))?;
+            let first = Group::of(scene, blocks, first, at.item(0))?;
+            let second = Group::of(scene, blocks, second, at.item(1))?;
             of_pairs.push(([first, second], index(&between.joint)));
         }
         let bricks = scene.walls.iter().enumerate().flat_map(|(k, wall)| {
@@ -118,7 +118,7 @@ impl Classes {
 }
 
 impl Group {
-    fn of(scene: &Scene, blocks: &[Block], (name, at): (&str, KeyPath)) -> Result<Self, Fault> {
+    fn of(scene: &Scene, blocks: &[Block], name: &str, at: KeyPath) -> Result<Self, Fault> {
         if let Some(wall) = scene.walls.iter().position(|wall| wall.name == name) {
             return Ok(Self::Wall(wall));
         }
@@ -141,7 +141,7 @@ impl Group {
     }
 }
 
-fn joint_class(scene: &Scene, (name, joint): (&String, &scene::Joint)) -> JointClass {
+fn joint_class(scene: &Scene, name: &str, joint: &scene::Joint) -> JointClass {
     let strength = |value: Option<f64>| value.unwrap_or(0.0) * scene.units.stress_to_si();
     let law = JointLaw {
         mu: joint.friction(),
@@ -149,7 +149,7 @@ fn joint_class(scene: &Scene, (name, joint): (&String, &scene::Joint)) -> JointC
         tension: strength(joint.tension),
         stiffness: joint.stiffness.map(|pair| pair.map(|k| k * scene.units.stiffness_to_si())),
     };
-    JointClass { name: name.clone(), law, points: joint.points, mortar: mortar(scene, joint) }
+    JointClass { name: name.to_owned(), law, points: joint.points, mortar: mortar(scene, joint) }
 }
 
 fn mortar(scene: &Scene, joint: &scene::Joint) -> Option<Mortar> {

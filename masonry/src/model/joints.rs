@@ -117,9 +117,9 @@ pub fn find(
         let film = mortar.map(|mortar| Film { id: FilmId::new(films), mortar });
         films += usize::from(film.is_some());
         let law = classes[class].law;
-        let filling = mortar.map(|mortar| (mortar, options.films));
+        let filling = mortar.map(|mortar| Filling { mortar, films: options.films });
         contacts.extend(
-            points.iter().map(|p| meeting.contact(blocks, p, (joint, filling), law, thickness)),
+            points.iter().map(|p| meeting.contact(blocks, p, joint, filling, law, thickness)),
         );
         joints.push(meeting.joint(blocks, class, film));
         Ok(())
@@ -253,6 +253,13 @@ impl Candidate {
     }
 }
 
+/// What fills a joint.
+#[derive(Clone, Copy)]
+struct Filling {
+    mortar: Mortar,
+    films: Films,
+}
+
 impl Meeting {
     /// The overlap runs along the first segment, which is against the joint's tangent.
     fn joint(&self, blocks: &[Block], class: usize, film: Option<Film>) -> Joint {
@@ -290,7 +297,8 @@ impl Meeting {
         &self,
         blocks: &[Block],
         place: &points::Place,
-        (joint, filling): (JointId, Option<(Mortar, Films)>),
+        joint: JointId,
+        filling: Option<Filling>,
         law: JointLaw,
         thickness: f64,
     ) -> ContactPoint {
@@ -301,7 +309,7 @@ impl Meeting {
         let on_b = |at| Anchor { block: self.b, edge: self.b_edge, at };
         let [gap_to, gap_from] = self.overlap.gap;
         let weight = place.weight * thickness;
-        let film = filling.map(|(mortar, films)| FilmPoint {
+        let film = filling.map(|Filling { mortar, films }| FilmPoint {
             half: 0.5 * mortar.thickness,
             length: place.weight,
             a: on_a(place.span_on_a[0]).zip(on_a(place.span_on_a[1])).map(<[Anchor; 2]>::from),

@@ -130,7 +130,7 @@ impl Arch {
     ) -> Self {
         Self {
             rise: Some(rise),
-            ..Self::new((name, material), Shape::Segmental, span, thickness, voussoirs)
+            ..Self::new(name, material, Shape::Segmental, span, thickness, voussoirs)
         }
     }
 
@@ -142,7 +142,7 @@ impl Arch {
         thickness: f64,
         voussoirs: u32,
     ) -> Self {
-        Self::new((name, material), Shape::Semicircular, span, thickness, voussoirs)
+        Self::new(name, material, Shape::Semicircular, span, thickness, voussoirs)
     }
 
     /// Puts rigid supports below both ends, whose joints are of a class.
@@ -153,7 +153,8 @@ impl Arch {
     }
 
     fn new(
-        (name, material): (&str, &str),
+        name: &str,
+        material: &str,
         shape: Shape,
         span: f64,
         thickness: f64,

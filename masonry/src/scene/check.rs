@@ -277,7 +277,8 @@ fn check_running_bond(
         return Err(missing(at, "width", "where `courses` is a number", "width = 1.0"));
     };
     positive(at.key("width"), width)?;
-    openings::check(at, wall, joints, (width, count))?;
+    let size = openings::WallSize { width, courses: count };
+    openings::check(at, wall, joints, size)?;
     // An English bond has two headers a brick, and an opening divides two bricks.
     let in_course = 2.0 * width / wall.brick.length + 3.0 + 2.0 * wall.openings.len() as f64;
     Ok(f64::from(count) * in_course.floor())

@@ -14,8 +14,10 @@ pub(super) enum One<A, B> {
 
 pub(super) fn exactly_one<A, B>(
     at: &KeyPath,
-    (first, a): (&'static str, Option<A>),
-    (second, b): (&'static str, Option<B>),
+    first: &'static str,
+    a: Option<A>,
+    second: &'static str,
+    b: Option<B>,
 ) -> Result<One<A, B>, Fault> {
     match (a, b) {
         (Some(a), None) => Ok(One::First(a)),

@@ -138,9 +138,10 @@ impl Checks {
     pub fn of(model: &Model, state: &State) -> Self {
         let nodes = elements::nodes(model, state);
         let bodies = Bodies::of(model, state, &nodes);
-        let lengths = Lengths::of(model, state, (&nodes, &bodies));
+        let lengths = Lengths::of(model, state, &nodes, &bodies);
         let contacts = model.contacts.iter().zip(&state.contacts);
-        let pairs: Vec<Pair> = contacts.map(|both| Pair::of(model, state, both)).collect();
+        let pairs: Vec<Pair> =
+            contacts.map(|(contact, it)| Pair::of(model, state, contact, it)).collect();
         let of_pairs = |error: &dyn Fn(&Pair) -> f64| pairs.iter().map(error).fold(0.0, larger);
         let of_bodies = bodies.sizes().zip(bodies.roundings());
         let elastic = nodes.iter().zip(of_bodies);

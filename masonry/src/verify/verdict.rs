@@ -80,7 +80,7 @@ impl Judgement {
             Some(Statics::Admissible(_)) => (Verdict::Undecided, Evidence::AdmissibleForces),
             Some(Statics::Open) | None => (Verdict::Undecided, Evidence::None),
         };
-        let sentence = sentence::of(known, (verdict, evidence), movement);
+        let sentence = sentence::of(known, verdict, evidence, movement);
         Self { verdict, evidence, sentence, warnings: warnings(known, verdict, movement) }
     }
 }

@@ -83,9 +83,10 @@ pub(super) struct Chain<'a> {
 
 impl<'a> Chain<'a> {
     pub(super) fn new(
-        (model, system): (&'a Model, &'a System),
-        (request, with_stresses): (Request, bool),
-        (start, before): (Option<Start>, Option<Before<'a>>),
+        model: &'a Model,
+        system: &'a System,
+        request: Request,
+        with_stresses: bool,
         clock: &'a mut Clock,
         observer: &'a mut dyn FnMut(Event) -> ControlFlow<()>,
     ) -> Self {
@@ -96,12 +97,18 @@ impl<'a> Chain<'a> {
             with_stresses,
             clock,
             observer,
-            start,
-            before,
+            start: None,
+            before: None,
             sparse: None,
             decision: None,
             may_be_cut: false,
         }
+    }
+
+    /// The same from where the step before has ended: its basis, and its state.
+    pub(super) fn after(mut self, start: Option<Start>, before: Option<Before<'a>>) -> Self {
+        (self.start, self.before) = (start, before);
+        self
     }
 
     /// The attempt that says most; with all lines of all of them.
@@ -235,7 +242,7 @@ impl<'a> Chain<'a> {
         let (system, tolerance) = (self.system, self.request.tolerance);
         let decision = self.statics()?;
         let answer = forces::answer(system, &sparse, decision, tolerance);
-        let state = self.recovered((self.model, &sparse), &answer);
+        let state = self.recovered(self.model, &sparse, &answer);
         self.sparse = Some(sparse);
         Ok(self.concluded(self.model, answer, state))
     }
@@ -338,7 +345,7 @@ impl<'a> Chain<'a> {
         let moved = answer.moved.take().map(|moved| self.by_contact(moved));
         let after = moved.as_ref().map(|moved| model.slid(moved));
         let model = after.as_ref().unwrap_or(model);
-        let state = self.recovered((model, &sparse), &answer);
+        let state = self.recovered(model, &sparse, &answer);
         if has_compliances {
             self.sparse = Some(sparse);
         }
@@ -386,7 +393,7 @@ impl<'a> Chain<'a> {
     }
 
     /// The state that an answer on the sparse problem is.
-    fn recovered(&mut self, (model, sparse): (&Model, &Sparse), answer: &Answer) -> Option<State> {
+    fn recovered(&mut self, model: &Model, sparse: &Sparse, answer: &Answer) -> Option<State> {
         let Self { system, with_stresses, .. } = *self;
         let (rows, u) = answer.rows.as_ref().zip(answer.displacements.as_deref())?;
         let tolerance = self.request.tolerance;

@@ -246,14 +246,13 @@ impl Run {
             self.system.reload(model);
         }
         let model = stepped.as_ref().map_or(&self.model, |(model, _)| model);
-        let wanted = (self.request, self.with_stresses);
-        let parts = (model, &self.system);
         let before = before.zip(self.reached.as_ref());
         let before = before.map(|(problem, reached)| Before { problem, state: &reached.state });
-        let start = (self.basis.take(), before);
         self.sparse = None;
-        let found = Chain::new(parts, wanted, start, &mut self.clock, observer);
-        match found.run(&self.plan.routes) {
+        let (clock, with_stresses) = (&mut self.clock, self.with_stresses);
+        let chain = Chain::new(model, &self.system, self.request, with_stresses, clock, observer);
+        let found = chain.after(self.basis.take(), before).run(&self.plan.routes);
+        match found {
             Ok(found) => self.take(step, stepped, found),
             Err(error) if self.solved == 0 => return Err(error),
             Err(error) => {
@@ -388,8 +387,8 @@ impl Run {
         let Reached { info, state, in_history, .. } = self.reached.as_ref()?;
         let slips = &in_history.as_ref()?.slips;
         (!self.records.is_empty()).then(|| {
-            let solved = (self.records.clone(), info.clone());
-            Checkpoint::new(self.origin.clone(), solved, (state, slips, self.basis.as_ref()))
+            let (origin, records) = (self.origin.clone(), self.records.clone());
+            Checkpoint::new(origin, records, info.clone(), state, slips, self.basis.as_ref())
         })
     }
 

@@ -73,7 +73,7 @@ impl Exact {
         let lcp::refine::Verified { statuses, refined } = sparse.problem.verify(&given).ok()?;
         let plain = refined.rounded(&sparse.problem);
         let verified = judged(&sparse, &given, &refined);
-        let state = exact_state((model, &system, &sparse), &plain);
+        let state = exact_state(model, &system, &sparse, &plain);
         Some(Self { verified, sparse, statuses, refined, state })
     }
 }
@@ -101,7 +101,7 @@ fn distance(sparse: &Sparse, given: &ContactState, refined: &Refined) -> Option<
     refined.distance(&sparse.problem.forces_on_bodies(&t_n, &t_t))
 }
 
-fn exact_state((model, system, sparse): (&Model, &System, &Sparse), exact: &ContactState) -> State {
+fn exact_state(model: &Model, system: &System, sparse: &Sparse, exact: &ContactState) -> State {
     let rows = sparse.rows(exact);
     recover::from_displacements(model, system, sparse, &rows, &exact.u, EXACT, true)
 }

@@ -71,7 +71,8 @@ impl Bars {
     pub(super) fn stiffen(
         &self,
         a: &mut Mat<f64>,
-        (isostatic, others): (&[usize], &[usize]),
+        isostatic: &[usize],
+        others: &[usize],
         r: MatRef<'_, f64>,
     ) {
         let of = |rows: &[usize]| {

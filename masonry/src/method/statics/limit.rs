@@ -127,7 +127,7 @@ impl Growing<'_> {
                 bounds.below = Some((factor, forces));
             }
             bounds.size = scale.max(factor);
-            self.prove(&program, (factor, motion, columns), &mut bounds);
+            self.prove(&program, factor, motion, &columns[..program.edges()], &mut bounds);
             if bounds.is_closed() {
                 break;
             }
@@ -145,7 +145,9 @@ impl Growing<'_> {
     fn prove(
         &self,
         program: &Program<'_>,
-        (factor, motion, columns): (f64, &[f64], &[f64]),
+        factor: f64,
+        motion: &[f64],
+        along_edges: &[f64],
         bounds: &mut Bounds,
     ) {
         let beyond: Vec<(f64, Model)> = BEYOND
@@ -153,8 +155,8 @@ impl Growing<'_> {
             .map(|part| factor + part * bounds.size)
             .map(|factor| (factor, (self.at)(factor)))
             .collect();
-        let near = (motion, &columns[..program.edges()]);
-        for (k, mut motion) in sharpen::candidates(near, program.columns()).enumerate() {
+        let near = sharpen::candidates(motion, along_edges, program.columns());
+        for (k, mut motion) in near.enumerate() {
             let held = self.held.iter().enumerate().filter(|(_, held)| **held);
             held.for_each(|(block, _)| motion[3 * block..][..3].fill(0.0));
             if k >= ALWAYS && bounds.is_closed() {

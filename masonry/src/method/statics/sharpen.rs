@@ -35,7 +35,8 @@ const PASSES: usize = 3;
 
 /// A motion, which may come with forces along the first columns, and those near it on which some columns do no work.
 pub(super) fn candidates<'a>(
-    (motion, forces): (&'a [f64], &'a [f64]),
+    motion: &'a [f64],
+    forces: &'a [f64],
     columns: SparseColMatRef<'a, usize, f64>,
 ) -> impl Iterator<Item = Vec<f64>> + 'a {
     let work = (0..columns.ncols()).map(|k| column(columns, k).map(|(i, v)| v * motion[i]).sum());

@@ -90,7 +90,7 @@ pub(super) fn attached(model: &Model, start: &[usize]) -> Result<Vec<Segment>, A
     let mut segments = Vec::new();
     for (joint, it) in model.joints.iter().enumerate() {
         if let (Some(_), Some(&(a, b))) = (it.film, anchors.get(&joint)) {
-            of_joint(model, (joint, it), [a, Some(b)], start, &mut segments)?;
+            of_joint(model, joint, it, [a, Some(b)], start, &mut segments)?;
         }
     }
     start_from_points(model, &mut segments)?;
@@ -114,7 +114,8 @@ fn start_from_points(model: &Model, segments: &mut [Segment]) -> Result<(), Atta
 
 fn of_joint(
     model: &Model,
-    (index, joint): (usize, &Joint),
+    index: usize,
+    joint: &Joint,
     sides: [Option<Anchor>; 2],
     start: &[usize],
     segments: &mut Vec<Segment>,

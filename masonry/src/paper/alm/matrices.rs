@@ -19,6 +19,13 @@ pub(super) enum Contact {
     Slip,
 }
 
+/// The states of all contacts and films.
+#[derive(Clone, Copy)]
+pub(super) struct States<'a> {
+    pub(super) contacts: &'a [Contact],
+    pub(super) films: &'a [FilmResponse],
+}
+
 /// The matrices for all states of the contacts, on one pattern.
 pub(super) struct Matrices<'a> {
     structure: &'a Structure<'a>,
@@ -40,18 +47,15 @@ impl<'a> Matrices<'a> {
         let (rho_n, rho_t) = (rho(&structure.normal), rho(&structure.tangent));
         let all = vec![Contact::Stick; rho_n.len()];
         let rest = structure.taken(&vec![0.0; structure.diagonal.len()]);
-        let matrix = assembled(structure, (&all, &rest.films), (&rho_n, &rho_t), proximal)?;
+        let states = States { contacts: &all, films: &rest.films };
+        let matrix = assembled(structure, states, &rho_n, &rho_t, proximal)?;
         let symbolic = SymbolicLlt::try_new(matrix.symbolic(), Side::Lower).map_err(failed)?;
         Ok(Self { structure, rho_n, rho_t, proximal, symbolic })
     }
 
     /// The factors of the matrix that belongs to states of the contacts and of the films.
-    pub(super) fn factorised(
-        &self,
-        states: (&[Contact], &[FilmResponse]),
-    ) -> Result<Llt<usize, f64>, AlmError> {
-        let rho = (&self.rho_n[..], &self.rho_t[..]);
-        let matrix = assembled(self.structure, states, rho, self.proximal)?;
+    pub(super) fn factorised(&self, states: States<'_>) -> Result<Llt<usize, f64>, AlmError> {
+        let matrix = assembled(self.structure, states, &self.rho_n, &self.rho_t, self.proximal)?;
         Llt::try_new_with_symbolic(self.symbolic.clone(), matrix.as_ref(), Side::Lower)
             .map_err(failed)
     }
@@ -60,7 +64,7 @@ impl<'a> Matrices<'a> {
     pub(super) fn displacements(
         &self,
         factors: &Llt<usize, f64>,
-        (contacts, films): (&[Contact], &[FilmResponse]),
+        States { contacts, films }: States<'_>,
         at: &ContactState,
     ) -> Vec<f64> {
         let Structure { problem, diagonal, normal, tangent, .. } = self.structure;
@@ -130,8 +134,9 @@ impl<'a> Matrices<'a> {
 
 fn assembled(
     structure: &Structure<'_>,
-    (contacts, films): (&[Contact], &[FilmResponse]),
-    (rho_n, rho_t): (&[f64], &[f64]),
+    States { contacts, films }: States<'_>,
+    rho_n: &[f64],
+    rho_t: &[f64],
     proximal: f64,
 ) -> Result<SparseColMat<usize, f64>, AlmError> {
     let Structure { problem, diagonal, normal, tangent, .. } = structure;

@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 use lcp::{Contact2d, ContactState, Status};
 
 use super::contraction::Contraction;
-use super::matrices::{Contact, Matrices};
+use super::matrices::{Contact, Matrices, States};
 use super::structure::{Structure, Taken};
 use super::{AlmError, Answer, Iteration, Settings};
 use crate::paper::film::law::PointContact;
@@ -98,7 +98,7 @@ impl Run<'_> {
         let (mut least, mut since) = ([f64::INFINITY; 2], 0);
         let [mut motion, mut pull] = structure.units().map(Contraction::new);
         while self.convergence.len() < settings.max_iterations {
-            let states = (&contacts[..], &taken.films[..]);
+            let states = States { contacts: &contacts, films: &taken.films };
             let present = if let Some(present) = factors.take() {
                 present
             } else {
@@ -162,7 +162,7 @@ impl Run<'_> {
         let all = vec![Contact::Stick; problem.points()];
         for _ in 0..BROUGHT {
             let taken = self.structure.taken(&at.u);
-            let states = (&all[..], &taken.films[..]);
+            let states = States { contacts: &all, films: &taken.films };
             self.factorisations += 1;
             let u = matrices.displacements(&matrices.factorised(states)?, states, &at);
             at = problem.state(u, at.t_n, at.t_t);

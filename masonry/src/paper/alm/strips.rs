@@ -48,7 +48,7 @@ impl Strips<'_> {
         let tangential: Vec<f64> = friction.map(|it| t_t[it.contact.index()]).collect();
         // What follows the blocks is another list in the problem with points in the films.
         let blocks = self.sparse.starts().last().copied().unwrap_or_default();
-        self.sparse.with_forces(self.system, found.u[..blocks].to_vec(), (&t_n, &tangential))
+        self.sparse.with_forces(self.system, found.u[..blocks].to_vec(), &t_n, &tangential)
     }
 }
 

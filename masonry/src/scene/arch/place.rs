@@ -24,7 +24,7 @@ pub(crate) fn blocks(arch: &Arch, at: &KeyPath) -> Result<Vec<Named>, Fault> {
     }
     let Some(piers) = arch.piers else { return Ok(blocks) };
     for (side, sign, line) in ends(&lines) {
-        let pier = pier(&piers, &at.key("piers"), (side, sign), line)?;
+        let pier = pier(&piers, &at.key("piers"), side, sign, line)?;
         let named = |(k, corners)| (format!("{}/{side}/{}", arch.name, k + 1), corners);
         blocks.extend(pier.into_iter().enumerate().map(named));
     }
@@ -76,7 +76,8 @@ fn ends(lines: &[Line]) -> [(&'static str, f64, Line); 2] {
 fn pier(
     piers: &Piers,
     at: &KeyPath,
-    (side, sign): (&'static str, f64),
+    side: &'static str,
+    sign: f64,
     [inner, outer]: Line,
 ) -> Result<Vec<[[f64; 2]; 4]>, Fault> {
     let Piers { width, height, courses } = *piers;

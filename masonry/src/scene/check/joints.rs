@@ -66,7 +66,7 @@ impl Scene {
 
 /// Friction, stiffness and strength.
 pub(super) fn check_law(at: &KeyPath, joint: &Joint) -> Check {
-    match exactly_one(at, ("mu", joint.mu), ("phi_deg", joint.phi_deg))? {
+    match exactly_one(at, "mu", joint.mu, "phi_deg", joint.phi_deg)? {
         One::First(mu) => not_negative(at.key("mu"), mu)?,
         One::Second(phi) => {
             let wanted = "the angle of friction is at least 0 and less than 90 degrees";

@@ -131,7 +131,7 @@ fn check_edge(at: &KeyPath, load: &Load) -> Check {
         return Err(missing(at, "to", because, "to = [1.0, 0.0]"));
     };
     segment(at, from, to)?;
-    match exactly_one(at, ("pressure", load.pressure), ("traction", load.traction))? {
+    match exactly_one(at, "pressure", load.pressure, "traction", load.traction)? {
         One::First(pressure) => finite(at.key("pressure"), pressure),
         One::Second(traction) => point(&at.key("traction"), traction),
     }

@@ -8,16 +8,19 @@ use crate::scene::{Fault, KeyPath, Opening, OpeningError, Wall};
 /// What rounding makes of a length, relative to a brick.
 const ROUNDING: f64 = 1e-9;
 
+/// How large a wall is.
+#[derive(Clone, Copy)]
+pub(super) struct WallSize {
+    /// Its width \[length\].
+    pub(super) width: f64,
+    pub(super) courses: u32,
+}
+
 /// Openings inside their wall, whose lintels rest on it and that do not meet.
-pub(super) fn check(
-    at: &KeyPath,
-    wall: &Wall,
-    joints: JointThickness,
-    (width, courses): (f64, u32),
-) -> Check {
+pub(super) fn check(at: &KeyPath, wall: &Wall, joints: JointThickness, size: WallSize) -> Check {
     for (k, opening) in wall.openings.iter().enumerate() {
         let at = at.key("openings").item(k);
-        check_place(&at, wall, opening, (width, courses))?;
+        check_place(&at, wall, opening, size)?;
         let others = wall.openings[..k].iter().enumerate();
         for (other, before) in others {
             let rows = |it: &Opening| it.rows().start..it.rows().end + 1;
@@ -35,12 +38,13 @@ pub(super) fn check(
         }
     }
     for k in 0..wall.openings.len() {
-        check_lintel(&at.key("openings").item(k), wall, k, (width, courses))?;
+        check_lintel(&at.key("openings").item(k), wall, k, size)?;
     }
     Ok(())
 }
 
-fn check_place(at: &KeyPath, wall: &Wall, opening: &Opening, (wide, high): (f64, u32)) -> Check {
+fn check_place(at: &KeyPath, wall: &Wall, opening: &Opening, size: WallSize) -> Check {
+    let WallSize { width: wide, courses: high } = size;
     let Opening { x, width, course, courses, bearing } = *opening;
     not_negative(at.key("x"), x)?;
     positive(at.key("width"), width)?;
@@ -64,7 +68,8 @@ fn check_place(at: &KeyPath, wall: &Wall, opening: &Opening, (wide, high): (f64,
 }
 
 /// The wall on both sides of an opening is as wide as its lintel needs: up to the end, or to another opening.
-fn check_lintel(at: &KeyPath, wall: &Wall, k: usize, (wide, high): (f64, u32)) -> Check {
+fn check_lintel(at: &KeyPath, wall: &Wall, k: usize, size: WallSize) -> Check {
+    let WallSize { width: wide, courses: high } = size;
     let opening = &wall.openings[k];
     let top = opening.rows().end;
     if top >= high as usize {

@@ -35,7 +35,7 @@ impl Scene {
         for (name, to) in &stage.moves {
             let at = at.key("moves").key(name);
             let supports = self.all_supports();
-            there_is(("support", "supports"), name, supports.iter().map(|it| &it.name), &at)?;
+            there_is("support", "supports", name, supports.iter().map(|it| &it.name), &at)?;
             finite(at.key("x"), to.x)?;
             finite(at.key("y"), to.y)?;
             finite(at.key("turn"), to.turn)?;
@@ -47,7 +47,8 @@ impl Scene {
 }
 
 fn there_is<'a>(
-    (what, table): (&'static str, &'static str),
+    what: &'static str,
+    table: &'static str,
     name: &str,
     names: impl Iterator<Item = &'a String>,
     at: &KeyPath,

@@ -26,7 +26,8 @@ impl Pair {
     pub(super) fn of(
         model: &Model,
         state: &State,
-        (contact, it): (&ContactPoint, &ContactState),
+        contact: &ContactPoint,
+        it: &ContactState,
     ) -> Self {
         // Faces that are pressed come nearer than they were, which is no gap below zero.
         let [c_n, c_t] = contact.gives();

@@ -23,7 +23,8 @@ impl Lengths {
     pub(super) fn of(
         model: &Model,
         state: &State,
-        (nodes, bodies): (&[Option<Nodes>], &Bodies),
+        nodes: &[Option<Nodes>],
+        bodies: &Bodies,
     ) -> Self {
         let moved = |u: &Vec<Vector2<f64>>| u.iter().map(Vector2::norm).fold(0.0, larger);
         let mut blocks: Vec<f64> = state.displacements.iter().map(moved).collect();

@@ -11,7 +11,8 @@ use crate::scene::Movement as Place;
 /// The sentence of a verdict; of a load history two, the second of which says how far it went.
 pub(super) fn of(
     known: &Known<'_>,
-    (verdict, evidence): (Verdict, Evidence),
+    verdict: Verdict,
+    evidence: Evidence,
     movement: Option<Movement>,
 ) -> String {
     let failed = known.history.and_then(|history| history.failed.as_ref());
