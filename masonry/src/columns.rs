@@ -3,19 +3,19 @@
 use faer::sparse::{SparseColMat, SparseColMatRef, SymbolicSparseColMat, SymbolicSparseColMatRef};
 
 /// A matrix that is put together column by column.
-pub(crate) struct Columns {
+pub(crate) struct ColumnMatrix {
     starts: Vec<usize>,
     rows: Vec<usize>,
     values: Vec<f64>,
 }
 
-impl Default for Columns {
+impl Default for ColumnMatrix {
     fn default() -> Self {
         Self { starts: vec![0], rows: Vec::new(), values: Vec::new() }
     }
 }
 
-impl Columns {
+impl ColumnMatrix {
     /// Adds a column, with rows increasing.
     pub(crate) fn push(&mut self, entries: impl IntoIterator<Item = (usize, f64)>) {
         for (row, value) in entries {

@@ -89,7 +89,7 @@ pub struct Answer {
 
 /// Progress of a route.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Step {
+pub enum RouteProgress {
     /// Pivots.
     Pivots(lcp::lemke::Progress),
     /// Iterations.
@@ -101,14 +101,14 @@ pub enum Step {
     },
 }
 
-impl From<&lcp::Iteration> for Step {
+impl From<&lcp::Iteration> for RouteProgress {
     fn from(at: &lcp::Iteration) -> Self {
         Self::Iteration { number: at.iteration, residual: at.residual }
     }
 }
 
 /// Follows the progress of a solve; `Break` cancels it.
-pub type Observer<'a> = &'a mut dyn FnMut(Step) -> ControlFlow<()>;
+pub type Observer<'a> = &'a mut dyn FnMut(RouteProgress) -> ControlFlow<()>;
 
 /// A route with the problem that it works on.
 pub trait Method {

@@ -35,7 +35,7 @@ use body::entries;
 pub use body::{BodyRow, BodyStretch, BodySystem};
 pub use error::SystemError;
 pub use loads::{nodal_loads, resultant};
-use stiffness::Parts;
+use stiffness::Built;
 pub use stiffness::Stiffness;
 pub use stretch::StretchRow;
 
@@ -97,7 +97,7 @@ impl System {
     /// # Errors
     /// [`SystemError`] names the block whose stiffness cannot be built.
     pub fn new(model: &Model) -> Result<Self, SystemError> {
-        Self::build(model, Parts::MatrixAndFactor)
+        Self::build(model, Built::MatrixAndFactor)
     }
 
     /// The same without the dense factors of the stiffnesses, for [`Sparse`](crate::forms::Sparse): it
@@ -106,10 +106,10 @@ impl System {
     /// # Errors
     /// As [`System::new`], but for a stiffness that is not positive definite, which only its factor shows.
     pub fn without_factors(model: &Model) -> Result<Self, SystemError> {
-        Self::build(model, Parts::Matrix)
+        Self::build(model, Built::Matrix)
     }
 
-    fn build(model: &Model, parts: Parts) -> Result<Self, SystemError> {
+    fn build(model: &Model, parts: Built) -> Result<Self, SystemError> {
         let points = model.contacts.iter().enumerate();
         let friction: Vec<Friction> =
             points.filter_map(|(k, contact)| contact.law.sliding(ContactId::new(k))).collect();

@@ -12,12 +12,12 @@ use common::{
 };
 use lcp::{Contact2d, Status};
 use masonry::analysis::outcome::Reaction;
+use masonry::data::state::ContactStatus;
 use masonry::model::joints::PointRule;
 use masonry::model::{Model, Plane};
 use masonry::paper::alm::{
     AlmError, Answer, AttachError, MortaredError, MortaredState, MortaredWall, Settings, Updates,
 };
-use masonry::paper::film::law::PointContact;
 use masonry::paper::film::updating::{Settling, Updating};
 use masonry::report::summary;
 use masonry::scene::{Brick, Joint, Load, Material, Route, Scene, Support, Wall};
@@ -77,7 +77,7 @@ fn panels_with_one_element_per_brick() {
         assert_close(left.fy, right.fy, 1e-6);
 
         let points = || fine.films.iter().flat_map(|film| &film.points);
-        for state in [PointContact::Open, PointContact::Stick, PointContact::Slip] {
+        for state in [ContactStatus::Open, ContactStatus::Stick, ContactStatus::Slip] {
             assert!(points().any(|point| point.contact == state), "{state:?}");
         }
         assert!(points().all(|point| point.stress.y <= 0.0 && point.dissipation >= 0.0));

@@ -149,7 +149,7 @@ pub fn limit_observed<'a>(
     observer: &'a mut Observer<'a>,
 ) -> Result<Limit, LimitError> {
     let mut watch = Watch::new(observer);
-    let mut clock = Clock::new();
+    let mut clock = Laps::new();
     let group = group(scene)?;
     let given = Model::from_scene(scene)?;
     // Both laws solve sparse problems, whatever the route of the scene.
@@ -157,7 +157,7 @@ pub fn limit_observed<'a>(
     let model = rigid(given.clone());
     let loads: Vec<bool> = scene.loads.iter().map(|load| load.is_called(&group)).collect();
     let weight = scene.is_weight(&group);
-    let structure = Structure { model: &model, grows: &loads, weight };
+    let structure = LoadedStructure { model: &model, grows: &loads, weight };
     let growth = structure.growth();
     if growth.iter().all(|force| force.abs() <= 0.0) {
         return Err(if weight { LimitError::NoWeight } else { LimitError::NoForce { group } });
@@ -169,7 +169,8 @@ pub fn limit_observed<'a>(
     let path = if laws == Laws::Associative {
         None
     } else {
-        let path = path::of(&Structure { model: &given, ..structure }, &associative, &mut watch)?;
+        let path =
+            path::of(&LoadedStructure { model: &given, ..structure }, &associative, &mut watch)?;
         clock.lap("path");
         Some(path)
     };
@@ -201,12 +202,12 @@ pub fn limit_observed<'a>(
 }
 
 /// Times of phases, one after the other.
-struct Clock {
+struct Laps {
     began: Instant,
     times: Vec<PhaseTime>,
 }
 
-impl Clock {
+impl Laps {
     fn new() -> Self {
         Self { began: Instant::now(), times: Vec::new() }
     }
@@ -242,7 +243,7 @@ fn group(scene: &Scene) -> Result<String, LimitError> {
 
 /// A structure and the loads that grow.
 #[derive(Clone, Copy)]
-struct Structure<'a> {
+struct LoadedStructure<'a> {
     model: &'a Model,
     /// In the order of the scene.
     grows: &'a [bool],
@@ -250,7 +251,7 @@ struct Structure<'a> {
     weight: bool,
 }
 
-impl Structure<'_> {
+impl LoadedStructure<'_> {
     /// The structure with these factors of gravity and of loads that do not grow, and of loads that do.
     fn under(&self, stays: f64, grows: f64) -> Model {
         let actions = Actions {

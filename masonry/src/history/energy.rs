@@ -94,7 +94,7 @@ impl Snapshot {
 
 /// What friction did in a step, or on a way of several.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub(crate) struct Friction {
+pub(crate) struct FrictionWork {
     /// Energy \[J\] that it took, `-t_t . (increment of y_t)`.
     pub(crate) dissipation: f64,
     /// What it took of what it could; `None` where nothing slid.
@@ -105,7 +105,7 @@ pub(crate) struct Friction {
     pub(crate) dragged: f64,
 }
 
-impl Friction {
+impl FrictionWork {
     /// The friction of one step, in which `y_t` of the contacts is their slip.
     pub(crate) fn of_step(model: &Model, contacts: &[ContactState]) -> Self {
         let (mut sum, mut capacity) = (Self::default(), 0.0);

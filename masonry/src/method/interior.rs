@@ -11,7 +11,7 @@ use lcp::{
 
 use super::loading::{self, Led, Loading};
 use super::sparse::Found;
-use super::{Answer, Method, Observer, Request, RouteError, Step, sparse};
+use super::{Answer, Method, Observer, Request, RouteError, RouteProgress, sparse};
 use crate::data::info::{SolveInfo, Way};
 use crate::data::motion::Motion;
 use crate::forms::Sparse;
@@ -118,6 +118,6 @@ impl Interior<'_> {
 }
 
 /// A step after so many others.
-fn step(at: &Iteration, before: usize) -> Step {
-    Step::Iteration { number: before + at.iteration, residual: at.residual }
+fn step(at: &Iteration, before: usize) -> RouteProgress {
+    RouteProgress::Iteration { number: before + at.iteration, residual: at.residual }
 }

@@ -9,7 +9,7 @@
 use lcp::lemke::{Attempt, AttemptCovering, AttemptEnd, AttemptStart};
 use lcp::{Basis, Covering, Lemke, LemkeSettings, Residuals, Side, Status, WarmStart};
 
-use super::{Answer, Method, Observer, Request, RouteError, Step, auto};
+use super::{Answer, Method, Observer, Request, RouteError, RouteProgress, auto};
 use crate::data::info::SolveInfo;
 use crate::data::motion::Motion;
 use crate::data::route::Route;
@@ -44,7 +44,7 @@ pub struct Pivots<'a> {
 impl Method for Pivots<'_> {
     fn solve(&self, request: &Request, observer: Observer<'_>) -> Result<Answer, RouteError> {
         let Self { system, reduction, start } = *self;
-        let mut search = Search {
+        let mut search = Pivoting {
             request,
             start,
             attempts: Vec::new(),
@@ -67,7 +67,7 @@ impl Method for Pivots<'_> {
 }
 
 /// What the forms tried so far have left.
-struct Search<'a> {
+struct Pivoting<'a> {
     request: &'a Request,
     start: Option<&'a Start>,
     attempts: Vec<String>,
@@ -77,12 +77,13 @@ struct Search<'a> {
     coulomb: Option<Form>,
 }
 
-impl Search<'_> {
+impl Pivoting<'_> {
     fn run(&mut self, form: Form, observer: Observer<'_>) -> Result<Answer, RouteError> {
         let mut last = None;
         for (settings, start) in self.settings(&form) {
-            let solution = Lemke::new(settings)
-                .solve_with_progress(&form.problem, &mut |at| observer(Step::Pivots(*at)))?;
+            let solution = Lemke::new(settings).solve_with_progress(&form.problem, &mut |at| {
+                observer(RouteProgress::Pivots(*at))
+            })?;
             self.pivots += solution.info.pivots;
             self.factorisations += solution.info.factorisations;
             let attempts = solution.info.attempts.iter();

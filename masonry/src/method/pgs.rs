@@ -14,7 +14,7 @@ use lcp::{
 };
 
 use super::sparse::Found;
-use super::{Answer, Method, Observer, Request, RouteError, Step, sparse};
+use super::{Answer, Method, Observer, Request, RouteError, RouteProgress, sparse};
 use crate::data::info::SoftReport;
 use crate::forms::Sparse;
 use crate::scene::Route;
@@ -114,8 +114,8 @@ impl<'a> Rounds<'a> {
         }
     }
 
-    fn step(&self) -> Step {
-        Step::Iteration { number: self.done, residual: self.residual() }
+    fn step(&self) -> RouteProgress {
+        RouteProgress::Iteration { number: self.done, residual: self.residual() }
     }
 
     /// The worst residual, or what the springs still carry.
@@ -139,7 +139,7 @@ impl<'a> Rounds<'a> {
         }
     }
 
-    fn stop(&self, observer: &mut dyn FnMut(Step) -> ControlFlow<()>) -> Option<Status> {
+    fn stop(&self, observer: &mut dyn FnMut(RouteProgress) -> ControlFlow<()>) -> Option<Status> {
         let is_cancelled = observer(self.step()).is_break();
         let residual = self.residual();
         let is_settled = self.idle >= SETTLED || self.done >= MAX_ROUNDS;
@@ -156,7 +156,7 @@ impl<'a> Rounds<'a> {
 
     fn next(
         &mut self,
-        observer: &mut dyn FnMut(Step) -> ControlFlow<()>,
+        observer: &mut dyn FnMut(RouteProgress) -> ControlFlow<()>,
     ) -> Result<ControlFlow<()>, lcp::Error> {
         let centre = &self.state.u;
         let sprung = self.bedding.attached(self.problem, centre)?;

@@ -18,14 +18,14 @@ pub(super) struct Classes {
     /// The same of the walls, then of the arches.
     of_walls: Vec<[usize; 2]>,
     of_supports: Vec<usize>,
-    of_pairs: Vec<([Group; 2], usize)>,
+    of_pairs: Vec<([Members; 2], usize)>,
     /// The wall of every brick, and the arch of every voussoir, counted after the walls; single blocks come after all of
     /// these.
     walls: Vec<usize>,
 }
 
 /// The blocks of a name.
-enum Group {
+enum Members {
     Wall(usize),
     Block(BlockId),
 }
@@ -53,8 +53,8 @@ impl Classes {
         for (k, between) in scene.between.iter().enumerate() {
             let at = KeyPath::of("between").item(k).key("blocks");
             let [first, second] = &between.blocks;
-            let first = Group::of(scene, blocks, first, at.item(0))?;
-            let second = Group::of(scene, blocks, second, at.item(1))?;
+            let first = Members::of(scene, blocks, first, at.item(0))?;
+            let second = Members::of(scene, blocks, second, at.item(1))?;
             of_pairs.push(([first, second], index(&between.joint)));
         }
         let bricks = scene.walls.iter().enumerate().flat_map(|(k, wall)| {
@@ -88,11 +88,11 @@ impl Classes {
     }
 
     fn of_pair(&self, a: BlockId, b: BlockId) -> Option<usize> {
-        let is_in = |group: &Group, block: BlockId| match *group {
-            Group::Wall(wall) => self.wall_of(block) == Some(wall),
-            Group::Block(other) => other == block,
+        let is_in = |group: &Members, block: BlockId| match *group {
+            Members::Wall(wall) => self.wall_of(block) == Some(wall),
+            Members::Block(other) => other == block,
         };
-        let fits = |[first, second]: &[Group; 2]| {
+        let fits = |[first, second]: &[Members; 2]| {
             is_in(first, a) && is_in(second, b) || is_in(first, b) && is_in(second, a)
         };
         let pairs = self.of_pairs.iter().rev();
@@ -117,7 +117,7 @@ impl Classes {
     }
 }
 
-impl Group {
+impl Members {
     fn of(scene: &Scene, blocks: &[Block], name: &str, at: KeyPath) -> Result<Self, Fault> {
         if let Some(wall) = scene.walls.iter().position(|wall| wall.name == name) {
             return Ok(Self::Wall(wall));

@@ -173,7 +173,7 @@ fn point([x, y]: [f64; 2], units: Units) -> Point2<f64> {
 }
 
 /// Joints, their contact points and the classes that they refer to.
-struct Found {
+struct Meetings {
     joints: Vec<Joint>,
     contacts: Vec<ContactPoint>,
     classes: Vec<JointClass>,
@@ -184,7 +184,7 @@ fn find_joints(
     blocks: &[Block],
     supports: &[Support],
     thickness: f64,
-) -> Result<Found, Fault> {
+) -> Result<Meetings, Fault> {
     let classes = Classes::of(scene, blocks)?;
     let class_of = |kind, a, b| classes.class_of(kind, a, b);
     let options = Options {
@@ -206,5 +206,5 @@ fn find_joints(
             },
         )?;
     let classes = classes.of_joints(blocks, &joints)?;
-    Ok(Found { joints, contacts, classes })
+    Ok(Meetings { joints, contacts, classes })
 }

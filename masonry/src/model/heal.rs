@@ -57,7 +57,7 @@ pub(super) fn heal(
     let meetings = drawing.meetings(blocks, supports, tolerance);
     let sizes = blocks[first..].iter().map(|it| geometry::size(&it.corners));
     let touching = Options::default().tolerance * sizes.fold(f64::INFINITY, f64::min);
-    let is_met = |it: &Meeting, drawing: &Drawing| {
+    let is_met = |it: &Touch, drawing: &Drawing| {
         let (distance, terms) = it.distance(&drawing.points);
         distance.abs() <= touching || terms.iter().all(|(point, _)| *point < drawing.free)
     };
@@ -100,7 +100,7 @@ struct Drawing {
 
 /// Corners and lines that have to meet.
 #[derive(Debug, Clone, Copy)]
-enum Meeting {
+enum Touch {
     /// Two corners, along an axis.
     Corners { corners: [usize; 2], axis: Vector2<f64> },
     /// A corner and the edge between two others.
@@ -109,7 +109,7 @@ enum Meeting {
     Line { corner: usize, through: Point2<f64>, normal: Vector2<f64> },
 }
 
-impl Meeting {
+impl Touch {
     /// The distance that has to vanish, and its derivatives by the points.
     fn distance(&self, points: &[Point2<f64>]) -> (f64, Vec<(usize, Vector2<f64>)>) {
         match *self {
@@ -155,7 +155,7 @@ impl Drawing {
         Self { points, free: starts[first], starts }
     }
 
-    fn meetings(&self, blocks: &[Block], supports: &[Support], tolerance: f64) -> Vec<Meeting> {
+    fn meetings(&self, blocks: &[Block], supports: &[Support], tolerance: f64) -> Vec<Touch> {
         let mut list = Vec::new();
         for [a, b] in near_pairs(blocks, tolerance, 0.0) {
             if self.starts[a.index().max(b.index())] < self.free {
@@ -172,7 +172,7 @@ impl Drawing {
                 let ends = [support.from, support.to];
                 if is_near(*point, ends, tolerance) {
                     let (_, normal) = beside(*point, ends);
-                    list.push(Meeting::Line { corner, through: support.from, normal });
+                    list.push(Touch::Line { corner, through: support.from, normal });
                 }
             }
         }
@@ -186,7 +186,7 @@ impl Drawing {
         block: usize,
         is_first: bool,
         tolerance: f64,
-        list: &mut Vec<Meeting>,
+        list: &mut Vec<Touch>,
     ) {
         let (begin, end) = (self.starts[block], self.starts[block + 1]);
         let point = self.points[corner];
@@ -194,7 +194,7 @@ impl Drawing {
         let nearest = (begin..end).min_by(|a, b| distance(a).total_cmp(&distance(b)));
         if let Some(other) = nearest.filter(|it| distance(it) <= tolerance) {
             if is_first {
-                let along = |axis| Meeting::Corners { corners: [corner, other], axis };
+                let along = |axis| Touch::Corners { corners: [corner, other], axis };
                 list.extend([Vector2::x(), Vector2::y()].map(along));
             }
             return;
@@ -202,14 +202,14 @@ impl Drawing {
         for from in begin..end {
             let to = if from + 1 < end { from + 1 } else { begin };
             if is_near(point, [self.points[from], self.points[to]], tolerance) {
-                list.push(Meeting::Edge { corner, ends: [from, to] });
+                list.push(Touch::Edge { corner, ends: [from, to] });
             }
         }
     }
 
     /// The least changes of the corners that may move for which all meetings hold, to first order; `None` if memory does not
     /// suffice.
-    fn step(&mut self, meetings: &[Meeting]) -> Option<()> {
+    fn step(&mut self, meetings: &[Touch]) -> Option<()> {
         let (mut entries, mut apart) = (Vec::new(), Vec::with_capacity(meetings.len()));
         for (row, meeting) in meetings.iter().enumerate() {
             let (distance, terms) = meeting.distance(&self.points);

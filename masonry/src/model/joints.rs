@@ -273,16 +273,16 @@ impl Meeting {
         geometry::on_edge(&blocks[self.b.index()].corners, self.b_edge, at)
     }
 
-    fn points(&self, blocks: &[Block], rule: PointRule, tolerance: f64) -> Vec<points::Place> {
+    fn points(&self, blocks: &[Block], rule: PointRule, tolerance: f64) -> Vec<points::PointPlace> {
         let b = &blocks[self.b.index()];
         let [b_start, b_end] = geometry::edge(&b.corners, self.b_edge);
-        let b_side = points::Side {
+        let b_side = points::Face {
             fractions: edge_fractions(b, self.b_edge),
             overlap: [self.overlap.on_second[1], self.overlap.on_second[0]],
         };
         let a_side = match self.a {
             Body::Support(_) => None,
-            Body::Block(id) => Some(points::Side {
+            Body::Block(id) => Some(points::Face {
                 fractions: edge_fractions(&blocks[id.index()], self.a_edge),
                 overlap: [self.overlap.on_first[1], self.overlap.on_first[0]],
             }),
@@ -296,7 +296,7 @@ impl Meeting {
     fn contact(
         &self,
         blocks: &[Block],
-        place: &points::Place,
+        place: &points::PointPlace,
         joint: JointId,
         filling: Option<Filling>,
         law: JointLaw,

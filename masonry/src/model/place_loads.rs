@@ -17,7 +17,7 @@ const TOLERANCE: f64 = 1e-9;
 const NAMES: usize = 3;
 
 /// A part of an edge, as fractions of it.
-type Part = [f64; 2];
+type EdgePart = [f64; 2];
 
 /// Puts the loads of a scene on its blocks, whose corners were moved by up to a distance \[m\]; their names, and those that act
 /// on all mass.
@@ -145,7 +145,11 @@ struct OnEdges<'a> {
 
 impl OnEdges<'_> {
     /// Parts of edges that make joints are not free and carry no load, so that a load cannot act inside a joint.
-    fn place(&self, blocks: &mut [Block], joined: &[Vec<Vec<Part>>]) -> Result<(), SceneErrorKind> {
+    fn place(
+        &self,
+        blocks: &mut [Block],
+        joined: &[Vec<Vec<EdgePart>>],
+    ) -> Result<(), SceneErrorKind> {
         let [from, to] = self.ends;
         let mut acts = false;
         for (block, joined) in blocks.iter_mut().zip(joined) {
@@ -180,7 +184,7 @@ fn covered_part(
     edge: usize,
     [from, to]: [Point2<f64>; 2],
     moved: f64,
-) -> Option<Part> {
+) -> Option<EdgePart> {
     let [start, end] = geometry::edge(corners, edge);
     let length = (end - start).norm();
     let slack = TOLERANCE * geometry::size(corners) + moved;
@@ -204,7 +208,7 @@ fn covered_part(
 }
 
 /// What is left of a part when the joined parts are taken out.
-fn free_parts(covered: Part, joined: &[Part]) -> Vec<Part> {
+fn free_parts(covered: EdgePart, joined: &[EdgePart]) -> Vec<EdgePart> {
     let mut free = vec![covered];
     for [from, to] in joined {
         free = free
@@ -221,7 +225,7 @@ fn joined_parts(
     blocks: &[Block],
     joints: &[Joint],
     contacts: &[ContactPoint],
-) -> Vec<Vec<Vec<Part>>> {
+) -> Vec<Vec<Vec<EdgePart>>> {
     let mut joined: Vec<_> =
         blocks.iter().map(|block| vec![Vec::new(); block.corners.len()]).collect();
     // All points of a joint sit on the same two edges: the first tells which.
@@ -241,7 +245,7 @@ fn joined_parts(
 }
 
 /// The part of an edge in front of a joint.
-fn projected(corners: &[Point2<f64>], edge: usize, joint: &Joint) -> Part {
+fn projected(corners: &[Point2<f64>], edge: usize, joint: &Joint) -> EdgePart {
     let [start, end] = geometry::edge(corners, edge);
     let along = (end - start) / (end - start).norm_squared();
     let [a, b] = [joint.from, joint.to].map(|p| geometry::snap((p - start).dot(&along)));

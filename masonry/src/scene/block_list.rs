@@ -2,7 +2,7 @@
 
 use serde::Deserialize;
 
-use super::source::{List, Place};
+use super::source::{Excerpt, List};
 use super::{Block, strict};
 
 /// A block as the list has it.
@@ -22,11 +22,11 @@ struct Listed {
 ///
 /// # Errors
 /// What does not fit the format, and where.
-pub(super) fn blocks(list: &List) -> Result<Vec<Block>, (String, Option<Place>)> {
+pub(super) fn blocks(list: &List) -> Result<Vec<Block>, (String, Option<Excerpt>)> {
     let listed: Vec<Listed> = serde_json::from_str(&list.text).map_err(|error| {
         let message = error.to_string();
         let message = message.rsplit_once(" at line ").map_or(&*message, |(what, _)| what);
-        (message.to_owned(), Place::at(&list.text, error.line(), error.column()))
+        (message.to_owned(), Excerpt::at(&list.text, error.line(), error.column()))
     })?;
     let stem = list.path.file_stem().map_or("blocks".into(), |stem| stem.to_string_lossy());
     let block = |(number, Listed { name, material, corners, mesh }): (usize, Listed)| {

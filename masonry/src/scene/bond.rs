@@ -102,7 +102,7 @@ pub fn bricks_in_mortar(wall: &Wall, joints: JointThickness) -> Vec<PlacedBrick>
 /// The first course and place in it, from 0 and with openings counted, at which the head joint
 /// leaves nothing of a brick.
 pub(crate) fn first_without_length(wall: &Wall, joints: JointThickness) -> Option<[usize; 2]> {
-    let gone = |&[start, end]: &Stretch| left_of(end - start, wall, joints) <= SLIVER;
+    let gone = |&[start, end]: &Span| left_of(end - start, wall, joints) <= SLIVER;
     // Two courses show all there is of a bond without openings.
     let is_bond = matches!(wall.courses, Courses::RunningBond(_)) && wall.openings.is_empty();
     let repeated = if is_bond { 2 } else { usize::MAX };
@@ -116,7 +116,7 @@ pub(crate) fn first_without_length(wall: &Wall, joints: JointThickness) -> Optio
 }
 
 /// The stretches of all courses in units of one brick and its head joint.
-fn courses(wall: &Wall, joints: JointThickness) -> Box<dyn Iterator<Item = Vec<Stretch>> + '_> {
+fn courses(wall: &Wall, joints: JointThickness) -> Box<dyn Iterator<Item = Vec<Span>> + '_> {
     match &wall.courses {
         Courses::RunningBond(count) => {
             let width = wall.width.unwrap_or(wall.brick.length);
@@ -143,7 +143,7 @@ fn snap(bricks: f64) -> f64 {
 }
 
 /// A stretch of a course in units of one brick and its head joint, from its start to its end.
-type Stretch = [f64; 2];
+type Span = [f64; 2];
 
 /// The ends of the bricks of a course of a wall `width` bricks wide, from 0 on.
 fn ends(bond: Bond, course: usize, width: f64) -> Vec<f64> {
@@ -168,12 +168,12 @@ fn ends(bond: Bond, course: usize, width: f64) -> Vec<f64> {
     ends
 }
 
-fn bricks_between(ends: &[f64]) -> Vec<Stretch> {
+fn bricks_between(ends: &[f64]) -> Vec<Span> {
     ends.windows(2).map(|pair| [pair[0], pair[1]]).collect()
 }
 
 /// The bricks of a course given as a list of lengths, without the openings.
-fn given(lengths: &[f64]) -> Vec<Stretch> {
+fn given(lengths: &[f64]) -> Vec<Span> {
     let mut end = 0.0;
     let mut stretches = Vec::with_capacity(lengths.len());
     for length in lengths {
@@ -186,12 +186,7 @@ fn given(lengths: &[f64]) -> Vec<Stretch> {
     stretches
 }
 
-fn lay(
-    wall: &Wall,
-    joints: JointThickness,
-    course: usize,
-    stretches: &[Stretch],
-) -> Vec<PlacedBrick> {
+fn lay(wall: &Wall, joints: JointThickness, course: usize, stretches: &[Span]) -> Vec<PlacedBrick> {
     let pitch = [wall.brick.length + joints.head, wall.brick.height + joints.bed];
     let x = |bricks: f64| wall.origin[0] + bricks * pitch[0];
     let y = |course: usize| wall.origin[1] + course as f64 * pitch[1];

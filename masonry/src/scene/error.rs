@@ -12,7 +12,7 @@ pub use kind::SceneErrorKind;
 pub use known::Known;
 use known::with_nearest;
 
-use super::source::{Place, Source};
+use super::source::{Excerpt, Source};
 use super::{KeyPath, Scene};
 
 /// Something is wrong with a scene: what, where, and how to mend it.
@@ -25,7 +25,7 @@ pub struct SceneError(Box<Details>);
 struct Details {
     kind: SceneErrorKind,
     key: KeyPath,
-    place: Option<Place>,
+    place: Option<Excerpt>,
     file: Option<PathBuf>,
 }
 
@@ -63,7 +63,7 @@ impl SceneError {
         Self::new(kind, KeyPath::default(), place, source.path().map(Path::to_owned))
     }
 
-    pub(super) fn list(path: &Path, message: &str, place: Option<Place>) -> Self {
+    pub(super) fn list(path: &Path, message: &str, place: Option<Excerpt>) -> Self {
         let kind = SceneErrorKind::Syntax { message: with_nearest(message) };
         Self::new(kind, KeyPath::default(), place, Some(path.to_owned()))
     }
@@ -81,7 +81,7 @@ impl SceneError {
     fn new(
         kind: SceneErrorKind,
         key: KeyPath,
-        place: Option<Place>,
+        place: Option<Excerpt>,
         file: Option<PathBuf>,
     ) -> Self {
         Self(Box::new(Details { kind, key, place, file }))

@@ -5,17 +5,17 @@ use std::ops::Range;
 
 use serde_json::value::RawValue;
 
-use super::key_path::Step;
+use super::key_path::PathStep;
 
 /// The bytes of the value at the end of these steps, or of the innermost one around it.
-pub(super) fn locate(text: &str, steps: &[Step]) -> Option<Range<usize>> {
+pub(super) fn locate(text: &str, steps: &[PathStep]) -> Option<Range<usize>> {
     let mut value: &RawValue = serde_json::from_str(text).ok()?;
     for step in steps {
         let inner = match step {
-            Step::Key(key) => serde_json::from_str::<BTreeMap<String, &RawValue>>(value.get())
+            PathStep::Key(key) => serde_json::from_str::<BTreeMap<String, &RawValue>>(value.get())
                 .ok()
                 .and_then(|table| table.get(key).copied()),
-            Step::Index(index) => serde_json::from_str::<Vec<&RawValue>>(value.get())
+            PathStep::Index(index) => serde_json::from_str::<Vec<&RawValue>>(value.get())
                 .ok()
                 .and_then(|list| list.get(*index).copied()),
         };

@@ -7,7 +7,7 @@ use std::sync::Arc;
 use toml::de::{DeTable, DeValue};
 
 use super::json_span;
-use super::key_path::{KeyPath, Step};
+use super::key_path::{KeyPath, PathStep};
 
 /// The text that a scene was read from; empty for a scene built in Rust.
 ///
@@ -70,7 +70,7 @@ impl Source {
     }
 
     /// The file and the place of the value at `path`, or of the innermost table around it that is written out.
-    pub(super) fn locate(&self, path: &KeyPath) -> (Option<&Path>, Option<Place>) {
+    pub(super) fn locate(&self, path: &KeyPath) -> (Option<&Path>, Option<Excerpt>) {
         match self.locate_in_list(path) {
             Some((file, place)) => (Some(file), place),
             None => (self.path(), self.locate_in_scene(path)),
@@ -78,30 +78,32 @@ impl Source {
     }
 
     /// Blocks that are not in the scene itself are in the list.
-    fn locate_in_list(&self, path: &KeyPath) -> Option<(&Path, Option<Place>)> {
+    fn locate_in_list(&self, path: &KeyPath) -> Option<(&Path, Option<Excerpt>)> {
         let list = self.list()?;
-        let [Step::Key(key), Step::Index(index), inner @ ..] = path.steps() else { return None };
+        let [PathStep::Key(key), PathStep::Index(index), inner @ ..] = path.steps() else {
+            return None;
+        };
         let table = DeTable::parse(self.as_str()).ok()?;
         let own = match table.get_ref().get("blocks").map(toml::Spanned::get_ref) {
             Some(DeValue::Array(blocks)) => blocks.len(),
             _ => 0,
         };
         let in_list = index.checked_sub(own).filter(|_| key == "blocks")?;
-        let steps = [&[Step::Index(in_list)], inner].concat();
+        let steps = [&[PathStep::Index(in_list)], inner].concat();
         let span = json_span::locate(&list.text, &steps);
-        Some((&list.path, span.and_then(|span| Place::new(&list.text, span))))
+        Some((&list.path, span.and_then(|span| Excerpt::new(&list.text, span))))
     }
 
-    fn locate_in_scene(&self, path: &KeyPath) -> Option<Place> {
+    fn locate_in_scene(&self, path: &KeyPath) -> Option<Excerpt> {
         let text = &self.0.as_ref()?.scene;
         let table = DeTable::parse(text).ok()?;
         let mut span = None;
         let mut value: Option<&DeValue<'_>> = None;
         for step in path.steps() {
             let inner = match (step, value) {
-                (Step::Key(key), None) => table.get_ref().get(key.as_str()),
-                (Step::Key(key), Some(DeValue::Table(table))) => table.get(key.as_str()),
-                (Step::Index(index), Some(DeValue::Array(array))) => array.get(*index),
+                (PathStep::Key(key), None) => table.get_ref().get(key.as_str()),
+                (PathStep::Key(key), Some(DeValue::Table(table))) => table.get(key.as_str()),
+                (PathStep::Index(index), Some(DeValue::Array(array))) => array.get(*index),
                 _ => None,
             };
             let Some(inner) = inner else { break };
@@ -112,8 +114,8 @@ impl Source {
     }
 
     /// The place of a range of bytes.
-    pub(super) fn place(&self, span: Range<usize>) -> Option<Place> {
-        Place::new(&self.0.as_ref()?.scene, span)
+    pub(super) fn place(&self, span: Range<usize>) -> Option<Excerpt> {
+        Excerpt::new(&self.0.as_ref()?.scene, span)
     }
 }
 
@@ -122,7 +124,7 @@ const SHOWN: usize = 60;
 
 /// The part of a line around a mistake.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(super) struct Place {
+pub(super) struct Excerpt {
     /// Line, from 1.
     pub(super) line: usize,
     /// Column in characters, from 1.
@@ -133,7 +135,7 @@ pub(super) struct Place {
     after: String,
 }
 
-impl Place {
+impl Excerpt {
     /// A place by its line and column, from 1.
     pub(super) fn at(text: &str, line: usize, column: usize) -> Option<Self> {
         let before: usize = text.split_inclusive('\n').take(line.max(1) - 1).map(str::len).sum();

@@ -13,7 +13,7 @@ use serde::de::{Deserialize, Deserializer, Error, IgnoredAny, MapAccess, SeqAcce
 pub(super) fn pair<'de, D: Deserializer<'de>, T: Deserialize<'de>>(
     deserializer: D,
 ) -> Result<[T; 2], D::Error> {
-    Exact::deserialize(deserializer).map(|Exact(items)| items)
+    ExactLength::deserialize(deserializer).map(|ExactLength(items)| items)
 }
 
 pub(super) fn some_pair<'de, D: Deserializer<'de>, T: Deserialize<'de>>(
@@ -25,18 +25,18 @@ pub(super) fn some_pair<'de, D: Deserializer<'de>, T: Deserialize<'de>>(
 pub(super) fn corners<'de, D: Deserializer<'de>>(
     deserializer: D,
 ) -> Result<Vec<[f64; 2]>, D::Error> {
-    let corners = Vec::<Exact<f64, 2>>::deserialize(deserializer)?;
-    Ok(corners.into_iter().map(|Exact(corner)| corner).collect())
+    let corners = Vec::<ExactLength<f64, 2>>::deserialize(deserializer)?;
+    Ok(corners.into_iter().map(|ExactLength(corner)| corner).collect())
 }
 
 /// Two points.
-type Segment = [[f64; 2]; 2];
+type TwoPoints = [[f64; 2]; 2];
 
 pub(super) fn some_segments<'de, D: Deserializer<'de>>(
     deserializer: D,
-) -> Result<Option<Vec<Segment>>, D::Error> {
-    let segments = Vec::<Exact<Exact<f64, 2>, 2>>::deserialize(deserializer)?;
-    let segment = |Exact([Exact(from), Exact(to)])| [from, to];
+) -> Result<Option<Vec<TwoPoints>>, D::Error> {
+    let segments = Vec::<ExactLength<ExactLength<f64, 2>, 2>>::deserialize(deserializer)?;
+    let segment = |ExactLength([ExactLength(from), ExactLength(to)])| [from, to];
     Ok(Some(segments.into_iter().map(segment).collect()))
 }
 
@@ -44,12 +44,12 @@ pub(super) fn some_segments<'de, D: Deserializer<'de>>(
 pub(super) fn some_part<'de, D: Deserializer<'de>>(
     deserializer: D,
 ) -> Result<Option<f64>, D::Error> {
-    deserializer.deserialize_any(Part).map(Some)
+    deserializer.deserialize_any(ShareVisitor).map(Some)
 }
 
-struct Part;
+struct ShareVisitor;
 
-impl Visitor<'_> for Part {
+impl Visitor<'_> for ShareVisitor {
     type Value = f64;
 
     fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -73,9 +73,9 @@ impl Visitor<'_> for Part {
     }
 }
 
-struct Exact<T, const N: usize>([T; N]);
+struct ExactLength<T, const N: usize>([T; N]);
 
-impl<'de, T: Deserialize<'de>, const N: usize> Deserialize<'de> for Exact<T, N> {
+impl<'de, T: Deserialize<'de>, const N: usize> Deserialize<'de> for ExactLength<T, N> {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         deserializer.deserialize_seq(ExactVisitor(PhantomData))
     }
@@ -84,13 +84,13 @@ impl<'de, T: Deserialize<'de>, const N: usize> Deserialize<'de> for Exact<T, N> 
 struct ExactVisitor<T, const N: usize>(PhantomData<T>);
 
 impl<'de, T: Deserialize<'de>, const N: usize> Visitor<'de> for ExactVisitor<T, N> {
-    type Value = Exact<T, N>;
+    type Value = ExactLength<T, N>;
 
     fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "a list of exactly {N} items")
     }
 
-    fn visit_seq<A: SeqAccess<'de>>(self, mut list: A) -> Result<Exact<T, N>, A::Error> {
+    fn visit_seq<A: SeqAccess<'de>>(self, mut list: A) -> Result<ExactLength<T, N>, A::Error> {
         let mut items = Vec::with_capacity(N);
         while items.len() < N {
             let Some(item) = list.next_element()? else { break };
@@ -101,7 +101,7 @@ impl<'de, T: Deserialize<'de>, const N: usize> Visitor<'de> for ExactVisitor<T, 
             length += 1;
         }
         match <[T; N]>::try_from(items) {
-            Ok(items) if length == N => Ok(Exact(items)),
+            Ok(items) if length == N => Ok(ExactLength(items)),
             _ => Err(A::Error::invalid_length(length, &self)),
         }
     }
@@ -110,7 +110,7 @@ impl<'de, T: Deserialize<'de>, const N: usize> Visitor<'de> for ExactVisitor<T, 
 pub(super) fn table<'de, D: Deserializer<'de>, T: Deserialize<'de>>(
     deserializer: D,
 ) -> Result<T, D::Error> {
-    Table::deserialize(deserializer).map(|Table(item)| item)
+    TableOnly::deserialize(deserializer).map(|TableOnly(item)| item)
 }
 
 pub(super) fn some_table<'de, D: Deserializer<'de>, T: Deserialize<'de>>(
@@ -122,20 +122,20 @@ pub(super) fn some_table<'de, D: Deserializer<'de>, T: Deserialize<'de>>(
 pub(super) fn named_tables<'de, D: Deserializer<'de>, T: Deserialize<'de>>(
     deserializer: D,
 ) -> Result<BTreeMap<String, T>, D::Error> {
-    let tables = BTreeMap::<String, Table<T>>::deserialize(deserializer)?;
-    Ok(tables.into_iter().map(|(name, Table(item))| (name, item)).collect())
+    let tables = BTreeMap::<String, TableOnly<T>>::deserialize(deserializer)?;
+    Ok(tables.into_iter().map(|(name, TableOnly(item))| (name, item)).collect())
 }
 
 pub(super) fn tables<'de, D: Deserializer<'de>, T: Deserialize<'de>>(
     deserializer: D,
 ) -> Result<Vec<T>, D::Error> {
-    let tables = Vec::<Table<T>>::deserialize(deserializer)?;
-    Ok(tables.into_iter().map(|Table(item)| item).collect())
+    let tables = Vec::<TableOnly<T>>::deserialize(deserializer)?;
+    Ok(tables.into_iter().map(|TableOnly(item)| item).collect())
 }
 
-struct Table<T>(T);
+struct TableOnly<T>(T);
 
-impl<'de, T: Deserialize<'de>> Deserialize<'de> for Table<T> {
+impl<'de, T: Deserialize<'de>> Deserialize<'de> for TableOnly<T> {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         deserializer.deserialize_map(TableVisitor(PhantomData))
     }
@@ -144,13 +144,13 @@ impl<'de, T: Deserialize<'de>> Deserialize<'de> for Table<T> {
 struct TableVisitor<T>(PhantomData<T>);
 
 impl<'de, T: Deserialize<'de>> Visitor<'de> for TableVisitor<T> {
-    type Value = Table<T>;
+    type Value = TableOnly<T>;
 
     fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str("a table such as { key = value }")
     }
 
-    fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<Table<T>, A::Error> {
-        T::deserialize(MapAccessDeserializer::new(map)).map(Table)
+    fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<TableOnly<T>, A::Error> {
+        T::deserialize(MapAccessDeserializer::new(map)).map(TableOnly)
     }
 }

@@ -28,7 +28,7 @@ pub struct Stiffness {
 
 /// What is built of a stiffness.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Parts {
+pub(super) enum Built {
     /// The sparse matrix.
     Matrix,
     /// Also its dense factor.
@@ -41,7 +41,7 @@ impl Stiffness {
         mesh: &BlockMesh,
         e: Elasticity,
         model: &Model,
-        parts: Parts,
+        parts: Built,
     ) -> Result<Self, SystemError> {
         let n = 2 * mesh.nodes.len();
         let elements = element_stiffnesses(block, mesh, e, model)?;
@@ -56,8 +56,8 @@ impl Stiffness {
         let couplings: Vec<_> = couplings.filter(|entry| entry.val != 0.0).collect();
         let matrix = assembled(n, &couplings);
         let factor = match parts {
-            Parts::Matrix => None,
-            Parts::MatrixAndFactor => Some(factor(block, mesh, e, &couplings)?),
+            Built::Matrix => None,
+            Built::MatrixAndFactor => Some(factor(block, mesh, e, &couplings)?),
         };
         Ok(Self { matrix, factor })
     }
@@ -146,7 +146,7 @@ fn orthonormal_modes(block: &Block, mesh: &BlockMesh) -> Mat<f64> {
 
 /// Stiffnesses by shape, mesh and material.
 pub(super) struct Shared {
-    parts: Parts,
+    parts: Built,
     list: Vec<Stiffness>,
     keys: Vec<Key>,
 }
@@ -159,7 +159,7 @@ struct Key {
 }
 
 impl Shared {
-    pub(super) fn new(parts: Parts) -> Self {
+    pub(super) fn new(parts: Built) -> Self {
         Self { parts, list: Vec::new(), keys: Vec::new() }
     }
 

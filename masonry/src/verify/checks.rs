@@ -147,7 +147,7 @@ impl Checks {
         let elastic = nodes.iter().zip(of_bodies);
         let at_nodes =
             elastic.filter_map(|(it, (size, around))| Some(it.as_ref()?.error(size, around)));
-        let backward = nodes.iter().flatten().map(elements::Nodes::backward);
+        let backward = nodes.iter().flatten().map(elements::NodeForces::backward);
         let (force_balance, moment_balance) = (bodies.force_balance(), bodies.moment_balance());
         let count = |status| state.contacts.iter().filter(|s| s.status == status).count();
         Self {

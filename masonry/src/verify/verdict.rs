@@ -30,7 +30,7 @@ pub(crate) use unique::circulating;
 
 /// Where loading from a state without stresses leads rigid blocks that some forces within friction would hold.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Led {
+pub(crate) enum LoadingEnd {
     ToRest,
     ToFall,
     /// Neither came out.
@@ -39,12 +39,12 @@ pub(crate) enum Led {
 
 /// All that the verdict depends on.
 #[derive(Clone, Copy)]
-pub(crate) struct Known<'a> {
+pub(crate) struct Findings<'a> {
     pub(crate) model: &'a Model,
     pub(crate) info: &'a SolveInfo,
     pub(crate) state: Option<&'a State>,
     pub(crate) statics: Option<&'a Statics>,
-    pub(crate) led: Option<Led>,
+    pub(crate) led: Option<LoadingEnd>,
     /// The load history, of several steps only.
     pub(crate) history: Option<&'a History>,
     /// What is unusual about the magnitudes of the scene.
@@ -56,13 +56,13 @@ pub(crate) struct Known<'a> {
 }
 
 impl Judgement {
-    pub(crate) fn of(known: &Known<'_>) -> Self {
-        let movement = known.state.map(|state| Movement::of(known.model, state));
+    pub(crate) fn of(known: &Findings<'_>) -> Self {
+        let movement = known.state.map(|state| Drift::of(known.model, state));
         let is_solved = known.info.status == lcp::Status::Solved;
         let (verdict, evidence) = match known.statics {
             Some(Statics::Impossible(_)) => (Verdict::Falls, Evidence::NoAdmissibleForces),
-            _ if known.led == Some(Led::ToFall) => (Verdict::Falls, Evidence::Motion),
-            _ if known.led == Some(Led::Nowhere) => {
+            _ if known.led == Some(LoadingEnd::ToFall) => (Verdict::Falls, Evidence::Motion),
+            _ if known.led == Some(LoadingEnd::Nowhere) => {
                 (Verdict::Undecided, Evidence::AdmissibleForces)
             }
             _ if is_solved && !movement.is_some_and(|movement| is_too_far(known, movement)) => {
@@ -87,11 +87,11 @@ impl Judgement {
 
 /// Whether displacements are too large for the state to mean anything. One that only a motion leads to may be at the end of
 /// a fall.
-fn is_too_far(known: &Known<'_>, movement: Movement) -> bool {
+fn is_too_far(known: &Findings<'_>, movement: Drift) -> bool {
     movement.is_too_large() || (known.info.way == Way::Motion && movement.is_large())
 }
 
-fn warnings(known: &Known<'_>, verdict: Verdict, movement: Option<Movement>) -> Vec<String> {
+fn warnings(known: &Findings<'_>, verdict: Verdict, movement: Option<Drift>) -> Vec<String> {
     let mut list = known.unusual.to_vec();
     list.extend(known.model.of_dry_joints());
     let may_move = known.history.is_some() || known.led.is_some() || known.info.way == Way::Motion;
@@ -122,7 +122,7 @@ fn warnings(known: &Known<'_>, verdict: Verdict, movement: Option<Movement>) -> 
 
 /// How far blocks have moved against each other, relative to their size.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Movement {
+pub(crate) struct Drift {
     /// The largest displacement of one side of a contact against the other, relative to the smaller of the blocks there;
     /// or of a node against the rigid motion of its block.
     pub(crate) share: f64,
@@ -135,7 +135,7 @@ const LARGE: f64 = 0.1;
 /// and from which the contacts of the scene are no longer those of the wall.
 const TOO_LARGE: [f64; 2] = [1.0, 0.5];
 
-impl Movement {
+impl Drift {
     pub(crate) fn of(model: &Model, state: &State) -> Self {
         let mut movement = Self { share: 0.0, turned: 0.0 };
         for contact in &model.contacts {

@@ -4,7 +4,7 @@ use nalgebra::Vector2;
 use serde::Serialize;
 
 use super::watch::Watch;
-use super::{LimitError, Structure};
+use super::{LimitError, LoadedStructure};
 use crate::data::state::{ContactState, Reaction};
 use crate::data::statics::Statics;
 use crate::method::statics;
@@ -97,7 +97,7 @@ impl Associative {
 }
 
 pub(super) fn of(
-    structure: &Structure<'_>,
+    structure: &LoadedStructure<'_>,
     growth: &[f64],
     watch: &mut Watch<'_>,
 ) -> Result<Associative, LimitError> {

@@ -5,12 +5,12 @@ mod steps;
 
 use nalgebra::Vector2;
 
-use events::Way;
+use events::EventSearch;
 pub use events::{Change, Event};
-use steps::{End, Rest, Steps};
+use steps::{AtRest, StepEnd, Steps};
 
 use super::watch::{Bracket, Watch};
-use super::{Answer, Associative, LimitError, Structure};
+use super::{Answer, Associative, LimitError, LoadedStructure};
 use crate::data::state::{ContactState, Reaction};
 use crate::forms::Sparse;
 use crate::method::loading;
@@ -90,7 +90,7 @@ pub struct Stand {
 
 /// Follows the path; `model` has blocks as they are, elastic or rigid.
 pub(super) fn of(
-    structure: &Structure<'_>,
+    structure: &LoadedStructure<'_>,
     associative: &Associative,
     watch: &mut Watch<'_>,
 ) -> Result<Path, LimitError> {
@@ -143,7 +143,7 @@ pub(super) fn of(
     });
     let reactions = contacts.as_ref().map_or_else(Vec::new, |it| recover::reactions(&model, it));
     let near = NEAR_ENOUGH * falls.or(load_factor).unwrap_or(1.0);
-    let way = Way { model: &model, system: &system, steps: &steps, near };
+    let way = EventSearch { model: &model, system: &system, steps: &steps, near };
     let (events, curve) = way.follow(rests, watch)?;
     Ok(Path {
         load_factor,
@@ -173,7 +173,7 @@ struct Climb<'a, 'b> {
     watch: &'a mut Watch<'b>,
     /// The factor under which what grows is as large as what stays.
     size: f64,
-    rests: Vec<(f64, Rest)>,
+    rests: Vec<(f64, AtRest)>,
     /// The least factor at which no rest was found, and the least at which it is known that there is none.
     end: Option<f64>,
     falls: Option<f64>,
@@ -227,21 +227,21 @@ impl Climb<'_, '_> {
             taken += 1;
             self.watch.ask()
         })?;
-        if taken > LONG && !matches!(end, End::Rests(_)) {
+        if taken > LONG && !matches!(end, StepEnd::Rests(_)) {
             self.near = NEAR_ENOUGH;
         }
         match end {
-            End::Rests(rest) => {
+            StepEnd::Rests(rest) => {
                 self.rests.push((factor, *rest));
                 self.watch.known.stands = Some(factor);
                 return Ok(true);
             }
-            End::Flows(motion) => {
+            StepEnd::Flows(motion) => {
                 self.falls = Some(factor);
                 self.watch.known.falls = Some(factor);
                 self.motion = Some(motion);
             }
-            End::Open => {}
+            StepEnd::Open => {}
         }
         self.end = Some(factor);
         Ok(false)

@@ -76,13 +76,13 @@ pub fn least_thickness_observed<'a>(
         return Err(LimitError::NoThickness { name: arch.to_owned() });
     };
     let watch = Watch::new(observer);
-    let mut search = Search { scene: scene.clone(), place, watch, falls: None, stands: None };
+    let mut search = Bisection { scene: scene.clone(), place, watch, falls: None, stands: None };
     search.run(given)?;
     search.finish(arch, given)
 }
 
 /// A search between two thicknesses, in units of the scene.
-struct Search<'a> {
+struct Bisection<'a> {
     scene: Scene,
     place: usize,
     watch: Watch<'a>,
@@ -90,7 +90,7 @@ struct Search<'a> {
     stands: Option<(f64, Model, Vec<ContactState>)>,
 }
 
-impl Search<'_> {
+impl Bisection<'_> {
     fn run(&mut self, given: f64) -> Result<(), LimitError> {
         self.tried(given)?;
         let factor = if self.stands.is_some() { 0.5 } else { 2.0 };

@@ -21,7 +21,7 @@ use crate::method::loading;
 use crate::method::pgs::Sweeps;
 use crate::method::qp::Programs;
 use crate::method::statics::{self, Decision};
-use crate::method::{Answer, Method, Request, Step};
+use crate::method::{Answer, Method, Request, RouteProgress};
 use crate::model::Model;
 use crate::paper::alm::{Multipliers, Strips};
 use crate::plan::Choice;
@@ -29,10 +29,10 @@ use crate::recover;
 use crate::scene::Route;
 use crate::system::{System, mass};
 use crate::verify::checks::Checks;
-use crate::verify::verdict::{Led, Movement};
+use crate::verify::verdict::{Drift, LoadingEnd};
 
 /// What a route came to.
-pub(super) struct Attempt {
+pub(super) struct Tried {
     pub(super) info: SolveInfo,
     pub(super) state: Option<State>,
     pub(super) checks: Option<Checks>,
@@ -41,7 +41,7 @@ pub(super) struct Attempt {
     /// What is known of admissible forces, where it was asked.
     pub(super) statics: Option<Statics>,
     /// Where loading leads rigid blocks at rest, if that was asked.
-    pub(super) led: Option<Led>,
+    pub(super) led: Option<LoadingEnd>,
     /// How far every contact point slid \[m\] before the slip of the state, if a motion led there.
     pub(super) moved: Option<Vec<f64>>,
     /// Works and energies on the way.
@@ -50,7 +50,7 @@ pub(super) struct Attempt {
     pub(super) sparse: Option<Sparse>,
 }
 
-impl Attempt {
+impl Tried {
     fn rank(&self) -> Rank {
         Rank::of(&self.info, self.mechanism.is_some())
     }
@@ -112,13 +112,13 @@ impl<'a> Chain<'a> {
     }
 
     /// The attempt that says most; with all lines of all of them.
-    pub(super) fn run(mut self, routes: &[Choice]) -> Result<Attempt, SolveError> {
+    pub(super) fn run(mut self, routes: &[Choice]) -> Result<Tried, SolveError> {
         let has_friction = !self.system.friction.is_empty();
         let (mut ends, mut lines, mut pivots) = (Vec::new(), Vec::new(), 0);
-        let mut best: Option<Attempt> = None;
+        let mut best: Option<Tried> = None;
         let mut refusal = None;
         for (position, choice) in routes.iter().enumerate() {
-            let known = best.as_ref().map(Attempt::rank);
+            let known = best.as_ref().map(Tried::rank);
             if known.is_some_and(|known| !auto::is_asked(choice.route, known)) {
                 continue;
             }
@@ -171,9 +171,9 @@ impl<'a> Chain<'a> {
     }
 
     /// Whether any forces balance the loads, if the verdict needs it.
-    fn add_statics(&mut self, best: &mut Attempt) {
+    fn add_statics(&mut self, best: &mut Tried) {
         let is_far =
-            best.state.as_ref().is_some_and(|state| Movement::of(self.model, state).is_large());
+            best.state.as_ref().is_some_and(|state| Drift::of(self.model, state).is_large());
         if !auto::needs_statics(best.info.status, is_far, self.system.is_at_rest()) {
             return;
         }
@@ -185,7 +185,7 @@ impl<'a> Chain<'a> {
     }
 
     /// Where loading from a state without stresses leads rigid blocks that have admissible forces, if the verdict needs it.
-    fn add_loading(&mut self, best: &mut Attempt) -> Result<(), SolveError> {
+    fn add_loading(&mut self, best: &mut Tried) -> Result<(), SolveError> {
         let has_friction = !self.system.friction.is_empty();
         if !auto::needs_loading(best.info.status, self.system.is_at_rest(), has_friction) {
             return Ok(());
@@ -202,11 +202,11 @@ impl<'a> Chain<'a> {
         best.info.attempts.extend(info.attempts);
         best.info.factorisations += info.factorisations;
         best.led = Some(match info.status {
-            Status::Solved => Led::ToRest,
-            Status::NoEquilibrium => Led::ToFall,
-            _ => Led::Nowhere,
+            Status::Solved => LoadingEnd::ToRest,
+            Status::NoEquilibrium => LoadingEnd::ToFall,
+            _ => LoadingEnd::Nowhere,
         });
-        if best.led == Some(Led::ToFall) {
+        if best.led == Some(LoadingEnd::ToFall) {
             let motion = motion.as_ref();
             best.mechanism = motion
                 .and_then(|motion| recover::mechanism(&model, &system, Some(&sparse), motion));
@@ -229,7 +229,7 @@ impl<'a> Chain<'a> {
         Ok(self.decision.as_ref().unwrap_or_else(|| unreachable!("it was just decided")))
     }
 
-    fn attempt(&mut self, route: Route) -> Result<Attempt, SolveError> {
+    fn attempt(&mut self, route: Route) -> Result<Tried, SolveError> {
         match route {
             Route::Lemke => self.by_pivots(),
             Route::Forces => self.by_forces(),
@@ -237,7 +237,7 @@ impl<'a> Chain<'a> {
         }
     }
 
-    fn by_forces(&mut self) -> Result<Attempt, SolveError> {
+    fn by_forces(&mut self) -> Result<Tried, SolveError> {
         let sparse = self.sparse()?;
         let (system, tolerance) = (self.system, self.request.tolerance);
         let decision = self.statics()?;
@@ -247,7 +247,7 @@ impl<'a> Chain<'a> {
         Ok(self.concluded(self.model, answer, state))
     }
 
-    fn by_pivots(&mut self) -> Result<Attempt, SolveError> {
+    fn by_pivots(&mut self) -> Result<Tried, SolveError> {
         let Self { model, system, .. } = *self;
         let reduction = self
             .clock
@@ -272,7 +272,7 @@ impl<'a> Chain<'a> {
 
     /// The answer on the states of its contacts, solved anew with all displacements as unknowns: the reduced
     /// forms lose digits of flat bricks, and of huge friction. As it was, where that is no better.
-    fn refined(&mut self, mut attempt: Attempt) -> Result<Attempt, SolveError> {
+    fn refined(&mut self, mut attempt: Tried) -> Result<Tried, SolveError> {
         let Self { model, system, .. } = *self;
         let Some(state) = &attempt.state else { return Ok(attempt) };
         let sparse = self.sparse()?;
@@ -306,7 +306,7 @@ impl<'a> Chain<'a> {
         Ok(attempt)
     }
 
-    fn on_sparse(&mut self, route: Route) -> Result<Attempt, SolveError> {
+    fn on_sparse(&mut self, route: Route) -> Result<Tried, SolveError> {
         let Self { model, system, .. } = *self;
         let has_compliances = route != Route::Alm;
         let sparse =
@@ -349,7 +349,7 @@ impl<'a> Chain<'a> {
         if has_compliances {
             self.sparse = Some(sparse);
         }
-        let attempt = Attempt { moved, account, ..self.concluded(model, answer, state) };
+        let attempt = Tried { moved, account, ..self.concluded(model, answer, state) };
         let excess = attempt.checks.as_ref().map(|checks| checks.excess(self.request.tolerance));
         match excess {
             Some(excess) if is_at_rest && excess > 1.0 && excess.is_finite() => {
@@ -362,7 +362,7 @@ impl<'a> Chain<'a> {
     /// Takes the steps to a state of rest again, to half of what the checks ask for: they exceed their tolerance so many
     /// times. Errors of steps that fine are rounding errors, so that no finer ones follow; and the first state is kept
     /// if the second is no better.
-    fn finer(&mut self, route: Route, excess: f64, rough: Attempt) -> Attempt {
+    fn finer(&mut self, route: Route, excess: f64, rough: Tried) -> Tried {
         if self.request.step_tolerance < loading::STEP_TOLERANCE {
             return rough;
         }
@@ -418,8 +418,8 @@ impl<'a> Chain<'a> {
         let (mut may_be_cut, decision) = (self.may_be_cut, &mut self.decision);
         let answer = method.solve(&self.request, &mut |step| {
             let event = match step {
-                Step::Pivots(progress) => Event::Pivots(progress),
-                Step::Iteration { number, residual } => {
+                RouteProgress::Pivots(progress) => Event::Pivots(progress),
+                RouteProgress::Iteration { number, residual } => {
                     if may_be_cut && number >= auto::STEPS_BEFORE_PROOF {
                         may_be_cut = false;
                         let found = statics::decide(model, system, &mut |_| {
@@ -440,7 +440,7 @@ impl<'a> Chain<'a> {
         Ok(answer?)
     }
 
-    fn concluded(&self, model: &Model, answer: Answer, state: Option<State>) -> Attempt {
+    fn concluded(&self, model: &Model, answer: Answer, state: Option<State>) -> Tried {
         let checks = state.as_ref().map(|state| Checks::of(model, state));
         let mut info = answer.info;
         // The complementarity problem may be solved to its tolerance and the structure not: forces and
@@ -454,6 +454,6 @@ impl<'a> Chain<'a> {
         });
         let basis = answer.basis;
         let (statics, led, moved, account, sparse) = (None, None, None, None, None);
-        Attempt { info, state, checks, mechanism, basis, statics, led, moved, account, sparse }
+        Tried { info, state, checks, mechanism, basis, statics, led, moved, account, sparse }
     }
 }

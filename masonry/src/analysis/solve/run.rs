@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 use lcp::Status;
 use nalgebra::Vector2;
 
-use super::chain::{Attempt, Before, Chain};
+use super::chain::{Before, Chain, Tried};
 use super::{Clock, Event, SolveError};
 use crate::analysis::checkpoint::{Checkpoint, CheckpointError};
 use crate::analysis::outcome::{Frame, Outcome};
@@ -14,7 +14,7 @@ use crate::data::state::State;
 use crate::data::statics::Statics;
 use crate::data::verdict::Judgement;
 use crate::forms::{Sparse, Start};
-use crate::history::energy::{self, Friction, Snapshot};
+use crate::history::energy::{self, FrictionWork, Snapshot};
 use crate::history::spread::AtEnd;
 use crate::history::{self, History, SecondLoading, Step, StepRecord};
 use crate::method::Request;
@@ -26,7 +26,7 @@ use crate::rounding::cleared;
 use crate::scene::{Scene, Solver};
 use crate::system::System;
 use crate::verify::checks::Checks;
-use crate::verify::verdict::{self, Known, Led};
+use crate::verify::verdict::{self, Findings, LoadingEnd};
 
 /// A scene that is solved step by step.
 ///
@@ -110,7 +110,7 @@ struct InHistory {
 struct Last {
     info: SolveInfo,
     statics: Option<Statics>,
-    led: Option<Led>,
+    led: Option<LoadingEnd>,
     mechanism: Option<Vec<Vec<Vector2<f64>>>>,
 }
 
@@ -277,8 +277,8 @@ impl Run {
 
     /// Keeps a step that was solved; of one that was not, its state only where there is none before.
     /// An only step has nothing to remember except its state.
-    fn take(&mut self, step: Step, stepped: Option<(Model, Vec<f64>)>, found: Attempt) {
-        let Attempt { info, state, checks, mechanism, basis, statics, led, moved, account, sparse } =
+    fn take(&mut self, step: Step, stepped: Option<(Model, Vec<f64>)>, found: Tried) {
+        let Tried { info, state, checks, mechanism, basis, statics, led, moved, account, sparse } =
             found;
         (self.basis, self.sparse) = (basis, sparse);
         if let (Some(moved), None) = (&moved, &stepped) {
@@ -288,8 +288,8 @@ impl Run {
         if let Some(mut state) = state {
             let model = stepped.as_ref().map_or(&self.model, |(model, _)| model);
             let friction = match &account {
-                Some(account) => Friction::of_way(account),
-                None => Friction::of_step(model, &state.contacts),
+                Some(account) => FrictionWork::of_way(account),
+                None => FrictionWork::of_step(model, &state.contacts),
             };
             let in_history = stepped.map(|(mut model, mut slips)| {
                 if let Some(moved) = &moved {
@@ -320,7 +320,7 @@ impl Run {
     }
 
     /// The record of a step that follows the last one reached; `None` where there is no history.
-    fn record(&self, step: Step, friction: Friction, reached: &Reached) -> Option<StepRecord> {
+    fn record(&self, step: Step, friction: FrictionWork, reached: &Reached) -> Option<StepRecord> {
         let Reached { info, state, checks, in_history } = reached;
         let InHistory { model, snapshot, .. } = in_history.as_ref()?;
         let before = self.reached.as_ref().and_then(|it| it.in_history.as_ref());
@@ -415,7 +415,7 @@ impl Run {
         let build = || Sparse::new(&self.system).ok();
         let sparse = state.as_ref().and_then(|_| self.sparse.or_else(build));
         let circulating = state.as_ref().zip(sparse);
-        let judgement = Judgement::of(&Known {
+        let judgement = Judgement::of(&Findings {
             model: &model,
             info: &info,
             state: state.as_ref(),

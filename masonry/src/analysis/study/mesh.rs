@@ -4,7 +4,7 @@ use nalgebra::Vector2;
 use serde::Serialize;
 
 use super::figures::{Figures, relative};
-use super::reference::{self, Found, Reference};
+use super::reference::{self, FoundReference, Reference};
 use super::runs::Runner;
 use crate::data::state::State;
 use crate::model::{Block, Body, Model};
@@ -108,7 +108,8 @@ pub(super) fn studied(scene: &Scene, factor: u32, runner: &mut Runner) -> (Mesh,
             return (mesh, None);
         }
     }
-    let Some(Found { reference, outcome, figures, exact }) = reference::find(scene, factor, runner)
+    let Some(FoundReference { reference, outcome, figures, exact }) =
+        reference::find(scene, factor, runner)
     else {
         return (mesh, None);
     };

@@ -50,7 +50,7 @@ pub struct Confirmation {
 }
 
 /// A reference with what is compared with it.
-pub(super) struct Found {
+pub(super) struct FoundReference {
     pub(super) reference: Reference,
     pub(super) outcome: Outcome,
     pub(super) figures: Figures,
@@ -59,8 +59,8 @@ pub(super) struct Found {
 }
 
 /// The reference of a scene.
-pub(super) fn find(scene: &Scene, mesh: u32, runner: &mut Runner) -> Option<Found> {
-    let mut found: Vec<Candidate> = Vec::new();
+pub(super) fn find(scene: &Scene, mesh: u32, runner: &mut Runner) -> Option<FoundReference> {
+    let mut found: Vec<RankedReference> = Vec::new();
     for route in ROUTES {
         if found.len() < 2 {
             found.extend(tightest(scene, mesh, route, runner));
@@ -78,16 +78,16 @@ pub(super) fn find(scene: &Scene, mesh: u32, runner: &mut Runner) -> Option<Foun
     });
     let outcome = best.ran.outcome?;
     let exact = best.exact.filter(|exact| exact.verified.is_better());
-    Some(Found { reference: best.reference, outcome, figures, exact })
+    Some(FoundReference { reference: best.reference, outcome, figures, exact })
 }
 
-struct Candidate {
+struct RankedReference {
     reference: Reference,
     ran: Ran,
     exact: Option<Exact>,
 }
 
-impl Candidate {
+impl RankedReference {
     /// Verified answers come first, then those of small residuals.
     fn rank(&self) -> (bool, f64) {
         (self.better().is_none(), self.reference.residual)
@@ -105,7 +105,12 @@ impl Candidate {
     }
 }
 
-fn tightest(scene: &Scene, mesh: u32, route: Route, runner: &mut Runner) -> Option<Candidate> {
+fn tightest(
+    scene: &Scene,
+    mesh: u32,
+    route: Route,
+    runner: &mut Runner,
+) -> Option<RankedReference> {
     let tolerances = if route == Route::Alm { &CONVERGED[..] } else { &TOLERANCES[..] };
     for &tolerance in tolerances {
         let ran = runner.run(scene, Progress { mesh, route, tolerance });
@@ -120,7 +125,7 @@ fn tightest(scene: &Scene, mesh: u32, route: Route, runner: &mut Runner) -> Opti
                 verified: exact.as_ref().map(|exact| exact.verified.clone()),
                 confirmed: None,
             };
-            return Some(Candidate { reference, ran, exact });
+            return Some(RankedReference { reference, ran, exact });
         }
         // A looser tolerance helps where the residual was too large, and nowhere else.
         let End::Ended(status) = ran.end else { return None };

@@ -72,10 +72,10 @@ pub(super) fn tangents_in_i(form: &Equations, reduction: &Reduction) -> Vec<bool
 }
 
 /// The direction of sliding of a frictional point by its position, `true` for `+t`.
-type Pattern = fn(usize) -> bool;
+type Sliding = fn(usize) -> bool;
 
 /// Ways of giving every frictional point a direction of sliding.
-const PATTERNS: [(&str, Pattern); 4] = [
+const PATTERNS: [(&str, Sliding); 4] = [
     ("all slide forwards", |_| true),
     ("all slide backwards", |_| false),
     ("alternating, first forwards", |k| k.is_multiple_of(2)),
@@ -83,7 +83,7 @@ const PATTERNS: [(&str, Pattern); 4] = [
 ];
 
 /// A start for every pattern, from its rule; the only one there is where nothing has friction.
-pub(super) fn starts(form: &Equations, t_basic: impl Fn(Pattern) -> Vec<bool>) -> Vec<Start> {
+pub(super) fn starts(form: &Equations, t_basic: impl Fn(Sliding) -> Vec<bool>) -> Vec<Start> {
     if form.layout.friction.is_empty() {
         return vec![Start { name: "isostatic normals", t_basic: t_basic(|_| true) }];
     }

@@ -3,7 +3,7 @@
 use faer::sparse::{SparseColMat, SparseColMatRef};
 use lcp::{InteriorPoint, InteriorPointSettings, LeastForces, Observer};
 
-use crate::columns::{Columns, column, first_columns};
+use crate::columns::{ColumnMatrix, column, first_columns};
 use crate::law::{Cone, Edge};
 use crate::rounding;
 use crate::system::System;
@@ -81,7 +81,7 @@ impl<'a> Program<'a> {
     /// The same with some blocks held by whatever forces that takes: their balance is left out.
     pub(super) fn holding(mut self, held: &[bool]) -> Self {
         let is_left = |row: usize| held.get(row / 3).is_none_or(|held| !held);
-        let mut columns = Columns::default();
+        let mut columns = ColumnMatrix::default();
         for k in 0..self.e.ncols() {
             columns.push(column(self.e.as_ref(), k).filter(|(row, _)| is_left(*row)));
         }
@@ -207,8 +207,13 @@ impl<'a> Sides<'a> {
 }
 
 /// The columns of `E` that are forces.
-fn edges(system: &System, cones: &[Cone], constant: &[(usize, f64)], sides: &Sides<'_>) -> Columns {
-    let mut columns = Columns::default();
+fn edges(
+    system: &System,
+    cones: &[Cone],
+    constant: &[(usize, f64)],
+    sides: &Sides<'_>,
+) -> ColumnMatrix {
+    let mut columns = ColumnMatrix::default();
     let points = system.points();
     let on_blocks = |(b, modes): (usize, [f64; 3])| {
         modes.into_iter().enumerate().map(move |(j, value)| (3 * b + j, value))

@@ -29,7 +29,7 @@ impl Proof {
         let largest = |rates: &[Vec<Vector2<f64>>]| {
             rates.iter().flatten().map(nalgebra::Matrix::amax).fold(0.0, f64::max)
         };
-        let fastest = largest(&Motion::new(model, amplitudes).rates(model));
+        let fastest = largest(&RigidMotion::new(model, amplitudes).rates(model));
         if fastest <= 0.0 {
             return None;
         }
@@ -42,7 +42,7 @@ impl Proof {
     }
 
     fn checked(model: &Model, amplitudes: &[f64]) -> Option<Self> {
-        let motion = Motion::new(model, amplitudes);
+        let motion = RigidMotion::new(model, amplitudes);
         let (mut work, mut total) = motion.work(model);
         let mut error = ROUNDING;
         for contact in &model.contacts {
@@ -59,11 +59,11 @@ impl Proof {
 }
 
 /// A motion of rigid blocks.
-struct Motion<'a> {
+struct RigidMotion<'a> {
     blocks: Vec<(Modes, &'a [f64])>,
 }
 
-impl<'a> Motion<'a> {
+impl<'a> RigidMotion<'a> {
     fn new(model: &Model, amplitudes: &'a [f64]) -> Self {
         let modes = model.blocks.iter().map(|block| Modes::of(&block.corners));
         Self { blocks: modes.zip(amplitudes.chunks(3)).collect() }

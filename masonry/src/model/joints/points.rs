@@ -3,7 +3,7 @@
 use super::PointRule;
 
 /// One side of a joint: its nodes, and the overlap, as fractions of the side's edge.
-pub(super) struct Side {
+pub(super) struct Face {
     /// Fractions of the edge at which nodes lie, increasing.
     pub(super) fractions: Vec<f64>,
     /// Fractions of the edge at the start and at the end of the joint.
@@ -11,7 +11,7 @@ pub(super) struct Side {
 }
 
 /// A contact point on a joint.
-pub(super) struct Place {
+pub(super) struct PointPlace {
     /// Fraction of the joint from its start.
     pub(super) along: f64,
     /// Fraction of the edge of side `a`; zero for a support.
@@ -33,12 +33,12 @@ type Weighted = (f64, f64, [f64; 2]);
 /// are one place. Empty for nodal pairs, when there are none.
 pub(super) fn place(
     rule: PointRule,
-    a: Option<&Side>,
-    b: &Side,
+    a: Option<&Face>,
+    b: &Face,
     length: f64,
     slack: f64,
-) -> Vec<Place> {
-    let on_a = a.map(Side::nodes_on_joint);
+) -> Vec<PointPlace> {
+    let on_a = a.map(Face::nodes_on_joint);
     let on_b = b.nodes_on_joint();
     let weighted = match rule {
         PointRule::Vertices => trapezoid(&vertices(on_a.as_deref(), &on_b, slack)),
@@ -47,7 +47,7 @@ pub(super) fn place(
     };
     weighted
         .into_iter()
-        .map(|(along, weight, span)| Place {
+        .map(|(along, weight, span)| PointPlace {
             along,
             on_a: a.map_or(0.0, |side| side.to_edge(along)),
             on_b: b.to_edge(along),
@@ -58,7 +58,7 @@ pub(super) fn place(
         .collect()
 }
 
-impl Side {
+impl Face {
     /// Fractions of the joint at which nodes of this side lie, increasing; some outside 0..=1.
     fn nodes_on_joint(&self) -> Vec<f64> {
         let [start, end] = self.overlap;

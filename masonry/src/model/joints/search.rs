@@ -11,14 +11,14 @@ use crate::model::Block;
 /// Boxes are swept along the longer side of the whole structure, so that only neighbours in that
 /// direction are compared.
 pub(crate) fn near_pairs(blocks: &[Block], reach: f64, tolerance: f64) -> Vec<[BlockId; 2]> {
-    let boxes: Vec<Bounds> = blocks
+    let boxes: Vec<Extent> = blocks
         .iter()
         .map(|b| {
             let margin = reach + tolerance * geometry::size(&b.corners);
-            Bounds::of(&b.corners).grown(margin)
+            Extent::of(&b.corners).grown(margin)
         })
         .collect();
-    let Some(whole) = boxes.iter().copied().reduce(Bounds::union) else { return Vec::new() };
+    let Some(whole) = boxes.iter().copied().reduce(Extent::union) else { return Vec::new() };
     let axis = usize::from(whole.high.y - whole.low.y > whole.high.x - whole.low.x);
     let mut order: Vec<usize> = (0..blocks.len()).collect();
     order.sort_by(|i, j| boxes[*i].low[axis].total_cmp(&boxes[*j].low[axis]));
@@ -36,12 +36,12 @@ pub(crate) fn near_pairs(blocks: &[Block], reach: f64, tolerance: f64) -> Vec<[B
 }
 
 #[derive(Clone, Copy)]
-struct Bounds {
+struct Extent {
     low: Point2<f64>,
     high: Point2<f64>,
 }
 
-impl Bounds {
+impl Extent {
     fn of(points: &[Point2<f64>]) -> Self {
         let inf = Point2::new(f64::INFINITY, f64::INFINITY);
         let of_none = Self { low: inf, high: -inf };

@@ -4,10 +4,11 @@ use std::collections::HashMap;
 
 use nalgebra::{Matrix2, Point2, RowVector3, Vector2};
 
+use crate::data::state::ContactStatus;
 use crate::law::JointLaw;
 use crate::model::{Anchor, ContactPoint, Joint, Model};
 use crate::paper::film::change::{ChangeError, NodalChange};
-use crate::paper::film::law::{FilmState, PointContact};
+use crate::paper::film::law::FilmState;
 use crate::paper::film::pointwise::{FilmResponse, PointwiseFilm};
 use crate::paper::film::strip::{Strip, local_axes};
 use crate::paper::film::{FilmError, Matrix8, Vector8};
@@ -244,7 +245,7 @@ impl Segment {
         let points = self.film.places().zip(&response.points).map(|(x, point)| {
             let b = strip.strain_matrix(x);
             let mut tangent = point.tangent;
-            if point.contact == PointContact::Slip {
+            if point.contact == ContactStatus::Slip {
                 tangent.set_row(2, &RowVector3::zeros());
             }
             b.transpose() * tangent * b * self.volume()

@@ -8,21 +8,14 @@ use lcp::ContactState;
 
 use super::AlmError;
 use super::structure::Structure;
+use crate::data::state::ContactStatus;
 use crate::law::Cone;
 use crate::paper::film::pointwise::FilmResponse;
-
-/// The state of a contact, which decides what of it stands in the matrix.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Contact {
-    Open,
-    Stick,
-    Slip,
-}
 
 /// The states of all contacts and films.
 #[derive(Clone, Copy)]
 pub(super) struct States<'a> {
-    pub(super) contacts: &'a [Contact],
+    pub(super) contacts: &'a [ContactStatus],
     pub(super) films: &'a [FilmResponse],
 }
 
@@ -45,7 +38,7 @@ impl<'a> Matrices<'a> {
             rows.iter().map(|row| penalty * structure.seen(row)).collect()
         };
         let (rho_n, rho_t) = (rho(&structure.normal), rho(&structure.tangent));
-        let all = vec![Contact::Stick; rho_n.len()];
+        let all = vec![ContactStatus::Stick; rho_n.len()];
         let rest = structure.taken(&vec![0.0; structure.diagonal.len()]);
         let states = States { contacts: &all, films: &rest.films };
         let matrix = assembled(structure, states, &rho_n, &rho_t, proximal)?;
@@ -72,12 +65,12 @@ impl<'a> Matrices<'a> {
         let (f, delta) = (problem.loads(), self.proximal);
         let mut u = Mat::from_fn(n, 1, |j, _| f[j] + delta * diagonal[j] * at.u[j]);
         for (i, contact) in contacts.iter().enumerate() {
-            if *contact == Contact::Open {
+            if *contact == ContactStatus::Open {
                 continue;
             }
             let t_n = at.t_n[i] - self.rho_n[i] * problem.initial_gaps()[i];
             normal[i].iter().for_each(|&(j, v)| u[(j, 0)] += v * t_n);
-            let held = if *contact == Contact::Stick { self.rho_t[i] } else { 0.0 };
+            let held = if *contact == ContactStatus::Stick { self.rho_t[i] } else { 0.0 };
             let t_t = at.t_t[i] - held * problem.initial_slips()[i];
             tangent[i].iter().for_each(|&(j, v)| u[(j, 0)] += v * t_t);
         }
@@ -108,18 +101,18 @@ impl<'a> Matrices<'a> {
     }
 
     /// The projection of the forces on the friction cones, and the states that belong to it.
-    pub(super) fn projected(&self, at: &ContactState) -> (Vec<f64>, Vec<f64>, Vec<Contact>) {
+    pub(super) fn projected(&self, at: &ContactState) -> (Vec<f64>, Vec<f64>, Vec<ContactStatus>) {
         let all = self.structure.problem.mu().iter().enumerate().map(|(i, mu)| {
             let t_n = (at.t_n[i] - self.rho_n[i] * at.gap[i]).max(0.0);
             if t_n <= 0.0 {
-                return (0.0, 0.0, Contact::Open);
+                return (0.0, 0.0, ContactStatus::Open);
             }
             let (t_t, bound) =
                 (at.t_t[i] - self.rho_t[i] * at.slip[i], Cone::friction(*mu).bound(t_n));
             match *mu {
-                0.0 => (t_n, 0.0, Contact::Stick),
-                _ if t_t.abs() <= bound => (t_n, t_t, Contact::Stick),
-                _ => (t_n, bound.copysign(t_t), Contact::Slip),
+                0.0 => (t_n, 0.0, ContactStatus::Stick),
+                _ if t_t.abs() <= bound => (t_n, t_t, ContactStatus::Stick),
+                _ => (t_n, bound.copysign(t_t), ContactStatus::Slip),
             }
         });
         let (mut normal, mut tangential, mut contacts) = (Vec::new(), Vec::new(), Vec::new());
@@ -145,8 +138,8 @@ fn assembled(
     let held = diagonal.iter().enumerate();
     entries.extend(held.map(|(j, k)| Triplet::new(j, j, proximal * k)));
     for (i, contact) in contacts.iter().enumerate() {
-        let closed = if *contact == Contact::Open { 0.0 } else { rho_n[i] };
-        let sticking = if *contact == Contact::Stick { rho_t[i] } else { 0.0 };
+        let closed = if *contact == ContactStatus::Open { 0.0 } else { rho_n[i] };
+        let sticking = if *contact == ContactStatus::Stick { rho_t[i] } else { 0.0 };
         for (row, rho) in [(&normal[i], closed), (&tangent[i], sticking)] {
             // Zeros too: the pattern must not depend on the states.
             for &(j, v) in row {

@@ -5,7 +5,7 @@ use lcp::Error;
 use super::{AlmError, Settings, solve};
 use crate::forms::Sparse;
 use crate::method::sparse::{self, Found};
-use crate::method::{Answer, Method, Observer, Request, RouteError, Step};
+use crate::method::{Answer, Method, Observer, Request, RouteError, RouteProgress};
 use crate::scene::Route;
 
 /// The route on a sparse problem.
@@ -22,7 +22,7 @@ impl Method for Multipliers<'_> {
         let mut number = 0;
         let answer = solve(problem, &settings, &mut |at| {
             number += 1;
-            observer(Step::Iteration { number, residual: at.unbalance })
+            observer(RouteProgress::Iteration { number, residual: at.unbalance })
         })?;
         let found = Found {
             status: answer.status,

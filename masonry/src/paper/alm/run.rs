@@ -5,10 +5,10 @@ use std::ops::ControlFlow;
 use lcp::{Contact2d, ContactState, Status};
 
 use super::contraction::Contraction;
-use super::matrices::{Contact, Matrices, States};
+use super::matrices::{Matrices, States};
 use super::structure::{Structure, Taken};
 use super::{AlmError, Answer, Iteration, Settings};
-use crate::paper::film::law::PointContact;
+use crate::data::state::ContactStatus;
 
 /// Penalty of a contact, relative to the stiffness that it sees.
 const PENALTY: f64 = 0.3;
@@ -36,7 +36,7 @@ pub(super) fn solve(
     if !(tolerance > 0.0 && tolerance < 1.0) {
         return Err(AlmError::Tolerance { tolerance });
     }
-    let mut run = Run {
+    let mut run = Iterations {
         structure,
         settings,
         convergence: Vec::new(),
@@ -52,7 +52,7 @@ pub(super) fn solve(
             break;
         }
     }
-    let Run { convergence, factorisations, best: Best { state, .. }, .. } = run;
+    let Iterations { convergence, factorisations, best: Best { state, .. }, .. } = run;
     let residuals = structure.residuals(&state, &structure.taken(&state.u))?;
     Ok(Answer { status, state, residuals, convergence, factorisations })
 }
@@ -72,7 +72,7 @@ impl Best {
 }
 
 /// A solve in progress.
-struct Run<'a> {
+struct Iterations<'a> {
     structure: &'a Structure<'a>,
     settings: &'a Settings,
     convergence: Vec<Iteration>,
@@ -80,7 +80,7 @@ struct Run<'a> {
     best: Best,
 }
 
-impl Run<'_> {
+impl Iterations<'_> {
     /// Iterates from all contacts closed.
     fn attempt(
         &mut self,
@@ -92,7 +92,7 @@ impl Run<'_> {
         let problem = structure.problem;
         let mut at = self.start(matrices)?;
         let mut taken = structure.taken(&at.u);
-        let mut contacts = vec![Contact::Stick; problem.points()];
+        let mut contacts = vec![ContactStatus::Stick; problem.points()];
         let mut factors = None;
         // Of the measure and of the distance that is left.
         let (mut least, mut since) = ([f64::INFINITY; 2], 0);
@@ -159,7 +159,7 @@ impl Run<'_> {
         if offsets.all(|offset| offset.abs() <= 0.0) {
             return Ok(at);
         }
-        let all = vec![Contact::Stick; problem.points()];
+        let all = vec![ContactStatus::Stick; problem.points()];
         for _ in 0..BROUGHT {
             let taken = self.structure.taken(&at.u);
             let states = States { contacts: &all, films: &taken.films };
@@ -196,7 +196,7 @@ impl Run<'_> {
 
 /// Points of films that are in other states.
 fn changed_points(one: &Taken, other: &Taken) -> usize {
-    let states = |taken: &Taken| -> Vec<PointContact> {
+    let states = |taken: &Taken| -> Vec<ContactStatus> {
         taken.films.iter().flat_map(|film| &film.points).map(|point| point.contact).collect()
     };
     states(one).iter().zip(states(other)).filter(|(a, b)| **a != *b).count()

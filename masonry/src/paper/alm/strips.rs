@@ -6,7 +6,7 @@ use lcp::{ContactState, Status};
 use super::{MortaredError, MortaredWall, Settings};
 use crate::forms::Sparse;
 use crate::method::sparse::{self, Found};
-use crate::method::{Answer, Method, Observer, Request, RouteError, Step};
+use crate::method::{Answer, Method, Observer, Request, RouteError, RouteProgress};
 use crate::model::Model;
 use crate::scene::Route;
 use crate::system::System;
@@ -59,7 +59,7 @@ impl Method for Strips<'_> {
         let mut number = 0;
         let answer = wall.solve(&settings, &mut |at| {
             number += 1;
-            observer(Step::Iteration { number, residual: at.unbalance })
+            observer(RouteProgress::Iteration { number, residual: at.unbalance })
         })?;
         let state = self.with_points(&wall, &answer.state);
         let residuals = self.sparse.problem.residuals(&state);

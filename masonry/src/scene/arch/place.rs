@@ -11,10 +11,10 @@ const LEVEL: f64 = 1e-9;
 const MOST: u32 = 10_000;
 
 /// The name of a block and its corners \[length\].
-type Named = (String, [[f64; 2]; 4]);
+type NamedBlock = (String, [[f64; 2]; 4]);
 
 /// The blocks of an arch with their names, voussoirs from the left first \[length\].
-pub(crate) fn blocks(arch: &Arch, at: &KeyPath) -> Result<Vec<Named>, Fault> {
+pub(crate) fn blocks(arch: &Arch, at: &KeyPath) -> Result<Vec<NamedBlock>, Fault> {
     let lines = lines(arch, at)?;
     let mut blocks = Vec::new();
     for (k, pair) in lines.windows(2).enumerate() {

@@ -1,6 +1,6 @@
 //! Courses cut at openings, and the lintels above these.
 
-use super::{JointThickness, SLIVER, Stretch, snap};
+use super::{JointThickness, SLIVER, Span, snap};
 use crate::scene::{Opening, Wall};
 
 /// Pieces shorter than this part of a brick are laid as one with their neighbours.
@@ -12,7 +12,7 @@ pub(crate) fn taken(
     joints: JointThickness,
     opening: &Opening,
     course: usize,
-) -> Option<(Stretch, bool)> {
+) -> Option<(Span, bool)> {
     let pitch = wall.brick.length + joints.head;
     let rows = opening.rows();
     let unit = |x: f64| snap(x / pitch);
@@ -30,8 +30,8 @@ pub(super) fn cut(
     wall: &Wall,
     joints: JointThickness,
     course: usize,
-    mut bricks: Vec<Stretch>,
-) -> Vec<Stretch> {
+    mut bricks: Vec<Span>,
+) -> Vec<Span> {
     let mut lintels = Vec::new();
     for opening in &wall.openings {
         let Some((gap, has_lintel)) = taken(wall, joints, opening, course) else { continue };
@@ -46,11 +46,9 @@ pub(super) fn cut(
 }
 
 /// Bricks cut at a gap; short pieces go to their neighbours.
-fn without(bricks: &[Stretch], [from, to]: Stretch) -> Vec<Stretch> {
-    let mut left: Vec<Stretch> =
-        bricks.iter().copied().filter(|[a, _]| *a < from - SLIVER).collect();
-    let mut right: Vec<Stretch> =
-        bricks.iter().copied().filter(|[_, b]| *b > to + SLIVER).collect();
+fn without(bricks: &[Span], [from, to]: Span) -> Vec<Span> {
+    let mut left: Vec<Span> = bricks.iter().copied().filter(|[a, _]| *a < from - SLIVER).collect();
+    let mut right: Vec<Span> = bricks.iter().copied().filter(|[_, b]| *b > to + SLIVER).collect();
     if let Some(last) = left.last_mut() {
         last[1] = last[1].min(from);
         let [start, end] = *last;

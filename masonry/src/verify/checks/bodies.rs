@@ -2,7 +2,7 @@
 
 use nalgebra::{Point2, Vector2};
 
-use super::elements::Nodes;
+use super::elements::NodeForces;
 use super::{LARGEST_ERROR, known, larger, relative};
 use crate::data::state::State;
 use crate::geometry;
@@ -10,10 +10,10 @@ use crate::model::{Anchor, Block, Model};
 use crate::recover;
 
 /// The forces on all blocks.
-pub(super) struct Bodies(Vec<Body>);
+pub(super) struct Bodies(Vec<BodyForces>);
 
 /// The forces on a block.
-struct Body {
+struct BodyForces {
     force: Vector2<f64>,
     /// About the centroid, divided by the size of the block \[N\].
     moment: f64,
@@ -27,7 +27,7 @@ struct Body {
     rounding: f64,
 }
 
-impl Body {
+impl BodyForces {
     fn of_loads(model: &Model, block: &Block) -> Self {
         let mut body = Self {
             force: Vector2::zeros(),
@@ -59,9 +59,9 @@ impl Body {
 }
 
 impl Bodies {
-    pub(super) fn of(model: &Model, state: &State, nodes: &[Option<Nodes>]) -> Self {
-        let mut list: Vec<Body> =
-            model.blocks.iter().map(|block| Body::of_loads(model, block)).collect();
+    pub(super) fn of(model: &Model, state: &State, nodes: &[Option<NodeForces>]) -> Self {
+        let mut list: Vec<BodyForces> =
+            model.blocks.iter().map(|block| BodyForces::of_loads(model, block)).collect();
         for (contact, it) in model.contacts.iter().zip(&state.contacts) {
             let on_b = recover::contact_force(model, contact, it);
             for (anchor, force) in [(Some(contact.b), on_b), (contact.a, -on_b)] {
@@ -122,7 +122,7 @@ impl Bodies {
     /// The largest part of a load that nothing carries, where unbalanced forces below this part of all on a block are none.
     pub(super) fn uncarried(&self, none: f64) -> f64 {
         let total: f64 = self.0.iter().map(|body| body.load).sum();
-        let of_body = |body: &Body| {
+        let of_body = |body: &BodyForces| {
             let left = body.force.norm();
             let is_known = left > none * body.size && body.load > 0.0;
             let of_its_own = if is_known { relative(left, body.load) } else { 0.0 };

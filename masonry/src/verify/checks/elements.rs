@@ -32,7 +32,7 @@ impl Nodal {
 }
 
 /// The nodal forces of an elastic block.
-pub(super) struct Nodes {
+pub(super) struct NodeForces {
     /// The largest that is left over \[N\].
     left: f64,
     /// The largest sum of loads and contact forces at a node \[N\].
@@ -43,7 +43,7 @@ pub(super) struct Nodes {
     pub(super) count: usize,
 }
 
-impl Nodes {
+impl NodeForces {
     /// What is left over relative to all terms.
     pub(super) fn backward(&self) -> f64 {
         relative(self.left, self.inside.max(self.outside))
@@ -60,14 +60,14 @@ impl Nodes {
 }
 
 /// The nodes of every block; `None` of rigid ones.
-pub(super) fn nodes(model: &Model, state: &State) -> Vec<Option<Nodes>> {
+pub(super) fn nodes(model: &Model, state: &State) -> Vec<Option<NodeForces>> {
     let outside = outside(model, state);
     let blocks = model.blocks.iter().zip(&state.displacements).zip(&outside);
     let of_block = |((block, u), outside): ((&Block, &Vec<Vector2<f64>>), &Vec<Nodal>)| {
         let inside = inside(model, block, u)?;
         let rest = inside.iter().zip(outside).map(|(a, b)| (a.force - b.force).norm());
         let largest = |list: &[Nodal]| list.iter().map(|it| it.size).fold(0.0, larger);
-        Some(Nodes {
+        Some(NodeForces {
             left: rest.fold(0.0, larger),
             outside: largest(outside),
             inside: largest(&inside),

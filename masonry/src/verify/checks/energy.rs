@@ -42,18 +42,18 @@ fn loads(model: &Model, block: &Block, u: &[Vector2<f64>]) -> Vec<[Vector2<f64>;
         let loads = nodal_loads(model, block, mesh);
         return loads.chunks(2).zip(u).map(|(f, u)| [Vector2::new(f[0], f[1]), *u]).collect();
     }
-    let motion = Motion::of(block, u);
+    let motion = BlockMotion::of(block, u);
     let forces = model.forces_on(block).into_iter();
     forces.map(|(place, force)| [force, motion.at(block, place)]).collect()
 }
 
 /// The rigid motion of a block that its first and third corner make.
-struct Motion {
+struct BlockMotion {
     shift: Vector2<f64>,
     turn: f64,
 }
 
-impl Motion {
+impl BlockMotion {
     fn of(block: &Block, u: &[Vector2<f64>]) -> Self {
         let to = block.corners[2] - block.corners[0];
         let turn = geometry::cross(to, u[2] - u[0]) / to.norm_squared();
@@ -71,7 +71,7 @@ pub(super) fn deformation(model: &Model, state: &State) -> f64 {
     let blocks = model.blocks.iter().zip(&state.displacements);
     let rigid = blocks.filter(|(block, _)| block.mesh.is_none());
     let of_block = |(block, u): (&Block, &Vec<Vector2<f64>>)| {
-        let motion = Motion::of(block, u);
+        let motion = BlockMotion::of(block, u);
         let places = block.corners.iter().zip(u);
         let off = places.map(|(place, u)| (u - motion.at(block, *place)).norm());
         relative(off.fold(0.0, larger), u.iter().map(Vector2::norm).fold(0.0, larger))

@@ -3,7 +3,7 @@
 use nalgebra::Vector2;
 
 use super::bodies::Bodies;
-use super::elements::Nodes;
+use super::elements::NodeForces;
 use super::{known, larger};
 use crate::data::state::{ContactState, State};
 use crate::model::{ContactPoint, Model};
@@ -23,12 +23,12 @@ impl Lengths {
     pub(super) fn of(
         model: &Model,
         state: &State,
-        nodes: &[Option<Nodes>],
+        nodes: &[Option<NodeForces>],
         bodies: &Bodies,
     ) -> Self {
         let moved = |u: &Vec<Vector2<f64>>| u.iter().map(Vector2::norm).fold(0.0, larger);
         let mut blocks: Vec<f64> = state.displacements.iter().map(moved).collect();
-        let by_forces = |((nodes, own), force): ((&Option<Nodes>, &f64), f64)| {
+        let by_forces = |((nodes, own), force): ((&Option<NodeForces>, &f64), f64)| {
             let inside = nodes.as_ref().map_or(0.0, |nodes| nodes.inside);
             if inside > 0.0 { own * force / inside } else { 0.0 }
         };

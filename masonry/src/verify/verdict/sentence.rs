@@ -2,18 +2,18 @@
 
 use lcp::Status;
 
-use super::{Evidence, Known, Movement, Verdict};
+use super::{Drift, Evidence, Findings, Verdict};
 use crate::data::statics::Statics;
 use crate::history::{History, SecondLoading, Step};
 use crate::model::Model;
-use crate::scene::Movement as Place;
+use crate::scene::Movement;
 
 /// The sentence of a verdict; of a load history two, the second of which says how far it went.
 pub(super) fn of(
-    known: &Known<'_>,
+    known: &Findings<'_>,
     verdict: Verdict,
     evidence: Evidence,
-    movement: Option<Movement>,
+    movement: Option<Drift>,
 ) -> String {
     let failed = known.history.and_then(|history| history.failed.as_ref());
     let at = failed.map(at_step).unwrap_or_default();
@@ -87,15 +87,15 @@ fn in_all_steps(history: &History) -> String {
 }
 
 /// The size of a movement.
-pub(super) fn of_movement(movement: Movement) -> String {
-    let Movement { share, turned } = movement;
+pub(super) fn of_movement(movement: Drift) -> String {
+    let Drift { share, turned } = movement;
     format!(
         "blocks move against each other or are deformed by up to {share:.2} of their size, and turn by up to \
          {turned:.2} rad"
     )
 }
 
-fn undecided(known: &Known<'_>, evidence: Evidence, movement: Option<Movement>) -> String {
+fn undecided(known: &Findings<'_>, evidence: Evidence, movement: Option<Drift>) -> String {
     let info = known.info;
     let tried = tried(known);
     match (info.status, evidence) {
@@ -124,7 +124,7 @@ fn undecided(known: &Known<'_>, evidence: Evidence, movement: Option<Movement>) 
 }
 
 /// What was tried, and how near it came.
-fn tried(known: &Known<'_>) -> String {
+fn tried(known: &Findings<'_>) -> String {
     let info = known.info;
     let mut names: Vec<&str> = info.routes.iter().map(|end| end.route.name()).collect();
     names.retain(|name| *name != "forces");
@@ -167,7 +167,7 @@ fn reached(model: &Model, history: &History) -> Option<String> {
     let moved = places.filter(|((before, after), _)| before != after);
     let length = model.units.length_to_si();
     changed.extend(moved.map(|((before, _), support)| {
-        let Place { x, y, turn } = before.in_lengths(1.0 / length);
+        let Movement { x, y, turn } = before.in_lengths(1.0 / length);
         let [x, y, turn] = [x, y, turn].map(short);
         let unit = model.units.length_name();
         format!("support \"{}\" moved by ({x}, {y}) {unit} and turned by {turn} rad", support.name)

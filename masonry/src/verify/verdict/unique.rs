@@ -5,7 +5,7 @@ use faer::sparse::{SparseColMat, SparseColMatRef};
 use lcp::Contact2d;
 use lcp_linalg::Gram;
 
-use crate::columns::{Columns, column};
+use crate::columns::{ColumnMatrix, column};
 use crate::data::state::{ContactState, State};
 use crate::model::{ContactPoint, Model};
 
@@ -46,7 +46,7 @@ fn changes(model: &Model, problem: &Contact2d, state: &State) -> Option<Changes>
     let normals = problem.normal().as_ref().transpose().to_col_major().ok()?;
     let tangents = problem.tangent().as_ref().transpose().to_col_major().ok()?;
     let [normals, tangents] = [normals.as_ref(), tangents.as_ref()];
-    let (mut points, mut effects) = (Vec::new(), Columns::default());
+    let (mut points, mut effects) = (Vec::new(), ColumnMatrix::default());
     for (point, (contact, force)) in contacts().enumerate() {
         let ContactState { t_n, t_t, .. } = *force;
         let law = contact.law;

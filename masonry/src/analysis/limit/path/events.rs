@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use super::Stand;
-use super::steps::{End, Rest, Steps};
+use super::steps::{AtRest, StepEnd, Steps};
 use crate::analysis::limit::LimitError;
 use crate::analysis::limit::watch::Watch;
 use crate::data::state::ContactStatus;
@@ -52,7 +52,7 @@ pub struct Event {
 }
 
 /// The events on the way, and the states between them.
-pub(super) struct Way<'a> {
+pub(super) struct EventSearch<'a> {
     pub(super) model: &'a Model,
     pub(super) system: &'a System,
     pub(super) steps: &'a Steps<'a>,
@@ -60,11 +60,11 @@ pub(super) struct Way<'a> {
     pub(super) near: f64,
 }
 
-impl Way<'_> {
+impl EventSearch<'_> {
     /// Follows the states, and puts others between them where joints open or slide, as far as that is quick.
     pub(super) fn follow(
         &self,
-        mut rests: Vec<(f64, Rest)>,
+        mut rests: Vec<(f64, AtRest)>,
         watch: &mut Watch<'_>,
     ) -> Result<(Vec<Event>, Vec<Stand>), LimitError> {
         let mut steps = STEPS_BY_POINTS / self.model.contacts.len().max(1);
@@ -74,7 +74,7 @@ impl Way<'_> {
         let at_zero = rests.first().map(|(_, rest)| rest.u.clone()).unwrap_or_default();
         // The next state comes last.
         rests.reverse();
-        let mut last: Option<(f64, Rest, Vec<Option<Change>>)> = None;
+        let mut last: Option<(f64, AtRest, Vec<Option<Change>>)> = None;
         while let Some((factor, rest)) = rests.pop() {
             let statuses = statuses(self.system, self.steps.sparse, &rest);
             let changes = self.changes(&statuses);
@@ -87,7 +87,7 @@ impl Way<'_> {
                     steps -= 1;
                     let middle = 0.5 * (after + factor);
                     let end = self.steps.advance(Some(before), middle, &mut watch.steps())?;
-                    if let End::Rests(between) = end {
+                    if let StepEnd::Rests(between) = end {
                         rests.extend([(factor, rest), (middle, *between)]);
                         continue;
                     }
@@ -111,7 +111,7 @@ impl Way<'_> {
     fn stand(
         &self,
         load_factor: f64,
-        rest: &Rest,
+        rest: &AtRest,
         statuses: &[ContactStatus],
         at_zero: &[f64],
     ) -> Stand {
@@ -143,7 +143,7 @@ fn change(model: &Model, joint: usize, statuses: &[ContactStatus]) -> Option<Cha
     }
 }
 
-fn statuses(system: &System, sparse: &Sparse, rest: &Rest) -> Vec<ContactStatus> {
+fn statuses(system: &System, sparse: &Sparse, rest: &AtRest) -> Vec<ContactStatus> {
     let rows = sparse.rows(&rest.state);
     let points = system.points();
     let force = rows.t[..points].iter().fold(0.0_f64, |most, t| most.max(t.abs()));

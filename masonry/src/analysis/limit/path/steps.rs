@@ -7,7 +7,7 @@ use crate::method::loading::{self, Loading};
 
 /// The blocks where they rest.
 #[derive(Debug, Clone)]
-pub(super) struct Rest {
+pub(super) struct AtRest {
     /// Displacements of the sparse problem.
     pub(super) u: Vec<f64>,
     /// Forces and gaps; slips of the last part of the step.
@@ -17,8 +17,8 @@ pub(super) struct Rest {
 }
 
 /// How a step ended.
-pub(super) enum End {
-    Rests(Box<Rest>),
+pub(super) enum StepEnd {
+    Rests(Box<AtRest>),
     /// It flows, with the velocities of all displacements.
     Flows(Vec<f64>),
     /// Neither came out.
@@ -40,10 +40,10 @@ impl Steps<'_> {
     /// From a state at rest, or from nothing, to a load factor.
     pub(super) fn advance(
         &self,
-        from: Option<&Rest>,
+        from: Option<&AtRest>,
         factor: f64,
         observer: &mut Observer<'_>,
-    ) -> Result<End, lcp::Error> {
+    ) -> Result<StepEnd, lcp::Error> {
         let unloaded = &self.sparse.problem;
         let loads = unloaded.loads().iter().zip(self.growth);
         let loads = loads.map(|(stays, grows)| stays + factor * grows).collect();
@@ -55,7 +55,7 @@ impl Steps<'_> {
             let path = loading::path(self.tolerance, None);
             let solution = path.solve_observed(&problem, observer)?;
             if let (true, Some(state)) = (solution.is_solved(), solution.contact) {
-                return Ok(End::Rests(rest(&problem, state)?.into()));
+                return Ok(StepEnd::Rests(rest(&problem, state)?.into()));
             }
         }
         let Self { mass, reach, tolerance, .. } = *self;
@@ -69,14 +69,14 @@ impl Steps<'_> {
         };
         let led = loading.lead(&mut |at| observer(at))?;
         Ok(match led.ending {
-            Ending::Rests => End::Rests(rest(&problem, led.state)?.into()),
-            Ending::Flows | Ending::Left => End::Flows(led.velocity),
-            _ => End::Open,
+            Ending::Rests => StepEnd::Rests(rest(&problem, led.state)?.into()),
+            Ending::Flows | Ending::Left => StepEnd::Flows(led.velocity),
+            _ => StepEnd::Open,
         })
     }
 }
 
-fn rest(problem: &Contact2d, state: ContactState) -> Result<Rest, lcp::Error> {
+fn rest(problem: &Contact2d, state: ContactState) -> Result<AtRest, lcp::Error> {
     let under = problem.after(&state.u)?;
-    Ok(Rest { u: state.u.clone(), state, under })
+    Ok(AtRest { u: state.u.clone(), state, under })
 }

@@ -4,7 +4,7 @@ use faer::sparse::{SparseColMat, Triplet};
 use lcp::MixedLcp;
 
 use super::Program;
-use crate::columns::{Columns, column};
+use crate::columns::{ColumnMatrix, column};
 
 impl Program<'_> {
     /// What each force along a column adds to a linear function of the forces of all rows.
@@ -62,7 +62,7 @@ impl Program<'_> {
     /// The forces along edges that balance one another and gain one: any number of times them can be added to others.
     pub(in crate::method::statics) fn circulating(mut self, gain: &[(usize, f64)]) -> Self {
         let row = self.balances();
-        let mut columns = Columns::default();
+        let mut columns = ColumnMatrix::default();
         for &(k, gain) in &gain[..self.edges()] {
             let gained = (gain != 0.0).then_some((row, gain));
             columns.push(column(self.e.as_ref(), k).chain(gained));
