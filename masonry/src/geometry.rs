@@ -11,8 +11,8 @@ mod overlap;
 
 pub use overlap::{SegmentOverlap, facing_normal, facing_overlap, overlap_area};
 
-/// The part of an edge below which rounding hides where a point is.
-const END: f64 = 1e-9;
+/// Lengths below this part of those around them are rounding errors: places that are as near to each other are one.
+pub(crate) const SAME_PLACE: f64 = 1e-9;
 
 /// Corners of a quadrilateral, counter-clockwise.
 pub type Quad = [Point2<f64>; 4];
@@ -135,9 +135,9 @@ pub fn on_edge(polygon: &[Point2<f64>], k: usize, at: f64) -> Point2<f64> {
 
 /// A fraction of an edge, 0 or 1 exactly where rounding misses these.
 pub(crate) fn snap(fraction: f64) -> f64 {
-    if fraction < END {
+    if fraction < SAME_PLACE {
         0.0
-    } else if fraction > 1.0 - END {
+    } else if fraction > 1.0 - SAME_PLACE {
         1.0
     } else {
         fraction

@@ -13,9 +13,9 @@ use crate::material::constitutive;
 use crate::model::{Anchor, Body, ContactPoint, Model};
 use crate::system::{BodySystem, Direction, System, displaced_nodes};
 
-/// Gaps and slips below this fraction of the largest displacement or compression of a joint count as zero when points are called
-/// open, sticking or sliding.
-const STATUS_TOLERANCE: f64 = 1e-8;
+/// Gaps and slips below this part of the largest displacement, or compression of a joint, are zero; and their rates below this
+/// part of the largest rate.
+const STILL: f64 = 1e-8;
 
 /// Motions of rigid blocks below this fraction of their size, or below the tolerance, are none.
 const REST: f64 = 1e-9;
@@ -247,7 +247,7 @@ fn contact_states(
     let absolute = displacements.iter().flatten().map(nalgebra::Matrix::amax).fold(0.0, f64::max);
     // Where no block moves and none is deformed, joints may be.
     let pressed = system.rows.iter().zip(&rows.t).map(|(row, t)| row.compliance * t.abs());
-    let zero = STATUS_TOLERANCE * pressed.fold(relative.max(absolute), f64::max);
+    let zero = STILL * pressed.fold(relative.max(absolute), f64::max);
     for state in &mut states {
         state.status = status(state, zero);
     }

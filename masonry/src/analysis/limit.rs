@@ -56,6 +56,10 @@ use crate::scene::{Load, Route, Scene};
 use crate::system::{self, System};
 use watch::Watch;
 
+/// Factors below this part of the one under which what grows is as large as what stays are none. Chosen: between what the
+/// bound of associated flow leaves open, and what means something.
+const NOTHING: f64 = 1e-6;
+
 /// The laws of friction of a limit load.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum Laws {

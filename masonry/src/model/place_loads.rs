@@ -5,14 +5,12 @@ use std::collections::BTreeMap;
 use nalgebra::{Point2, Vector2};
 
 use super::{Acceleration, Block, ContactPoint, EdgeLoad, Joint, Load, PointLoad};
-use crate::geometry;
+use crate::geometry::{self, SAME_PLACE};
 use crate::ids::LoadId;
 use crate::rounding::rounded;
 use crate::scene::{self, EdgeStress, Fault, KeyPath, LoadError, LoadKind, Scene, SceneErrorKind};
 use crate::units::Units;
 
-/// Distances below this fraction of a block's size count as zero.
-const TOLERANCE: f64 = 1e-9;
 /// Names that a message tells where one is not there.
 const NAMES: usize = 3;
 
@@ -118,7 +116,7 @@ fn place_in(
 ) -> Result<Point2<f64>, LoadError> {
     let corners = &block.corners;
     let distance = geometry::outside(corners, at);
-    if distance > TOLERANCE * geometry::size(corners) + moved {
+    if distance > SAME_PLACE * geometry::size(corners) + moved {
         let nearest = geometry::nearest_on_boundary(corners, at);
         let in_scene = |metres: f64| rounded(metres / units.length_to_si());
         return Err(LoadError::Outside {
@@ -187,7 +185,7 @@ fn covered_part(
 ) -> Option<EdgePart> {
     let [start, end] = geometry::edge(corners, edge);
     let length = (end - start).norm();
-    let slack = TOLERANCE * geometry::size(corners) + moved;
+    let slack = SAME_PLACE * geometry::size(corners) + moved;
     let (normal, along) = (geometry::outward_normal(corners, edge), (end - start) / length);
     let place = |p: Point2<f64>| (p - start).dot(&along);
     let (a, b) = (place(from), place(to));
@@ -214,7 +212,7 @@ fn free_parts(covered: EdgePart, joined: &[EdgePart]) -> Vec<EdgePart> {
         free = free
             .into_iter()
             .flat_map(|[a, b]| [[a, b.min(*from)], [a.max(*to), b]])
-            .filter(|[a, b]| b - a > TOLERANCE)
+            .filter(|[a, b]| b - a > SAME_PLACE)
             .collect();
     }
     free

@@ -5,14 +5,11 @@ use std::collections::BTreeMap;
 use nalgebra::Point2;
 
 use super::{Block, Body, Joint, Support};
-use crate::geometry;
+use crate::geometry::{self, SAME_PLACE};
 use crate::model::joints::{Options, near_pairs};
 use crate::rounding::rounded;
 use crate::scene::{Fault, KeyPath, Scene, SceneErrorKind};
 use crate::units::Units;
-
-/// Overlaps below this fraction of the smaller block are rounding errors.
-const TOLERANCE: f64 = 1e-9;
 
 /// Refuses two blocks of one name: a single block named as a brick of a wall, say.
 pub(super) fn check_names(blocks: &[Block], keys: &[KeyPath]) -> Result<(), Fault> {
@@ -37,7 +34,7 @@ pub(super) fn check_overlaps(
         let (first, second) = (&blocks[i.index()], &blocks[j.index()]);
         let area = geometry::overlap_area(&first.corners, &second.corners);
         let size = geometry::size(&first.corners).min(geometry::size(&second.corners));
-        if area > TOLERANCE * size * size {
+        if area > SAME_PLACE * size * size {
             let kind = SceneErrorKind::Overlap {
                 first: first.name.clone(),
                 second: second.name.clone(),
@@ -85,7 +82,7 @@ pub(super) fn check_supports(
     for (k, support) in supports.iter().enumerate() {
         for block in blocks {
             let length = length_inside(support.from, support.to, &block.corners);
-            if length > TOLERANCE * geometry::size(&block.corners) {
+            if length > SAME_PLACE * geometry::size(&block.corners) {
                 let kind = SceneErrorKind::Pierced {
                     support: support.name.clone(),
                     block: block.name.clone(),
@@ -101,7 +98,7 @@ pub(super) fn check_supports(
 
 /// Length of the part of a segment that is deeper in a block than rounding errors.
 fn length_inside(from: Point2<f64>, to: Point2<f64>, corners: &[Point2<f64>]) -> f64 {
-    let depth = TOLERANCE * geometry::size(corners);
+    let depth = SAME_PLACE * geometry::size(corners);
     let along = to - from;
     let (mut start, mut end) = (0.0_f64, 1.0_f64);
     for k in 0..corners.len() {

@@ -42,6 +42,9 @@ pub use route::Multipliers;
 pub use strips::Strips;
 use structure::Structure;
 
+/// Rounding errors of a step of the displacements, relative to these, and of a gap, relative to its largest term.
+const ROUNDING: f64 = 64.0 * f64::EPSILON;
+
 /// The settings of the route.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Settings {

@@ -2,14 +2,13 @@
 
 use nalgebra::Vector2;
 
+use super::STILL;
 use crate::data::motion::Motion;
 use crate::forms::Sparse;
 use crate::ids::BlockId;
 use crate::model::{ContactPoint, Model};
 use crate::system::{System, displaced_nodes};
 
-/// Gap rates above minus this fraction of the largest rate of a mechanism do not close a contact.
-const MECHANISM_TOLERANCE: f64 = 1e-8;
 /// Blocks that are deformed by more than this fraction of the largest displacement are no mechanism.
 const LARGEST_DEFORMATION: f64 = 1e-2;
 
@@ -81,7 +80,7 @@ fn of_amplitudes(
         return None;
     }
     // Two blocks meet at a contact, and both may be deformed.
-    let zero = MECHANISM_TOLERANCE * largest + 3.0 * deformation;
+    let zero = STILL * largest + 3.0 * deformation;
     let closes = |(gap, contact): (f64, &ContactPoint)| contact.gap <= 0.0 && gap < -zero;
     if system.gap_rates(amplitudes).into_iter().zip(&model.contacts).any(closes) {
         return None;

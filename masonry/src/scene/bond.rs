@@ -2,12 +2,10 @@
 
 mod openings;
 
+use crate::geometry::SAME_PLACE;
 use crate::scene::{Bond, Courses, Joint, Scene, Wall};
 
 pub(crate) use openings::taken;
-
-/// Parts of a brick shorter than this fraction of it are rounding errors, not bricks.
-const SLIVER: f64 = 1e-9;
 
 /// Thicknesses \[length\] of the joints between the bricks of a wall; zero for dry joints.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -58,7 +56,7 @@ impl PlacedBrick {
     /// elements along its length, rounded up.
     pub fn mesh(&self, mesh: [u32; 2]) -> [usize; 2] {
         let [whole, high] = mesh;
-        let share = f64::from(whole) * (self.fraction - SLIVER);
+        let share = f64::from(whole) * (self.fraction - SAME_PLACE);
         let mut along = 1;
         while (along as f64) < share {
             along += 1;
@@ -102,7 +100,7 @@ pub fn bricks_in_mortar(wall: &Wall, joints: JointThickness) -> Vec<PlacedBrick>
 /// The first course and place in it, from 0 and with openings counted, at which the head joint
 /// leaves nothing of a brick.
 pub(crate) fn first_without_length(wall: &Wall, joints: JointThickness) -> Option<[usize; 2]> {
-    let gone = |&[start, end]: &Span| left_of(end - start, wall, joints) <= SLIVER;
+    let gone = |&[start, end]: &Span| left_of(end - start, wall, joints) <= SAME_PLACE;
     // Two courses show all there is of a bond without openings.
     let is_bond = matches!(wall.courses, Courses::RunningBond(_)) && wall.openings.is_empty();
     let repeated = if is_bond { 2 } else { usize::MAX };
@@ -139,7 +137,7 @@ fn left_of(stretch: f64, wall: &Wall, joints: JointThickness) -> f64 {
 /// A number of half bricks where it is one but for rounding.
 fn snap(bricks: f64) -> f64 {
     let halves = 0.5 * (2.0 * bricks).round();
-    if (bricks - halves).abs() < SLIVER { halves } else { bricks }
+    if (bricks - halves).abs() < SAME_PLACE { halves } else { bricks }
 }
 
 /// A stretch of a course in units of one brick and its head joint, from its start to its end.
@@ -154,13 +152,15 @@ fn ends(bond: Bond, course: usize, width: f64) -> Vec<f64> {
         Bond::Running | Bond::Stack | Bond::English => (1.0, 1.0),
     };
     let mut ends = vec![0.0];
-    if bond == Bond::English && !is_even && width > 0.5 + SLIVER {
+    if bond == Bond::English && !is_even && width > 0.5 + SAME_PLACE {
         ends.push(0.5);
     }
     // Within 1.5 there is no room for two closers.
-    let closed = bond == Bond::English && !is_even && width > 1.5 + SLIVER;
+    let closed = bond == Bond::English && !is_even && width > 1.5 + SAME_PLACE;
     let last = if closed { width - 0.75 } else { width };
-    ends.extend((0..).map(|k| first + step * f64::from(k)).take_while(|end| *end < last - SLIVER));
+    ends.extend(
+        (0..).map(|k| first + step * f64::from(k)).take_while(|end| *end < last - SAME_PLACE),
+    );
     if closed {
         ends.extend([last, width - 0.5]);
     }

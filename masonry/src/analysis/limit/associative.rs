@@ -4,7 +4,7 @@ use nalgebra::Vector2;
 use serde::Serialize;
 
 use super::watch::Watch;
-use super::{LimitError, LoadedStructure};
+use super::{LimitError, LoadedStructure, NOTHING};
 use crate::data::state::{ContactState, Reaction};
 use crate::data::statics::Statics;
 use crate::method::statics;
@@ -64,10 +64,6 @@ pub struct Rest {
     /// The smallest factor for which a motion of the other blocks proves that there are none.
     pub bound: Option<f64>,
 }
-
-/// Factors below this part of [`Associative::size`] are none. Chosen: far above what a proof leaves open, far below what means
-/// something.
-const NOTHING: f64 = 1e-6;
 
 impl Associative {
     fn new(answer: Answer, proved: bool) -> Self {

@@ -10,12 +10,13 @@ pub use events::{Change, Event};
 use steps::{AtRest, StepEnd, Steps};
 
 use super::watch::{Bracket, Watch};
-use super::{Answer, Associative, LimitError, LoadedStructure};
+use super::{Answer, Associative, LimitError, LoadedStructure, NOTHING};
 use crate::data::state::{ContactState, Reaction};
 use crate::forms::Sparse;
 use crate::method::loading;
 use crate::model::Model;
 use crate::recover;
+use crate::scene::Solver;
 use crate::system::{System, mass};
 
 /// Steps up to the bound of associated flow. Measured on the walls of Ferris and Tin-Loi, whose published limits are met to
@@ -31,11 +32,6 @@ const LONG: usize = 200;
 const ONE_NUMBER: f64 = 5e-3;
 /// Steps of a structure that never falls; each is twice as long as the one before. Chosen.
 const DOUBLED: usize = 10;
-/// Factors below this part of the one under which what grows is as large as what stays are none. Chosen: between what the
-/// bound of associated flow leaves open, and what means something.
-const NOTHING: f64 = 1e-6;
-/// Largest residual of a state at rest. Chosen: that of scenes without a tolerance.
-const TOLERANCE: f64 = 1e-10;
 
 /// The limit load of Coulomb's friction, in which joints do not open when they slide.
 ///
@@ -107,12 +103,14 @@ pub(super) fn of(
     let loads = with_growth.problem.loads().iter().zip(sparse.problem.loads());
     let growth: Vec<f64> = loads.map(|(grown, stays)| grown - stays).collect();
     let mass = mass::lumped(&stays, &system);
+    // That of scenes without a tolerance.
+    let Solver { tolerance, .. } = Solver::default();
     let steps = Steps {
         sparse: &sparse,
         growth: &growth,
         mass: &mass,
         reach: loading::reach(&stays),
-        tolerance: TOLERANCE,
+        tolerance,
     };
     let falls = if associative.answer == Answer::Falls { Some(0.0) } else { associative.bound };
     watch.known = Bracket { stands: None, falls };
@@ -138,7 +136,7 @@ pub(super) fn of(
     let model = stiff(load_factor.unwrap_or(0.0));
     let contacts = rests.last().map(|(_, rest)| {
         let rows = sparse.rows(&rest.state);
-        recover::from_displacements(&model, &system, &sparse, &rows, &rest.u, TOLERANCE, false)
+        recover::from_displacements(&model, &system, &sparse, &rows, &rest.u, tolerance, false)
             .contacts
     });
     let reactions = contacts.as_ref().map_or_else(Vec::new, |it| recover::reactions(&model, it));

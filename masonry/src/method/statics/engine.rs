@@ -5,8 +5,10 @@ use lcp::{
     QuadraticProgramSettings, Solution, Solver,
 };
 
-/// Residual of the programs.
-const TOLERANCE: f64 = 1e-12;
+/// Residual of the programs, linear or of least forces.
+pub(super) const TOLERANCE: f64 = 1e-12;
+/// Steps of a program. Forces and proofs take ten to forty. Chosen: far more.
+pub(super) const MAX_STEPS: usize = 200;
 /// Residual of a point inside: beyond it many walls take as many steps again.
 const INSIDE: f64 = 1e-8;
 
@@ -26,10 +28,10 @@ impl Engine {
     pub(super) fn solve(
         self,
         program: &MixedLcp,
-        max_iterations: usize,
         observer: &mut Observer<'_>,
     ) -> Result<Solution<MixedLcp>, lcp::Error> {
         let observer = &mut |at: &Iteration| observer(at);
+        let max_iterations = MAX_STEPS;
         let (tolerance, crossover) = match self {
             Self::Inside => (INSIDE, false),
             Self::Interior | Self::Clarabel => (TOLERANCE, true),

@@ -22,8 +22,6 @@ const BEYOND: [f64; 6] = [1e-9, 1e-8, 1e-7, 1e-6, 1e-5, 1e-4];
 pub const NEAR: f64 = 2e-5;
 /// Motions that are tried in any case: they may bring the bounds nearer still.
 const ALWAYS: usize = 2;
-/// Steps of one program.
-const MAX_STEPS: usize = 200;
 
 /// The methods for linear programs, one after the other. Measured on a wall of 1000 bricks, where the first gives no proof: the
 /// second does, and the third does not.
@@ -79,7 +77,7 @@ pub fn extreme(
     let problem = program.greatest(&gain)?;
     let mut best: Option<[f64; 2]> = None;
     for engine in LINEAR {
-        let solution = engine.solve(&problem, MAX_STEPS, observer)?;
+        let solution = engine.solve(&problem, observer)?;
         let (z, _) = problem.recover(&solution.t, &solution.y);
         let (motion, columns) = z.split_at(program.unknowns());
         let Some(forces) = program.admissible(columns) else { continue };
@@ -114,7 +112,7 @@ impl Growing<'_> {
         let problem = program.greatest(&[(program.forces(), 1.0)])?;
         let mut bounds = Bounds { size: scale, ..Bounds::default() };
         for engine in LINEAR {
-            let solution = engine.solve(&problem, MAX_STEPS, observer)?;
+            let solution = engine.solve(&problem, observer)?;
             if solution.status == Status::Cancelled {
                 break;
             }

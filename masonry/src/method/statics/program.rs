@@ -3,17 +3,13 @@
 use faer::sparse::{SparseColMat, SparseColMatRef};
 use lcp::{InteriorPoint, InteriorPointSettings, LeastForces, Observer};
 
+use super::engine::{MAX_STEPS, TOLERANCE};
 use crate::columns::{ColumnMatrix, column, first_columns};
 use crate::law::{Cone, Edge};
 use crate::rounding;
 use crate::system::System;
 
 mod linear;
-
-/// Residual of the forces of least size.
-const TOLERANCE: f64 = 1e-12;
-/// Forces and proofs take ten to forty steps. Chosen: far more.
-const MAX_STEPS: usize = 150;
 
 /// What is left of the balance of a block, relative to the largest load, in forces that are called admissible.
 const BALANCED: f64 = 1e-9;

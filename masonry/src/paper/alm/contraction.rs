@@ -4,8 +4,7 @@
 /// small is no sign of convergence.
 const HALF: usize = 8;
 
-/// Steps below this part of the vector are rounding errors.
-const ROUNDING: f64 = 64.0 * f64::EPSILON;
+use super::ROUNDING;
 
 /// The last steps of a sequence of vectors.
 #[derive(Debug, Clone)]

@@ -5,6 +5,7 @@ use std::collections::HashMap;
 use nalgebra::{Matrix2, Point2, RowVector3, Vector2};
 
 use crate::data::state::ContactStatus;
+use crate::geometry::SAME_PLACE;
 use crate::law::JointLaw;
 use crate::model::{Anchor, ContactPoint, Joint, Model};
 use crate::paper::film::change::{ChangeError, NodalChange};
@@ -12,9 +13,6 @@ use crate::paper::film::law::FilmState;
 use crate::paper::film::pointwise::{FilmResponse, PointwiseFilm};
 use crate::paper::film::strip::{Strip, local_axes};
 use crate::paper::film::{FilmError, Matrix8, Vector8};
-
-/// Nodes closer to the end of a film than this part of its length do not divide it.
-const SAME_PLACE: f64 = 1e-9;
 
 /// A part of a film on which both faces are straight however the nodes move.
 #[derive(Debug, Clone)]

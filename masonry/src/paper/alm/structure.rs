@@ -3,8 +3,8 @@
 use faer::sparse::SparseColMat;
 use lcp::{Contact2d, ContactState, Residuals};
 
-use super::AlmError;
 use super::films::Segment;
+use super::{AlmError, ROUNDING};
 use crate::law::Cone;
 use crate::paper::film::pointwise::FilmResponse;
 use crate::rounding::{cleared, largest};
@@ -18,9 +18,6 @@ pub(super) struct Taken {
     /// The forces of both.
     all: Vec<f64>,
 }
-
-/// Rounding errors of a gap, relative to its largest term.
-const ROUNDING: f64 = 64.0 * f64::EPSILON;
 
 /// A problem with its films.
 pub(super) struct Structure<'a> {

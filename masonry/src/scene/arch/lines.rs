@@ -85,8 +85,8 @@ struct Size {
     count: u32,
 }
 
-/// Voussoirs of one arch, at most.
-const MOST: u32 = 10_000;
+/// Voussoirs of one arch, and blocks of one of its piers, at most.
+pub(super) const MOST: u32 = 10_000;
 const RIGHT_ANGLE: f64 = 0.5 * std::f64::consts::PI;
 
 impl Size {

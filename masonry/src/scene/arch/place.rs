@@ -1,14 +1,11 @@
 //! The blocks and supports of an arch.
 
+use super::lines::MOST;
 use super::{Arch, Line, Piers, lines};
+use crate::geometry::SAME_PLACE;
 use crate::rounding::rounded;
 use crate::scene::rules::{positive, value};
 use crate::scene::{ArchError, Fault, KeyPath, Scene, Support};
-
-/// A springing that rises by less than this part of its length is level.
-const LEVEL: f64 = 1e-9;
-/// Blocks of one pier, at most.
-const MOST: u32 = 10_000;
 
 /// The name of a block and its corners \[length\].
 type NamedBlock = (String, [[f64; 2]; 4]);
@@ -86,7 +83,7 @@ fn pier(
     let wanted = "a pier has between 1 and 10000 blocks";
     value(at.key("courses"), f64::from(courses), (1..=MOST).contains(&courses), wanted)?;
     let (reach, rises) = (sign * (outer[0] - inner[0]), outer[1] - inner[1]);
-    let level = LEVEL * reach.hypot(rises);
+    let level = SAME_PLACE * reach.hypot(rises);
     if rises < -level || reach < -level {
         return Err(Fault::new(at.clone(), ArchError::Overhang { side }.into()));
     }

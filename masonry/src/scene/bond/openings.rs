@@ -1,6 +1,7 @@
 //! Courses cut at openings, and the lintels above these.
 
-use super::{JointThickness, SLIVER, Span, snap};
+use super::{JointThickness, Span, snap};
+use crate::geometry::SAME_PLACE;
 use crate::scene::{Opening, Wall};
 
 /// Pieces shorter than this part of a brick are laid as one with their neighbours.
@@ -47,13 +48,15 @@ pub(super) fn cut(
 
 /// Bricks cut at a gap; short pieces go to their neighbours.
 fn without(bricks: &[Span], [from, to]: Span) -> Vec<Span> {
-    let mut left: Vec<Span> = bricks.iter().copied().filter(|[a, _]| *a < from - SLIVER).collect();
-    let mut right: Vec<Span> = bricks.iter().copied().filter(|[_, b]| *b > to + SLIVER).collect();
+    let mut left: Vec<Span> =
+        bricks.iter().copied().filter(|[a, _]| *a < from - SAME_PLACE).collect();
+    let mut right: Vec<Span> =
+        bricks.iter().copied().filter(|[_, b]| *b > to + SAME_PLACE).collect();
     if let Some(last) = left.last_mut() {
         last[1] = last[1].min(from);
         let [start, end] = *last;
         let beside = left.len().checked_sub(2).map(|k| left[k]);
-        if end - start < SHORT - SLIVER && beside.is_some_and(|[_, b]| touches(b, start)) {
+        if end - start < SHORT - SAME_PLACE && beside.is_some_and(|[_, b]| touches(b, start)) {
             left.pop();
             left.iter_mut().last().into_iter().for_each(|before| before[1] = end);
         }
@@ -62,7 +65,7 @@ fn without(bricks: &[Span], [from, to]: Span) -> Vec<Span> {
         first[0] = first[0].max(to);
         let [start, end] = *first;
         let beside = right.get(1).copied();
-        if end - start < SHORT - SLIVER && beside.is_some_and(|[a, _]| touches(a, end)) {
+        if end - start < SHORT - SAME_PLACE && beside.is_some_and(|[a, _]| touches(a, end)) {
             right.remove(0);
             right.iter_mut().take(1).for_each(|after| after[0] = start);
         }
@@ -72,5 +75,5 @@ fn without(bricks: &[Span], [from, to]: Span) -> Vec<Span> {
 }
 
 fn touches(a: f64, b: f64) -> bool {
-    (a - b).abs() < SLIVER
+    (a - b).abs() < SAME_PLACE
 }

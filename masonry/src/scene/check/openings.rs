@@ -1,12 +1,10 @@
 //! Checks of openings.
 
 use super::{Check, MAGNITUDES, not_negative, positive, value};
+use crate::geometry::SAME_PLACE;
 use crate::rounding::rounded;
 use crate::scene::bond::{JointThickness, taken};
 use crate::scene::{Fault, KeyPath, Opening, OpeningError, Wall};
-
-/// What rounding makes of a length, relative to a brick.
-const ROUNDING: f64 = 1e-9;
 
 /// How large a wall is.
 #[derive(Clone, Copy)]
@@ -29,7 +27,7 @@ pub(super) fn check(at: &KeyPath, wall: &Wall, joints: JointThickness, size: Wal
             let meets = |course: &usize| {
                 let gap = |it: &Opening| taken(wall, joints, it, *course).map(|(gap, _)| gap);
                 let both = gap(opening).zip(gap(before));
-                both.is_some_and(|([a, b], [c, d])| a < d - ROUNDING && c < b - ROUNDING)
+                both.is_some_and(|([a, b], [c, d])| a < d - SAME_PLACE && c < b - SAME_PLACE)
             };
             if let Some(course) = shared.into_iter().find(meets) {
                 let error = OpeningError::Meets { other, course: course + 1 };
@@ -49,7 +47,7 @@ fn check_place(at: &KeyPath, wall: &Wall, opening: &Opening, size: WallSize) -> 
     not_negative(at.key("x"), x)?;
     positive(at.key("width"), width)?;
     let room = wide - x;
-    if width > room + ROUNDING * wall.brick.length {
+    if width > room + SAME_PLACE * wall.brick.length {
         let error = OpeningError::TooWide { width, x, wall: wide, room: rounded(room.max(0.0)) };
         return Err(Fault::new(at.key("width"), error.into()));
     }
@@ -90,7 +88,7 @@ fn check_lintel(at: &KeyPath, wall: &Wall, k: usize, size: WallSize) -> Check {
     }
     let bearing = opening.bearing_on(wall.brick.length);
     for (side, room) in [("left", left), ("right", right)] {
-        if bearing > room + ROUNDING * wall.brick.length {
+        if bearing > room + SAME_PLACE * wall.brick.length {
             let (bearing, room) = (rounded(bearing), rounded(room.max(0.0)));
             let error = OpeningError::NoBearing { side, bearing, room };
             return Err(Fault::new(at.clone(), error.into()));
