@@ -18,9 +18,7 @@ use crate::forms::reduction::Reduction;
 use crate::forms::{Form, FormKind, Start};
 use crate::system::System;
 
-/// Start bases of a reduced form that are tried.
-const STARTS: usize = 2;
-/// Attempts from every one of them: with the covering vector of [`covering`], then a random one.
+/// Attempts from every start basis of a reduced form: with the covering vector of [`covering`], then a random one.
 const ATTEMPTS_PER_START: usize = 2;
 /// Attempts on the mixed form.
 const MIXED_ATTEMPTS: usize = 3;
@@ -150,7 +148,7 @@ impl Pivoting<'_> {
             (settings, Some(start.name))
         };
         let last = self.start.filter(|_| form.kind == FormKind::Coulomb);
-        last.into_iter().chain(form.starts.iter().take(STARTS)).map(from_start).collect()
+        last.into_iter().chain(&form.starts).map(from_start).collect()
     }
 
     fn against_coulomb(&self, form: &Form, rows: &RowState) -> Option<Residuals> {

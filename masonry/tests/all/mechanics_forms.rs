@@ -184,7 +184,7 @@ fn start_bases_are_nonsingular() {
         assert!(case.reduction.isostatic.iter().any(|row| *row >= case.system.points()));
         for kind in [FormKind::Coulomb, FormKind::StewartTrinkle] {
             let form = case.form(kind);
-            assert_eq!(form.starts.len(), 4);
+            assert_eq!(form.starts.len(), 2);
             for start in &form.starts {
                 let n = form.order();
                 assert_eq!(start.t_basic.len(), n);

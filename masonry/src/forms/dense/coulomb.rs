@@ -27,8 +27,8 @@ fn starts(form: &Equations, reduction: &Reduction) -> Vec<Start> {
     reduced::starts(form, |forwards| {
         let mut t_basic = normal_start(form, reduction);
         for (k, held) in held.iter().enumerate() {
-            t_basic[form.layout.pair(1, k)] = *held || !forwards(k);
-            t_basic[form.layout.pair(2, k)] = *held || forwards(k);
+            t_basic[form.layout.pair(1, k)] = *held || !forwards;
+            t_basic[form.layout.pair(2, k)] = *held || forwards;
         }
         t_basic
     })

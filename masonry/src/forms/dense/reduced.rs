@@ -71,23 +71,14 @@ pub(super) fn tangents_in_i(form: &Equations, reduction: &Reduction) -> Vec<bool
     found
 }
 
-/// The direction of sliding of a frictional point by its position, `true` for `+t`.
-type Sliding = fn(usize) -> bool;
-
-/// Ways of giving every frictional point a direction of sliding.
-const PATTERNS: [(&str, Sliding); 4] = [
-    ("all slide forwards", |_| true),
-    ("all slide backwards", |_| false),
-    ("alternating, first forwards", |k| k.is_multiple_of(2)),
-    ("alternating, first backwards", |k| !k.is_multiple_of(2)),
-];
-
-/// A start for every pattern, from its rule; the only one there is where nothing has friction.
-pub(super) fn starts(form: &Equations, t_basic: impl Fn(Sliding) -> Vec<bool>) -> Vec<Start> {
+/// A start in which all points with friction slide forwards, along `t`, and one in which they slide backwards, each by the
+/// rule of its form; the only one there is where nothing has friction.
+pub(super) fn starts(form: &Equations, t_basic: impl Fn(bool) -> Vec<bool>) -> Vec<Start> {
     if form.layout.friction.is_empty() {
-        return vec![Start { name: "isostatic normals", t_basic: t_basic(|_| true) }];
+        return vec![Start { name: "isostatic normals", t_basic: t_basic(true) }];
     }
-    PATTERNS.map(|(name, forwards)| Start { name, t_basic: t_basic(forwards) }).into()
+    let ways = [("all slide forwards", true), ("all slide backwards", false)];
+    ways.map(|(name, forwards)| Start { name, t_basic: t_basic(forwards) }).into()
 }
 
 /// A start in which isostatic normals carry force and all other normals are open; the tangential

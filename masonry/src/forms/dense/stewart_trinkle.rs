@@ -34,7 +34,7 @@ fn starts(form: &Equations, reduction: &Reduction) -> Vec<Start> {
     reduced::starts(form, |forwards| {
         let mut t_basic = normal_start(form, reduction);
         for (k, held) in held.iter().enumerate() {
-            let plus = if *held { forwards(k) } else { !forwards(k) };
+            let plus = if *held { forwards } else { !forwards };
             t_basic[form.layout.pair(1, k)] = plus;
             t_basic[form.layout.pair(2, k)] = !plus;
             t_basic[form.layout.pair(3, k)] = !held;
