@@ -87,6 +87,21 @@ pub struct Answer {
     pub account: Option<lcp::Account>,
 }
 
+impl Answer {
+    /// An answer without a solution.
+    pub(crate) fn new(info: SolveInfo) -> Self {
+        Self {
+            info,
+            rows: None,
+            displacements: None,
+            basis: None,
+            motion: None,
+            moved: None,
+            account: None,
+        }
+    }
+}
+
 /// Progress of a route.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum RouteProgress {

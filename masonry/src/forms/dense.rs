@@ -292,7 +292,6 @@ impl Layout {
 impl Scale {
     /// Units in which the mean of the diagonal of `A` is one and the loads are at most one.
     fn of(reduction: &Reduction) -> Self {
-        let largest = |v: &[f64]| v.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
         let or_one = |x: f64| if x > 0.0 { x } else { 1.0 };
         let n = reduction.a.nrows();
         let compliance = (0..n).map(|i| reduction.a[(i, i)]).sum::<f64>() / or_one(n as f64);

@@ -53,13 +53,9 @@ pub fn answer(system: &System, sparse: &Sparse, decision: &Decision, tolerance: 
     };
     let state = at_rest.map(|(state, _)| state).filter(|_| status == Status::Solved);
     Answer {
-        info,
         rows: state.as_ref().map(|state| sparse.rows(state)),
         displacements: state.map(|_| vec![0.0; problem.displacements()]),
-        motion: None,
-        basis: None,
-        moved: None,
-        account: None,
+        ..Answer::new(info)
     }
 }
 

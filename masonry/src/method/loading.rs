@@ -9,6 +9,7 @@ use lcp::{
 
 use crate::geometry;
 use crate::model::Model;
+use crate::rounding;
 
 /// The part of the loads that the drag may carry while blocks move: how slowly they do. Measured on settlements of 100 to
 /// 1000 bricks: the drag takes about a hundredth of the work of friction.
@@ -144,9 +145,9 @@ impl Loading<'_> {
         let problem = self.problem;
         let moved = largest(problem.initial_gaps(), before.initial_gaps())
             .max(largest(problem.initial_slips(), before.initial_slips()));
-        let load = problem.loads().iter().fold(0.0_f64, |max, f| max.max(f.abs()));
+        let load = rounding::largest(problem.loads());
         let grown = largest(problem.loads(), before.loads()) / load;
-        let before = state.u.iter().fold(0.0_f64, |max, u| max.max(u.abs()));
+        let before = rounding::largest(&state.u);
         let distance = moved.max(if grown.is_finite() { grown * before } else { 0.0 });
         (distance > 0.0).then_some(distance)
     }

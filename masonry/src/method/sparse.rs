@@ -71,13 +71,10 @@ pub(crate) fn answer(
     });
     let state = (found.status == Status::Solved).then_some(found.state);
     Answer {
-        info,
         rows: state.as_ref().map(|state| sparse.rows(state)),
         displacements: state.map(|state| state.u),
         motion: motion.map(Motion::Displacements),
-        basis: None,
-        moved: None,
-        account: None,
+        ..Answer::new(info)
     }
 }
 

@@ -32,6 +32,7 @@ use nalgebra::{Matrix2, Matrix4};
 
 use super::{Matrix8, Vector8};
 use crate::element::quad4::{self, StrainMatrix};
+use crate::rounding::largest;
 
 /// Largest amplification that a move may have: beyond it a change loses more than six digits.
 ///
@@ -228,7 +229,7 @@ impl NodalChange {
 
 fn check(element: &str, node: usize, delta: [f64; 4]) -> Result<(), ChangeError> {
     let own = delta[node];
-    let largest = delta.iter().fold(0.0_f64, |m, d| m.max(d.abs()));
+    let largest = largest(&delta);
     let sum: f64 = delta.iter().sum();
     let element = || element.to_owned();
     // A place that is not finite fails here, too: no comparison holds for NaN.

@@ -10,6 +10,7 @@ use crate::data::state::ContactStatus;
 use crate::forms::Sparse;
 use crate::ids::JointId;
 use crate::model::Model;
+use crate::rounding::largest;
 use crate::system::System;
 
 /// Gaps below this part of the largest displacement are closed, and forces nearer to the bound of friction than this part of
@@ -146,8 +147,8 @@ fn change(model: &Model, joint: usize, statuses: &[ContactStatus]) -> Option<Cha
 fn statuses(system: &System, sparse: &Sparse, rest: &AtRest) -> Vec<ContactStatus> {
     let rows = sparse.rows(&rest.state);
     let points = system.points();
-    let force = rows.t[..points].iter().fold(0.0_f64, |most, t| most.max(t.abs()));
-    let length = rest.u.iter().fold(0.0_f64, |most, u| most.max(u.abs()));
+    let force = largest(&rows.t[..points]);
+    let length = largest(&rest.u);
     let mut statuses: Vec<ContactStatus> = rows.y[..points]
         .iter()
         .zip(&rows.t)
