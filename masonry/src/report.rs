@@ -4,6 +4,7 @@
 //! of the modules return the contents of files; [`write_all`] writes them.
 
 pub mod csv;
+mod figures;
 mod format;
 pub mod hinges;
 pub mod joints;
@@ -16,6 +17,7 @@ pub mod study;
 pub mod summary;
 pub mod svg;
 pub mod table;
+mod text;
 pub mod vtu;
 
 use std::fs;

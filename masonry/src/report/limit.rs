@@ -9,7 +9,6 @@ use std::path::{Path, PathBuf};
 use nalgebra::Vector2;
 
 pub use json::{json, json_both, range_json, thickness_json};
-pub(in crate::report) use table::carried_by_rest;
 pub use table::{range_table, table, table_both, thickness_table};
 
 use super::{OutputError, svg, write_files};

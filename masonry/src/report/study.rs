@@ -1,6 +1,6 @@
 //! A [study](crate::analysis::study) as text, tables and a picture.
 
-mod csv;
+mod figures;
 mod json;
 mod picture;
 mod summary;
@@ -9,13 +9,12 @@ mod table;
 use std::io;
 use std::path::{Path, PathBuf};
 
-pub use csv::csv;
 pub use json::json;
 pub use picture::{accuracy, style};
 pub use summary::{in_short, summary};
 pub use table::table;
 
-use super::{OutputError, write_files};
+use super::{OutputError, csv, write_files};
 use crate::analysis::study::Study;
 
 /// Writes `study.csv`, the picture `accuracy.svg` where there is something in it, and `study.json`, which lists them
@@ -30,4 +29,14 @@ pub fn write(study: &Study, dir: &Path) -> Result<Vec<PathBuf>, OutputError> {
     names.push("study.json");
     files.push(("study.json", json(study, &names).map_err(io::Error::from)));
     write_files(dir, files)
+}
+
+/// The text of `study.csv`: one row for each mesh, route and tolerance.
+///
+/// Columns: `mesh` (factor), `route`, `tolerance`, `status` (a status, `Refused` or `Skipped`), `residual`,
+/// `time_s`, `overrun` (whether that is more than the limit), `iterations` (pivots by `lemke`), relative errors `error_force`, `error_stress`, `error_energy`,
+/// and the `reason` why it was refused or skipped. What is not known is empty. Numbers read back exactly,
+/// and lines end with CR LF.
+pub fn csv(study: &Study) -> String {
+    csv::text(&figures::records(study, study.records.iter()).without(&["asked", "took"]))
 }

@@ -1,0 +1,180 @@
+//! Figures of a limit load, of the least thickness of an arch, and of ranges of reactions.
+
+use super::tables::{rates_by_name, sides};
+use super::{Column, Digits, Figure, Table, Value, values, yes_or_no};
+use crate::analysis::limit::{Associative, Change, Path, Range, Rest, Stand, Thickness};
+use crate::method::statics::limit::Extreme;
+use crate::model::Model;
+use crate::report::format::{InUnits, Quantity, significant};
+use crate::report::moving::moving_part;
+use crate::rounding::{Side, outwards};
+
+fn bound(it: Option<f64>, side: Side, digits: usize) -> String {
+    it.map_or("none".to_owned(), |it| outwards(it, side, |it| significant(it, digits)))
+}
+
+/// The limit load of associated flow.
+pub(in crate::report) fn associative(found: &Associative, model: &Model) -> Vec<Figure> {
+    let Associative { load_factor, bound: limit, .. } = *found;
+    let meant = |it: Option<f64>, side, what: &str| match it {
+        Some(_) => format!("{}, {what}", bound(it, side, 10)),
+        None => "none".to_owned(),
+    };
+    let gap = limit.zip(load_factor).map(|(bound, factor)| bound - factor);
+    let factor = meant(load_factor, Side::Below, "carried by forces within friction");
+    let above = meant(limit, Side::Above, "above which a motion proves that none do");
+    let mut list = vec![
+        Figure::new("load_factor", load_factor)
+            .text("load factor", factor)
+            .page("factor, associative flow", bound(load_factor, Side::Below, 5)),
+        Figure::new("bound", limit)
+            .text("bound", above)
+            .page("cannot stand above", bound(limit, Side::Above, 5)),
+        Figure::new("gap", gap)
+            .text("gap", gap.map_or("none".to_owned(), |gap| significant(gap, 2))),
+        Figure::new("proved", found.proved)
+            .text("proved", yes_or_no(found.proved))
+            .page("proved", yes_or_no(found.proved)),
+    ];
+    list.extend(found.mechanism.as_ref().map(|rates| moves(model, rates)));
+    list.extend(found.rest.map(|rest| {
+        let text = carried_by_rest(rest);
+        let object = super::members! { "load_factor": rest.load_factor, "bound": rest.bound };
+        Figure::new("rest", object).text("the rest", text.clone()).page("the rest", text)
+    }));
+    list
+}
+
+fn moves(model: &Model, rates: &[Vec<nalgebra::Vector2<f64>>]) -> Figure {
+    let part = moving_part(model, rates);
+    Figure::new("mechanism", rates_by_name(model, rates))
+        .text("moves", part.clone())
+        .page("moves", part)
+}
+
+/// What the rest of a structure carries if the part that moves is held.
+fn carried_by_rest(Rest { load_factor, bound }: Rest) -> String {
+    let told = |it, side| outwards(it, side, |it| significant(it, 5));
+    let if_held = "if the blocks that move are held (they may support others)";
+    match (load_factor, bound) {
+        (Some(carried), Some(bound)) => {
+            let (carried, bound) = (told(carried, Side::Below), told(bound, Side::Above));
+            format!("carries {carried} and not {bound}, {if_held}")
+        }
+        (Some(carried), None) => {
+            format!("carries {} at least, {if_held}", told(carried, Side::Below))
+        }
+        (None, Some(bound)) => format!("does not carry {}, {if_held}", told(bound, Side::Above)),
+        (None, None) => format!("has no limit that was found, {if_held}"),
+    }
+}
+
+/// The limit load along a path.
+pub(in crate::report) fn path(path: &Path) -> Vec<Figure> {
+    let units = InUnits(path.model.units);
+    let factor = bound(path.load_factor, Side::Below, 10);
+    let factor = format!("{factor}, the last at which blocks rest");
+    let mut list = vec![
+        Figure::new("load_factor", path.load_factor)
+            .text("load factor", factor)
+            .page("factor along a path", bound(path.load_factor, Side::Below, 5)),
+        Figure::new("falls", path.falls)
+            .text("falls at", bound(path.falls, Side::Above, 10))
+            .page("falls at", bound(path.falls, Side::Above, 5)),
+        Figure::new("decided", path.decided).text("decided", yes_or_no(path.decided)),
+        Figure::new("", path.curve.len()).text("states at rest", path.curve.len().to_string()),
+    ];
+    if let Some(Stand { displacement, contacts: [open, stick, slip], .. }) = path.curve.last() {
+        let moved = significant(units.length(*displacement), 4);
+        let moved = format!("{moved} {}, the largest", units.0.length_name());
+        let points = format!("{open} open, {stick} stick, {slip} slide");
+        list.push(Figure::new("", *displacement).text("displacement", moved));
+        list.push(Figure::new("", *open).text("contact points", points));
+    }
+    list.extend(path.mechanism.as_ref().map(|rates| moves(&path.model, rates)));
+    list
+}
+
+/// The states at rest, by growing factor.
+pub(in crate::report) fn curve(path: &Path) -> Table {
+    let number = |key, quantity| Column::number(key, quantity, Digits::Significant(5));
+    let mut columns = vec![number("load_factor", Quantity::Pure)];
+    columns.push(number("displacement", Quantity::Length));
+    columns.extend(["open", "stick", "slip"].map(Column::count));
+    let mut table = Table::new(InUnits(path.model.units), columns);
+    for Stand { load_factor, displacement, contacts: [open, stick, slip], .. } in &path.curve {
+        table.row(values![*load_factor, *displacement, *open, *stick, *slip]);
+    }
+    table
+}
+
+/// Joints that open and slide along a path, each between two factors.
+pub(in crate::report) fn events(path: &Path) -> Table {
+    let number = |key| Column::number(key, Quantity::Pure, Digits::Significant(5));
+    let mut columns = vec![Column::count("number")];
+    columns.extend(["between", "and", "change"].map(Column::words));
+    columns.extend(["after", "before"].map(number));
+    let mut table = Table::new(InUnits(path.model.units), columns);
+    for (index, event) in path.events.iter().enumerate() {
+        let [behind, front] = sides(&path.model, event.joint.index());
+        let change = match event.change {
+            Change::Hinges => "hinges",
+            Change::Opens => "opens",
+            Change::Slides => "slides",
+        };
+        table.row(values![index + 1, behind, front, change, event.after, event.before]);
+    }
+    table
+}
+
+/// The least thickness of an arch.
+pub(in crate::report) fn thickness(it: &Thickness) -> Vec<Figure> {
+    let units = InUnits(it.model.units);
+    let unit = units.0.length_name();
+    let figure = |key, name, metres: Option<f64>, side| {
+        let value = metres.map(|metres| units.length(metres));
+        let or_none = |text: Option<String>| text.unwrap_or("none".to_owned());
+        let text = value.map(|it| format!("{} {unit}", significant(it, 8)));
+        let short = value.map(|_| format!("{}\u{a0}{unit}", bound(value, side, 6)));
+        Figure::new(key, value).text(name, or_none(text)).page(name, or_none(short))
+    };
+    vec![
+        figure("stands", "stands at", it.stands, Side::Above),
+        figure("falls", "falls at", it.falls, Side::Below),
+        Figure::new("proved", it.proved)
+            .text("proved", yes_or_no(it.proved))
+            .page("proved", yes_or_no(it.proved)),
+    ]
+}
+
+/// The least and the largest reactions of supports.
+pub(in crate::report) fn range(range: &Range) -> Option<Table> {
+    let units = InUnits(range.model.units);
+    let right = |name: &str, quantity| Column::number(name, quantity, Digits::Significant(7));
+    let columns = vec![
+        Column::words("support"),
+        Column::words(""),
+        right("least", Quantity::Force),
+        right("largest", Quantity::Force),
+        right("gaps", Quantity::Pure),
+    ];
+    let mut table = Table::new(units, columns);
+    let value = |it: Extreme| match it {
+        // Less than what is left open is nothing.
+        Extreme::Value { value, bound } if value.abs() <= (bound - value).abs() => Value::from("0"),
+        Extreme::Value { value, .. } => value.into(),
+        Extreme::Unlimited => "unlimited".into(),
+        Extreme::Open => "not found".into(),
+    };
+    let gap = |it: Extreme| match it {
+        Extreme::Value { value, bound } => significant(units.force((bound - value).abs()), 1),
+        Extreme::Unlimited | Extreme::Open => "-".to_owned(),
+    };
+    for it in range.supports.as_ref()? {
+        for (name, [least, largest]) in [("fx", it.fx), ("fy", it.fy)] {
+            let gaps = format!("{}, {}", gap(least), gap(largest));
+            table.row(values![&it.support, name, value(least), value(largest), gaps]);
+        }
+    }
+    Some(table)
+}
