@@ -10,8 +10,8 @@ mod table;
 pub(super) mod tables;
 mod value;
 
-pub(super) use table::{Column, Digits, Table};
-pub(super) use value::{Value, members, values};
+pub(super) use table::{Column, Columns, Digits, Table};
+pub(super) use value::{Value, members};
 
 /// A name and what is said of it.
 pub(super) type Said = (&'static str, String);

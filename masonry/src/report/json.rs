@@ -131,14 +131,14 @@ fn totals(model: &Model) -> Vec<(String, Value)> {
 }
 
 fn parts(units: InUnits, sum: Resultant) -> Vec<(String, Value)> {
-    forces(units, [("", sum)]).without(&["support"]).objects().remove(0)
+    forces(units, [("", sum)]).without("support").objects().remove(0)
 }
 
 /// By group its sum and its loads, each with its factor, times that of the step, and its resultant.
 fn groups(model: &Model) -> Value {
     let units = InUnits(model.units);
     let of = |group: LoadGroup<'_>| {
-        let loads = loads(units, std::slice::from_ref(&group)).without(&["group"]).by_name();
+        let loads = loads(units, std::slice::from_ref(&group), false).without("group").by_name();
         let mut object = parts(units, group.sum);
         object.extend(members! { "loads": loads });
         (group.name.to_owned(), Value::Object(object))

@@ -2,7 +2,7 @@
 
 mod history;
 
-use super::figures::{Column, Said, Table, on_text, solved, tables, values};
+use super::figures::{Columns, Said, Table, on_text, solved, tables};
 use super::format::{InUnits, significant};
 use super::moving::moving_part;
 use super::summary::{
@@ -13,7 +13,7 @@ use super::text::{self, heads, pairs, paragraph, section, underlined};
 use crate::analysis::outcome::Outcome;
 use crate::method::info::SoftReport;
 use crate::model::Model;
-use crate::plan::{Choice, Plan};
+use crate::plan::{Choice, Effect, Plan};
 use crate::scene::Route;
 use crate::units::Units;
 use crate::verify::verdict::Evidence;
@@ -65,25 +65,24 @@ pub fn plan(plan: &Plan) -> String {
 
 /// The plan of a solve: what is off in one line.
 fn built(plan: &Plan) -> String {
-    let mut on = effects(plan);
-    on.rows = on.rows.into_iter().zip(&plan.effects).filter(|it| it.1.on).map(|it| it.0).collect();
+    let mut on = effects(plan).without("is_on");
+    on.retain(|k| plan.effects[k].on);
     let off: Vec<&str> =
         plan.effects.iter().filter(|effect| !effect.on).map(|effect| effect.name).collect();
     let mut lines = figures(plan);
     lines.insert(0, ("not used", off.join(", ")));
-    format!("{}\n{}", text::table(&on.without(&[""])), pairs(&lines))
+    format!("{}\n{}", text::table(&on), pairs(&lines))
 }
 
 fn effects(plan: &Plan) -> Table {
-    let [effect, is_on, because, cost] =
-        ["effect", "", "because", "expected cost"].map(Column::words);
-    let columns = vec![effect, is_on, Column::count("unknowns"), because, cost];
-    let mut table = Table::new(InUnits(Units::SI), columns);
-    for it in &plan.effects {
-        let is_on = if it.on { "on" } else { "off" };
-        table.row(values![it.name, is_on, it.unknowns, &it.because, &it.cost]);
-    }
-    table
+    Columns::<&Effect>::new()
+        .words("effect", |it| it.name)
+        .words("is_on", |it| if it.on { "on" } else { "off" })
+        .named("")
+        .count("unknowns", |it| it.unknowns)
+        .words("because", |it| &it.because)
+        .words("expected cost", |it| &it.cost)
+        .table(InUnits(Units::SI), &plan.effects)
 }
 
 fn figures(plan: &Plan) -> Vec<Said> {
@@ -198,20 +197,8 @@ fn reactions(outcome: &Outcome) -> String {
 
 /// Loads with factor and resultant; groups of several loads with their sum.
 fn loads(model: &Model) -> String {
-    let units = InUnits(model.units);
-    let mut table = tables::loads(units, &[]);
-    for group in load_groups(model) {
-        let first = table.rows.len();
-        table.rows.extend(tables::loads(units, std::slice::from_ref(&group)).rows);
-        if group.loads.len() > 1 {
-            let Resultant { force, moment } = group.sum;
-            table.row(values!["sum", "", "", force.x, force.y, moment]);
-        }
-        for row in table.rows.iter_mut().skip(first + 1) {
-            row[1] = "".into();
-        }
-    }
-    text::table(&table.only(&["group", "load", "factor", "fx", "fy", "m"]))
+    let table = tables::loads(InUnits(model.units), &load_groups(model), true);
+    text::table(&table.only("group load factor fx fy m"))
 }
 
 fn times(outcome: &Outcome) -> Vec<(&str, String)> {

@@ -1,98 +1,91 @@
 //! The steps of a load history.
 
+use super::Digits::Aligned;
 use super::tables::{counts, reactions};
-use super::{Column, Digits, Table, Value, members, values};
-use crate::history::{History, Step};
+use super::{Columns, Table, Value, members};
+use crate::history::{History, Step, StepRecord};
 use crate::model::Model;
-use crate::report::format::{InUnits, Quantity};
+use crate::report::format::InUnits;
+use crate::report::format::Quantity::{Energy, Force, Length, Pure, Radians};
 
-/// Columns that are not in CSV.
-const NOT_IN_CSV: [&str; 8] = ["number", "of", "place", "route", "W", "D", "dragged", "balance"];
-const ON_PAGE: [&str; 9] =
-    ["number", "stage", "step", "max_displacement", "work", "dissipation", "open", "stick", "slip"];
-const IN_TEXT: [&str; 11] = [
-    "stage",
-    "place",
-    "W",
-    "D",
-    "strain_energy",
-    "balance",
-    "max_displacement",
-    "open",
-    "stick",
-    "slip",
-    "way",
-];
-/// Before and after the factors and movements of a record in JSON.
-const ACTIONS: [&str; 4] = ["stage", "step", "of", "gravity"];
-const FOUND: [&str; 12] = [
-    "route",
-    "way",
-    "factorisations",
-    "residual",
-    "work",
-    "dissipation",
-    "friction_power",
-    "energy_created",
-    "dragged",
-    "strain_energy",
-    "balance",
-    "max_displacement",
-];
+/// In JSON before and after the factors and movements of a step.
+const ACTIONS: &str = "stage step of gravity";
+const FOUND: &str = "route way factorisations residual work dissipation friction_power energy_created dragged \
+                     strain_energy balance max_displacement";
+
+/// A step, and sums up to it.
+struct Row<'a> {
+    number: usize,
+    it: &'a StepRecord,
+    work: f64,
+    dissipated: f64,
+    /// What is left of the work.
+    left: f64,
+}
 
 /// A row for every step that was solved.
 fn steps(model: &Model, history: &History) -> Table {
-    let mut table = Table::new(InUnits(model.units), columns(model, history));
-    let (mut work, mut dissipated, mut spent) = (0.0, 0.0, 0.0);
-    for (index, record) in history.records.iter().enumerate() {
-        work += record.work;
-        dissipated += record.dissipation;
-        spent += record.work - record.dissipation;
-        let (step, actions) = (&record.step, &record.step.actions);
-        let mut row = values![index + 1, &step.stage, step.number, step.of, place(step)];
-        row.push(actions.gravity.into());
-        row.extend(actions.loads.iter().map(|it| Value::from(*it)));
-        row.extend(actions.movements.iter().flat_map(|it| values![it.x, it.y, it.turn]));
-        row.extend(values![record.work, record.dissipation, work, dissipated]);
-        row.extend(values![record.friction_power, record.energy_created, record.dragged]);
-        row.extend(values![record.strain_energy, spent - record.strain_energy]);
-        row.push(record.largest_displacement.into());
-        row.extend(record.contacts.map(Value::from));
-        row.extend(record.reactions.iter().flat_map(|it| values![it.fx, it.fy, it.m]));
-        row.extend(values![record.residuals.worst(), record.route.name(), record.way.name()]);
-        row.push(record.factorisations.into());
-        table.row(row);
-    }
-    table
+    let (mut work, mut dissipated, mut left) = (0.0, 0.0, 0.0);
+    let rows = (1..).zip(&history.records).map(|(number, it)| {
+        work += it.work;
+        dissipated += it.dissipation;
+        left += it.work - it.dissipation;
+        Row { number, it, work, dissipated, left }
+    });
+    columns(model, history).table(InUnits(model.units), rows)
 }
 
-fn columns(model: &Model, history: &History) -> Vec<Column> {
-    let number = |key: &str, quantity| Column::number(key, quantity, Digits::Aligned(3)).on_page(4);
-    let of_supports = |parts: [(&'static str, Quantity); 3]| {
-        let of = move |support: &str| {
-            parts.map(|(part, quantity)| number(&format!("{support} {part}"), quantity))
-        };
-        model.supports.iter().flat_map(move |it| of(&it.name))
-    };
-    let energy = |key: &str| number(key, Quantity::Energy);
-    let mut list = vec![Column::count("number"), Column::words("stage"), Column::count("step")];
-    list.extend([Column::count("of"), Column::words("place"), number("gravity", Quantity::Pure)]);
-    let factor = |name: &String| number(&format!("load {name}"), Quantity::Pure);
-    list.extend(history.loads.iter().map(factor));
-    let turn = ("turn", Quantity::Radians);
-    list.extend(of_supports([("x", Quantity::Length), ("y", Quantity::Length), turn]));
-    list.extend([energy("work"), energy("dissipation").named("dissipated")]);
-    list.extend(["W", "D"].map(energy));
-    list.push(number("friction_power", Quantity::Pure));
-    list.extend(["energy_created", "dragged", "strain_energy", "balance"].map(energy));
-    list.push(number("max_displacement", Quantity::Length).named("largest displacement"));
-    list.extend(["open", "stick", "slip"].map(Column::count));
-    let m = ("m", Quantity::Energy);
-    list.extend(of_supports([("fx", Quantity::Force), ("fy", Quantity::Force), m]));
-    list.push(number("residual", Quantity::Pure));
-    list.extend(["route", "way"].map(Column::words));
-    list.push(Column::count("factorisations"));
-    list
+fn columns<'a>(model: &'a Model, history: &'a History) -> Columns<'a, Row<'a>> {
+    let mut list = Columns::<Row<'_>>::new()
+        .count("number", |it| it.number)
+        .words("stage", |it| &it.it.step.stage)
+        .count("step", |it| it.it.step.number)
+        .count("of", |it| it.it.step.of)
+        .words("place", |it| place(&it.it.step))
+        .number("gravity", Pure, Aligned(3), |it| it.it.step.actions.gravity);
+    for (k, name) in history.loads.iter().enumerate() {
+        let of = move |it: &Row<'_>| it.it.step.actions.loads[k];
+        list = list.number(&format!("load {name}"), Pure, Aligned(3), of);
+    }
+    for (k, support) in model.supports.iter().enumerate() {
+        let key = |part| format!("{} {part}", support.name);
+        let of = move |it: &Row<'_>| it.it.step.actions.movements[k];
+        list = list
+            .number(&key("x"), Length, Aligned(3), move |it| of(it).x)
+            .number(&key("y"), Length, Aligned(3), move |it| of(it).y)
+            .number(&key("turn"), Radians, Aligned(3), move |it| of(it).turn);
+    }
+    list = list
+        .number("work", Energy, Aligned(3), |it| it.it.work)
+        .on_page(4)
+        .number("dissipation", Energy, Aligned(3), |it| it.it.dissipation)
+        .named("dissipated")
+        .on_page(4)
+        .number("W", Energy, Aligned(3), |it| it.work)
+        .number("D", Energy, Aligned(3), |it| it.dissipated)
+        .number("friction_power", Pure, Aligned(3), |it| it.it.friction_power)
+        .number("energy_created", Energy, Aligned(3), |it| it.it.energy_created)
+        .number("dragged", Energy, Aligned(3), |it| it.it.dragged)
+        .number("strain_energy", Energy, Aligned(3), |it| it.it.strain_energy)
+        .number("balance", Energy, Aligned(3), |it| it.left - it.it.strain_energy)
+        .number("max_displacement", Length, Aligned(3), |it| it.it.largest_displacement)
+        .named("largest displacement")
+        .on_page(4)
+        .count("open", |it| it.it.contacts[0])
+        .count("stick", |it| it.it.contacts[1])
+        .count("slip", |it| it.it.contacts[2]);
+    for (k, support) in model.supports.iter().enumerate() {
+        let key = |part| format!("{} {part}", support.name);
+        let of = move |it: &Row<'a>| it.it.reactions.get(k);
+        list = list
+            .number(&key("fx"), Force, Aligned(3), move |it| Some(of(it)?.fx))
+            .number(&key("fy"), Force, Aligned(3), move |it| Some(of(it)?.fy))
+            .number(&key("m"), Energy, Aligned(3), move |it| Some(of(it)?.m));
+    }
+    list.number("residual", Pure, Aligned(3), |it| it.it.residuals.worst())
+        .words("route", |it| it.it.route.name())
+        .words("way", |it| it.it.way.name())
+        .count("factorisations", |it| it.it.factorisations)
 }
 
 /// The number of a step and of all of its stage.
@@ -101,15 +94,17 @@ pub(in crate::report) fn place(step: &Step) -> String {
 }
 
 pub(in crate::report) fn in_csv(model: &Model, history: &History) -> Table {
-    steps(model, history).without(&NOT_IN_CSV)
+    steps(model, history).without("number of place route W D dragged balance")
 }
 
 pub(in crate::report) fn on_page(model: &Model, history: &History) -> Table {
-    steps(model, history).only(&ON_PAGE)
+    steps(model, history)
+        .only("number stage step max_displacement work dissipation open stick slip")
 }
 
 pub(in crate::report) fn in_text(model: &Model, history: &History) -> Table {
-    steps(model, history).only(&IN_TEXT)
+    steps(model, history)
+        .only("stage place W D strain_energy balance max_displacement open stick slip way")
 }
 
 /// The object of a history; `failed` is the step that could not be solved.
@@ -119,7 +114,7 @@ pub(in crate::report) fn in_json(
 ) -> Result<Value, serde_json::Error> {
     let units = InUnits(model.units);
     let all = steps(model, history);
-    let [before, after] = [&ACTIONS[..], &FOUND].map(|keys| all.only(keys).objects());
+    let [before, after] = [ACTIONS, FOUND].map(|keys| all.only(keys).objects());
     let mut records = Vec::with_capacity(history.records.len());
     for ((record, mut members), after) in history.records.iter().zip(before).zip(after) {
         let actions = &record.step.actions;

@@ -1,11 +1,13 @@
 //! Figures of a limit load, of the least thickness of an arch, and of ranges of reactions.
 
+use super::Digits::Significant;
 use super::tables::{rates_by_name, sides};
-use super::{Column, Digits, Figure, Table, Value, values, yes_or_no};
-use crate::analysis::limit::{Associative, Change, Path, Range, Rest, Stand, Thickness};
+use super::{Columns, Figure, Table, Value, members, yes_or_no};
+use crate::analysis::limit::{Associative, Change, Event, Path, Range, Rest, Stand, Thickness};
 use crate::method::statics::limit::Extreme;
 use crate::model::Model;
-use crate::report::format::{InUnits, Quantity, significant};
+use crate::report::format::Quantity::{Force, Length, Pure};
+use crate::report::format::{InUnits, significant};
 use crate::report::moving::moving_part;
 use crate::rounding::{Side, outwards};
 
@@ -39,7 +41,7 @@ pub(in crate::report) fn associative(found: &Associative, model: &Model) -> Vec<
     list.extend(found.mechanism.as_ref().map(|rates| moves(model, rates)));
     list.extend(found.rest.map(|rest| {
         let text = carried_by_rest(rest);
-        let object = super::members! { "load_factor": rest.load_factor, "bound": rest.bound };
+        let object = members! { "load_factor": rest.load_factor, "bound": rest.bound };
         Figure::new("rest", object).text("the rest", text.clone()).page("the rest", text)
     }));
     list
@@ -97,34 +99,31 @@ pub(in crate::report) fn path(path: &Path) -> Vec<Figure> {
 
 /// The states at rest, by growing factor.
 pub(in crate::report) fn curve(path: &Path) -> Table {
-    let number = |key, quantity| Column::number(key, quantity, Digits::Significant(5));
-    let mut columns = vec![number("load_factor", Quantity::Pure)];
-    columns.push(number("displacement", Quantity::Length));
-    columns.extend(["open", "stick", "slip"].map(Column::count));
-    let mut table = Table::new(InUnits(path.model.units), columns);
-    for Stand { load_factor, displacement, contacts: [open, stick, slip], .. } in &path.curve {
-        table.row(values![*load_factor, *displacement, *open, *stick, *slip]);
-    }
-    table
+    Columns::<&Stand>::new()
+        .number("load_factor", Pure, Significant(5), |it| it.load_factor)
+        .number("displacement", Length, Significant(5), |it| it.displacement)
+        .count("open", |it| it.contacts[0])
+        .count("stick", |it| it.contacts[1])
+        .count("slip", |it| it.contacts[2])
+        .table(InUnits(path.model.units), &path.curve)
 }
 
 /// Joints that open and slide along a path, each between two factors.
 pub(in crate::report) fn events(path: &Path) -> Table {
-    let number = |key| Column::number(key, Quantity::Pure, Digits::Significant(5));
-    let mut columns = vec![Column::count("number")];
-    columns.extend(["between", "and", "change"].map(Column::words));
-    columns.extend(["after", "before"].map(number));
-    let mut table = Table::new(InUnits(path.model.units), columns);
-    for (index, event) in path.events.iter().enumerate() {
-        let [behind, front] = sides(&path.model, event.joint.index());
-        let change = match event.change {
+    let model = &path.model;
+    let sides = |it: &Event| sides(model, &model.joints[it.joint.index()]);
+    Columns::<(usize, &Event)>::new()
+        .count("number", |it| it.0)
+        .words("between", |it| sides(it.1)[0])
+        .words("and", |it| sides(it.1)[1])
+        .words("change", |it| match it.1.change {
             Change::Hinges => "hinges",
             Change::Opens => "opens",
             Change::Slides => "slides",
-        };
-        table.row(values![index + 1, behind, front, change, event.after, event.before]);
-    }
-    table
+        })
+        .number("after", Pure, Significant(5), |it| it.1.after)
+        .number("before", Pure, Significant(5), |it| it.1.before)
+        .table(InUnits(model.units), (1..).zip(&path.events))
 }
 
 /// The least thickness of an arch.
@@ -150,15 +149,6 @@ pub(in crate::report) fn thickness(it: &Thickness) -> Vec<Figure> {
 /// The least and the largest reactions of supports.
 pub(in crate::report) fn range(range: &Range) -> Option<Table> {
     let units = InUnits(range.model.units);
-    let right = |name: &str, quantity| Column::number(name, quantity, Digits::Significant(7));
-    let columns = vec![
-        Column::words("support"),
-        Column::words(""),
-        right("least", Quantity::Force),
-        right("largest", Quantity::Force),
-        right("gaps", Quantity::Pure),
-    ];
-    let mut table = Table::new(units, columns);
     let value = |it: Extreme| match it {
         // Less than what is left open is nothing.
         Extreme::Value { value, bound } if value.abs() <= (bound - value).abs() => Value::from("0"),
@@ -166,15 +156,19 @@ pub(in crate::report) fn range(range: &Range) -> Option<Table> {
         Extreme::Unlimited => "unlimited".into(),
         Extreme::Open => "not found".into(),
     };
-    let gap = |it: Extreme| match it {
+    let gap = move |it: Extreme| match it {
         Extreme::Value { value, bound } => significant(units.force((bound - value).abs()), 1),
         Extreme::Unlimited | Extreme::Open => "-".to_owned(),
     };
-    for it in range.supports.as_ref()? {
-        for (name, [least, largest]) in [("fx", it.fx), ("fy", it.fy)] {
-            let gaps = format!("{}, {}", gap(least), gap(largest));
-            table.row(values![&it.support, name, value(least), value(largest), gaps]);
-        }
-    }
+    let supports = range.supports.as_ref()?.iter();
+    let rows = supports.flat_map(|it| [(&it.support, "fx", it.fx), (&it.support, "fy", it.fy)]);
+    let table = Columns::<(&String, &str, [Extreme; 2])>::new()
+        .words("support", |it| it.0)
+        .words("", |it| it.1)
+        .number("least", Force, Significant(7), move |it| value(it.2[0]))
+        .number("largest", Force, Significant(7), move |it| value(it.2[1]))
+        .words("gaps", move |it| it.2.map(gap).join(", "))
+        .right(true)
+        .table(units, rows);
     Some(table)
 }

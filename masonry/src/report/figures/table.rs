@@ -31,38 +31,97 @@ pub(in crate::report) struct Column {
 }
 
 impl Column {
-    pub(in crate::report) fn words(key: &str) -> Self {
-        Self { is_right: false, ..Self::number(key, Quantity::Pure, Digits::Power) }
-    }
-
-    pub(in crate::report) fn count(key: &str) -> Self {
-        Self::number(key, Quantity::Pure, Digits::Power)
-    }
-
-    pub(in crate::report) fn number(key: &str, quantity: Quantity, digits: Digits) -> Self {
-        let on_page = match digits {
-            Digits::Aligned(digits) | Digits::Significant(digits) => digits,
-            Digits::Power => 2,
-        };
-        let (key, name) = (key.to_owned(), key.to_owned());
-        Self { key, name, quantity, digits, on_page, is_right: true }
-    }
-
-    pub(in crate::report) fn named(mut self, name: &str) -> Self {
-        name.clone_into(&mut self.name);
-        self
-    }
-
-    pub(in crate::report) fn on_page(mut self, digits: usize) -> Self {
-        self.on_page = digits;
-        self
-    }
-
     /// Its name and its unit.
     pub(in crate::report) fn head(&self, units: InUnits) -> String {
         match units.unit(self.quantity).as_str() {
             "" => self.name.clone(),
             unit => format!("{} [{unit}]", self.name),
+        }
+    }
+}
+
+/// What stands in a column for a record, in SI units.
+type Entry<'a, T> = Box<dyn Fn(&T) -> Value + 'a>;
+
+/// Columns, each with what stands in it for a record.
+pub(in crate::report) struct Columns<'a, T>(Vec<(Column, Entry<'a, T>)>);
+
+impl<'a, T> Columns<'a, T> {
+    pub(in crate::report) fn new() -> Self {
+        Self(Vec::new())
+    }
+
+    pub(in crate::report) fn words<V: Into<Value>>(
+        mut self,
+        key: &str,
+        of: impl Fn(&T) -> V + 'a,
+    ) -> Self {
+        self = self.count(key, of);
+        self.right(false)
+    }
+
+    pub(in crate::report) fn count<V: Into<Value>>(
+        self,
+        key: &str,
+        of: impl Fn(&T) -> V + 'a,
+    ) -> Self {
+        self.number(key, Quantity::Pure, Digits::Power, of)
+    }
+
+    pub(in crate::report) fn number<V: Into<Value>>(
+        mut self,
+        key: &str,
+        quantity: Quantity,
+        digits: Digits,
+        of: impl Fn(&T) -> V + 'a,
+    ) -> Self {
+        let on_page = match digits {
+            Digits::Aligned(digits) | Digits::Significant(digits) => digits,
+            Digits::Power => 2,
+        };
+        let (key, name) = (key.to_owned(), key.to_owned());
+        let column = Column { key, name, quantity, digits, on_page, is_right: true };
+        self.0.push((column, Box::new(move |it| of(it).into())));
+        self
+    }
+
+    /// Gives the last column a name of its own for readers.
+    pub(in crate::report) fn named(self, name: &str) -> Self {
+        self.last(|it| name.clone_into(&mut it.name))
+    }
+
+    /// Gives the last column other digits on a page.
+    pub(in crate::report) fn on_page(self, digits: usize) -> Self {
+        self.last(|it| it.on_page = digits)
+    }
+
+    /// Puts the last column of a text on the right, or on the left.
+    pub(in crate::report) fn right(self, is_right: bool) -> Self {
+        self.last(|it| it.is_right = is_right)
+    }
+
+    fn last(mut self, change: impl FnOnce(&mut Column)) -> Self {
+        if let Some((column, _)) = self.0.last_mut() {
+            change(column);
+        }
+        self
+    }
+
+    /// The table with a row for every record.
+    pub(in crate::report) fn table(
+        &self,
+        units: InUnits,
+        records: impl IntoIterator<Item = T>,
+    ) -> Table {
+        let value = |column: &Column, value| match value {
+            Value::Number(si) => Value::Number(units.of(column.quantity, si)),
+            other => other,
+        };
+        let row = |it: T| self.0.iter().map(|(column, of)| value(column, of(&it))).collect();
+        Table {
+            units,
+            columns: self.0.iter().map(|it| it.0.clone()).collect(),
+            rows: records.into_iter().map(row).collect(),
         }
     }
 }
@@ -77,29 +136,15 @@ pub(in crate::report) struct Table {
 }
 
 impl Table {
-    pub(in crate::report) fn new(units: InUnits, columns: Vec<Column>) -> Self {
-        Self { units, columns, rows: Vec::new() }
+    /// The table with the columns of these keys, in their order.
+    pub(in crate::report) fn only(&self, keys: &str) -> Self {
+        let position = |key| self.columns.iter().position(|it| it.key == key);
+        self.picked(&keys.split(' ').filter_map(position).collect::<Vec<_>>())
     }
 
-    /// Adds a row of SI values.
-    pub(in crate::report) fn row(&mut self, values: Vec<Value>) {
-        let in_units = |(value, column): (Value, &Column)| match value {
-            Value::Number(si) => Value::Number(self.units.of(column.quantity, si)),
-            other => other,
-        };
-        let row = values.into_iter().zip(&self.columns).map(in_units).collect();
-        self.rows.push(row);
-    }
-
-    /// The table with these columns, in this order.
-    pub(in crate::report) fn only(&self, keys: &[&str]) -> Self {
-        let position = |key: &&str| self.columns.iter().position(|it| it.key == *key);
-        self.picked(&keys.iter().filter_map(position).collect::<Vec<_>>())
-    }
-
-    /// The table without these columns.
-    pub(in crate::report) fn without(&self, keys: &[&str]) -> Self {
-        let stays = |k: &usize| !keys.contains(&self.columns[*k].key.as_str());
+    /// The table without the columns of these keys.
+    pub(in crate::report) fn without(&self, keys: &str) -> Self {
+        let stays = |k: &usize| keys.split(' ').all(|key| self.columns[*k].key != key);
         self.picked(&(0..self.columns.len()).filter(stays).collect::<Vec<_>>())
     }
 
@@ -109,6 +154,12 @@ impl Table {
         };
         let columns = positions.iter().map(|k| self.columns[*k].clone()).collect();
         Self { units: self.units, columns, rows: self.rows.iter().map(row).collect() }
+    }
+
+    /// Leaves rows out, by their positions.
+    pub(in crate::report) fn retain(&mut self, stays: impl Fn(usize) -> bool) {
+        let mut position = 0..;
+        self.rows.retain(|_| position.next().is_some_and(&stays));
     }
 
     /// Every row as the members of an object.

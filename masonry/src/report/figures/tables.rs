@@ -2,33 +2,32 @@
 
 use nalgebra::Vector2;
 
-use super::{Column, Digits, Table, Value, members, values};
-use crate::model::{Body, Model};
-use crate::report::format::{InUnits, Quantity, block_name, body_name};
-use crate::report::hinges::yielding;
+use super::Digits::{Aligned, Power, Significant};
+use super::{Columns, Table, Value, members};
+use crate::model::{Body, ContactPoint, Joint, Model};
+use crate::report::format::Quantity::{
+    Area, Energy, Force, Length, Millimetres, Percent, Pure, Stress,
+};
+use crate::report::format::{InUnits, block_name, body_name};
+use crate::report::hinges::{YieldingJoint, yielding};
 use crate::report::joints::{self, JointForce, Opening};
 use crate::report::summary::{LoadGroup, Resultant};
 use crate::state::{ContactState, ContactStatus, FilmStress, Reaction, State};
-
-/// The parts of a force and its moment.
-fn parts(digits: usize, on_page: usize) -> [Column; 3] {
-    let column =
-        |key, quantity| Column::number(key, quantity, Digits::Aligned(digits)).on_page(on_page);
-    [column("fx", Quantity::Force), column("fy", Quantity::Force), column("m", Quantity::Energy)]
-}
 
 /// Forces with names.
 pub(in crate::report) fn forces<'a>(
     units: InUnits,
     list: impl IntoIterator<Item = (&'a str, Resultant)>,
 ) -> Table {
-    let mut columns = vec![Column::words("support")];
-    columns.extend(parts(6, 5));
-    let mut table = Table::new(units, columns);
-    for (name, it) in list {
-        table.row(values![name, it.force.x, it.force.y, it.moment]);
-    }
-    table
+    Columns::<(&str, Resultant)>::new()
+        .words("support", |it| it.0)
+        .number("fx", Force, Aligned(6), |it| it.1.force.x)
+        .on_page(5)
+        .number("fy", Force, Aligned(6), |it| it.1.force.y)
+        .on_page(5)
+        .number("m", Energy, Aligned(6), |it| it.1.moment)
+        .on_page(5)
+        .table(units, list)
 }
 
 /// The reactions of supports.
@@ -37,177 +36,167 @@ pub(in crate::report) fn reactions(units: InUnits, list: &[Reaction]) -> Table {
     forces(units, list.iter().map(|it| (it.support.as_str(), of(it))))
 }
 
-/// The loads of groups.
-pub(in crate::report) fn loads(units: InUnits, groups: &[LoadGroup<'_>]) -> Table {
-    let factor = Column::number("factor", Quantity::Pure, Digits::Significant(6)).on_page(4);
-    let mut columns = vec![Column::words("load"), Column::words("group"), factor];
-    columns.extend(parts(6, 4));
-    let mut table = Table::new(units, columns);
-    for group in groups {
-        for (load, Resultant { force, moment }) in &group.loads {
-            let name = load.name.as_str();
-            table.row(values![name, group.name, load.factor, force.x, force.y, *moment]);
+/// A load, or the sum of a group.
+struct LoadRow<'a> {
+    names: [&'a str; 2],
+    factor: Option<f64>,
+    sum: Resultant,
+}
+
+/// The loads of groups; with sums as readers like it, each group named once.
+pub(in crate::report) fn loads(units: InUnits, groups: &[LoadGroup<'_>], with_sums: bool) -> Table {
+    let mut rows = Vec::new();
+    for LoadGroup { name, loads, sum } in groups {
+        for (k, (load, sum)) in loads.iter().enumerate() {
+            let group = if with_sums && k > 0 { "" } else { name };
+            rows.push(LoadRow { names: [&load.name, group], factor: Some(load.factor), sum: *sum });
+        }
+        if with_sums && loads.len() > 1 {
+            rows.push(LoadRow { names: ["sum", ""], factor: None, sum: *sum });
         }
     }
-    table
+    Columns::<LoadRow<'_>>::new()
+        .words("load", |it| it.names[0])
+        .words("group", |it| it.names[1])
+        .number("factor", Pure, Significant(6), |it| it.factor.map_or("".into(), Value::from))
+        .on_page(4)
+        .number("fx", Force, Aligned(6), |it| it.sum.force.x)
+        .on_page(4)
+        .number("fy", Force, Aligned(6), |it| it.sum.force.y)
+        .on_page(4)
+        .number("m", Energy, Aligned(6), |it| it.sum.moment)
+        .table(units, rows)
 }
 
 /// By block the rates of its corners.
 pub(in crate::report) fn rates_by_name(model: &Model, rates: &[Vec<Vector2<f64>>]) -> Value {
-    let numbers = |of: [f64; 2]| Value::List(of.map(Value::Number).to_vec());
-    let of_block = |rates: &Vec<Vector2<f64>>| {
-        Value::List(rates.iter().map(|rate| numbers([rate.x, rate.y])).collect())
-    };
+    let rate = |it: &Vector2<f64>| Value::List(vec![it.x.into(), it.y.into()]);
+    let of_block = |rates: &Vec<Vector2<f64>>| Value::List(rates.iter().map(rate).collect());
     let names = model.blocks.iter().map(|block| block.name.clone());
     Value::Object(names.zip(rates.iter().map(of_block)).collect())
 }
 
 /// The bodies on both sides of a joint.
-pub(in crate::report) fn sides(model: &Model, joint: usize) -> [&str; 2] {
-    let joint = &model.joints[joint];
+pub(in crate::report) fn sides<'a>(model: &'a Model, joint: &Joint) -> [&'a str; 2] {
     [joint.a, Body::Block(joint.b)].map(|body| body_name(model, body))
+}
+
+fn class<'a>(model: &'a Model, joint: &Joint) -> &'a str {
+    model.joint_classes.get(joint.class).map_or("", |class| &class.name)
+}
+
+/// A joint that carries something or has opened.
+struct JointRow<'a> {
+    index: usize,
+    joint: &'a Joint,
+    carried: Option<&'a JointForce>,
+    opened: Option<&'a Opening>,
 }
 
 /// What every joint carries and how far it has opened.
 pub(in crate::report) fn joints(model: &Model, contacts: &[ContactState]) -> Table {
     let (forces, openings) = (joints::forces(model, contacts), joints::openings(model, contacts));
-    let number =
-        |key: &str, quantity, digits| Column::number(key, quantity, Digits::Significant(digits));
-    let mut columns = vec![
-        Column::count("joint"),
-        Column::words("between"),
-        Column::words("and"),
-        Column::words("class"),
-        number("N", Quantity::Force, 4),
-        number("T", Quantity::Force, 4),
-        number("e / l", Quantity::Pure, 3),
-        number("friction used", Quantity::Percent, 3),
-    ];
-    if !openings.is_empty() {
-        columns.push(number("open", Quantity::Millimetres, 3));
-        columns.push(number("slip", Quantity::Millimetres, 3));
-    }
-    let mut table = Table::new(InUnits(model.units), columns);
-    for (index, joint) in model.joints.iter().enumerate() {
-        let carried = forces.iter().find(|it: &&JointForce| it.joint.index() == index);
-        let opened = openings.iter().find(|it: &&Opening| it.joint.index() == index);
-        if carried.is_none() && opened.is_none() {
-            continue;
-        }
-        let [behind, front] = sides(model, index);
-        table.row(values![
-            index + 1,
-            behind,
-            front,
-            model.joint_classes.get(joint.class).map_or("", |it| &it.name),
-            carried.map(|it| it.normal),
-            carried.map(|it| it.tangential),
-            carried.map(|it| it.eccentricity),
-            carried.and_then(|it| it.utilisation),
-            opened.map(|it| it.widest),
-            opened.map(|it| it.slip),
-        ]);
-    }
-    table
+    let rows = model.joints.iter().enumerate().map(|(index, joint)| JointRow {
+        index,
+        joint,
+        carried: forces.iter().find(|it| it.joint.index() == index),
+        opened: openings.iter().find(|it| it.joint.index() == index),
+    });
+    let table = Columns::<JointRow<'_>>::new()
+        .count("joint", |it| it.index + 1)
+        .words("between", |it| sides(model, it.joint)[0])
+        .words("and", |it| sides(model, it.joint)[1])
+        .words("class", |it| class(model, it.joint))
+        .number("N", Force, Significant(4), |it| it.carried.map(|it| it.normal))
+        .number("T", Force, Significant(4), |it| it.carried.map(|it| it.tangential))
+        .number("e / l", Pure, Significant(3), |it| it.carried.map(|it| it.eccentricity))
+        .number("used", Percent, Significant(3), |it| it.carried?.utilisation)
+        .named("friction used")
+        .number("open", Millimetres, Significant(3), |it| it.opened.map(|it| it.widest))
+        .number("slip", Millimetres, Significant(3), |it| it.opened.map(|it| it.slip))
+        .table(InUnits(model.units), rows.filter(|it| it.carried.is_some() || it.opened.is_some()));
+    if openings.is_empty() { table.without("open slip") } else { table }
 }
 
 /// The joints that yield in a mechanism, with the numbers of its picture.
 pub(in crate::report) fn hinges(model: &Model, rates: &[Vec<Vector2<f64>>]) -> Table {
     /// Rates below this part of the largest are rounding errors.
     const NO_RATE: f64 = 1e-9;
-    let rate = |key| Column::number(key, Quantity::Pure, Digits::Significant(3));
-    let words = ["between", "and", "what it does"].map(Column::words);
-    let mut columns = vec![Column::count("number")];
-    columns.extend(words.into_iter().chain([rate("opens"), rate("slides")]));
-    let mut table = Table::new(InUnits(model.units), columns);
-    let mut marked = 0;
-    for it in yielding(model, rates) {
-        marked += usize::from(it.does.is_marked());
-        let number = it.does.is_marked().then_some(marked);
-        let [behind, front] = sides(model, it.joint.index());
-        let [opens, slides] =
-            [it.opens, it.slides].map(|rate| if rate > NO_RATE { rate } else { 0.0 });
-        table.row(values![number, behind, front, it.does.name(), opens, slides]);
+    let rate = |it: f64| if it > NO_RATE { it } else { 0.0 };
+    let joint = |it: &YieldingJoint| &model.joints[it.joint.index()];
+    let mut numbers = 1..;
+    let rows = yielding(model, rates).into_iter().map(|it| {
+        let number = if it.does.is_marked() { numbers.next() } else { None };
+        (number, it)
+    });
+    Columns::<(Option<usize>, YieldingJoint)>::new()
+        .count("number", |it| it.0)
+        .words("between", |it| sides(model, joint(&it.1))[0])
+        .words("and", |it| sides(model, joint(&it.1))[1])
+        .words("what it does", |it| it.1.does.name())
+        .number("opens", Pure, Significant(3), |it| rate(it.1.opens))
+        .number("slides", Pure, Significant(3), |it| rate(it.1.slides))
+        .table(InUnits(model.units), rows)
+}
+
+/// A contact point and what happens there.
+struct PointRow<'a> {
+    index: usize,
+    contact: &'a ContactPoint,
+    joint: &'a Joint,
+    state: &'a ContactState,
+    film: Option<&'a FilmStress>,
+}
+
+impl PointRow<'_> {
+    fn traction(&self, force: f64) -> f64 {
+        if self.contact.weight > 0.0 { force / self.contact.weight } else { 0.0 }
     }
-    table
 }
 
 /// All contact points, in the order of the model.
 pub(in crate::report) fn contacts(model: &Model, state: &State) -> Table {
-    let number = |key: &str, quantity| Column::number(key, quantity, Digits::Power);
-    let mut columns = vec![Column::count("index"), Column::count("joint")];
-    columns.extend(["class", "a", "b"].map(Column::words));
-    columns.extend([
-        number("x", Quantity::Length),
-        number("y", Quantity::Length),
-        number("area", Quantity::Area),
-        number("t_n", Quantity::Force),
-        number("t_t", Quantity::Force),
-        number("traction_n", Quantity::Stress),
-        number("traction_t", Quantity::Stress),
-        number("gap", Quantity::Length),
-        number("slip", Quantity::Length),
-        number("mu", Quantity::Pure),
-        Column::words("status"),
-    ]);
-    let of_films = film_columns(state);
-    columns.extend(of_films.iter().map(|(key, _)| number(key, Quantity::Stress)));
-    let mut table = Table::new(InUnits(model.units), columns);
     let mut films = state.films.iter().peekable();
-    for (index, (contact, force)) in model.contacts.iter().zip(&state.contacts).enumerate() {
-        let joint = &model.joints[contact.joint.index()];
-        let traction = |force: f64| if contact.weight > 0.0 { force / contact.weight } else { 0.0 };
-        let mut row = values![
-            index,
-            contact.joint.index(),
-            model.joint_classes.get(joint.class).map_or("", |class| &class.name),
-            match contact.a {
-                Some(anchor) => block_name(model, anchor.block),
-                None => body_name(model, joint.a),
-            },
-            block_name(model, joint.b),
-            contact.position.x,
-            contact.position.y,
-            contact.weight,
-            force.t_n,
-            force.t_t,
-            traction(force.t_n),
-            traction(force.t_t),
-            force.y_n,
-            force.y_t,
-            contact.law.mu,
-            status_name(force.status),
-        ];
-        let film = films.next_if(|film| film.contact.index() == index);
-        row.extend(of_films.iter().map(|(_, stress)| Value::from(film.and_then(*stress))));
-        table.row(row);
-    }
-    table
-}
-
-/// The name of a column and the stress in it.
-type FilmColumn = (&'static str, fn(&FilmStress) -> Option<f64>);
-
-const FILM_COLUMNS: [FilmColumn; 3] = [
-    ("film_sigma_x", |film| film.sigma_x),
-    ("film_sigma_y", |film| Some(film.sigma_y)),
-    ("film_tau", |film| Some(film.tau)),
-];
-
-/// The columns for which there are values.
-fn film_columns(state: &State) -> &'static [FilmColumn] {
+    let points = model.contacts.iter().zip(&state.contacts).enumerate();
+    let rows = points.map(|(index, (contact, state))| PointRow {
+        index,
+        contact,
+        joint: &model.joints[contact.joint.index()],
+        state,
+        film: films.next_if(|film| film.contact.index() == index),
+    });
+    let table = Columns::<PointRow<'_>>::new()
+        .count("index", |it| it.index)
+        .count("joint", |it| it.contact.joint.index())
+        .words("class", |it| class(model, it.joint))
+        .words("a", |it| match it.contact.a {
+            Some(anchor) => block_name(model, anchor.block),
+            None => body_name(model, it.joint.a),
+        })
+        .words("b", |it| block_name(model, it.joint.b))
+        .number("x", Length, Power, |it| it.contact.position.x)
+        .number("y", Length, Power, |it| it.contact.position.y)
+        .number("area", Area, Power, |it| it.contact.weight)
+        .number("t_n", Force, Power, |it| it.state.t_n)
+        .number("t_t", Force, Power, |it| it.state.t_t)
+        .number("traction_n", Stress, Power, |it| it.traction(it.state.t_n))
+        .number("traction_t", Stress, Power, |it| it.traction(it.state.t_t))
+        .number("gap", Length, Power, |it| it.state.y_n)
+        .number("slip", Length, Power, |it| it.state.y_t)
+        .number("mu", Pure, Power, |it| it.contact.law.mu)
+        .words("status", |it| match it.state.status {
+            ContactStatus::Open => "open",
+            ContactStatus::Stick => "stick",
+            ContactStatus::Slip => "slip",
+        })
+        .number("film_sigma_x", Stress, Power, |it| it.film?.sigma_x)
+        .number("film_sigma_y", Stress, Power, |it| Some(it.film?.sigma_y))
+        .number("film_tau", Stress, Power, |it| Some(it.film?.tau))
+        .table(InUnits(model.units), rows);
     match state.films.first() {
-        None => &[],
-        Some(film) if film.sigma_x.is_none() => &FILM_COLUMNS[1..],
-        Some(_) => &FILM_COLUMNS,
-    }
-}
-
-fn status_name(status: ContactStatus) -> &'static str {
-    match status {
-        ContactStatus::Open => "open",
-        ContactStatus::Stick => "stick",
-        ContactStatus::Slip => "slip",
+        None => table.without("film_sigma_x film_sigma_y film_tau"),
+        Some(film) if film.sigma_x.is_none() => table.without("film_sigma_x"),
+        Some(_) => table,
     }
 }
 

@@ -17,11 +17,6 @@ pub(in crate::report) enum Value {
     Json(String),
 }
 
-/// A list of values.
-macro_rules! values {
-    ($($value:expr),* $(,)?) => { vec![$($crate::report::figures::Value::from($value)),*] };
-}
-
 /// Members of an object.
 macro_rules! members {
     ($($key:literal: $value:expr),* $(,)?) => {
@@ -29,7 +24,7 @@ macro_rules! members {
     };
 }
 
-pub(in crate::report) use {members, values};
+pub(in crate::report) use members;
 
 impl Value {
     /// What knows by itself how it is written.
@@ -50,76 +45,47 @@ impl Value {
             Self::Number(it) => serde_json::to_string(it)?,
             Self::Words(it) => serde_json::to_string(it)?,
             Self::Json(text) => text.clone(),
-            Self::List(items) => {
-                let items: Result<Vec<_>, _> = items.iter().map(Self::pretty).collect();
-                enclosed(["[", "]"], &items?)
-            }
+            Self::List(items) => enclosed(["[", "]"], items.iter().map(Self::pretty))?,
             Self::Object(members) => {
                 let member = |(key, value): &(String, Self)| {
                     Ok(format!("{}: {}", serde_json::to_string(key)?, value.pretty()?))
                 };
-                let members: Result<Vec<_>, _> = members.iter().map(member).collect();
-                enclosed(["{", "}"], &members?)
+                enclosed(["{", "}"], members.iter().map(member))?
             }
         })
     }
 }
 
 /// Items on lines of their own; strings of JSON have no line breaks, so that all lines can be indented.
-fn enclosed([open, close]: [&str; 2], items: &[String]) -> String {
-    if items.is_empty() {
-        return format!("{open}{close}");
-    }
-    let lines = items.join(",\n").replace('\n', "\n  ");
-    format!("{open}\n  {lines}\n{close}")
+fn enclosed(
+    [open, close]: [&str; 2],
+    items: impl Iterator<Item = Result<String, serde_json::Error>>,
+) -> Result<String, serde_json::Error> {
+    let lines = items.collect::<Result<Vec<_>, _>>()?.join(",\n").replace('\n', "\n  ");
+    let lines = if lines.is_empty() { lines } else { format!("\n  {lines}\n") };
+    Ok(format!("{open}{lines}{close}"))
 }
 
-impl From<bool> for Value {
-    fn from(it: bool) -> Self {
-        Self::Flag(it)
-    }
+/// Conversions of what a value holds.
+macro_rules! from {
+    ($($type:ty => $value:expr),* $(,)?) => {
+        $(impl From<$type> for Value {
+            fn from(it: $type) -> Self {
+                ($value)(it)
+            }
+        })*
+    };
 }
 
-impl From<usize> for Value {
-    fn from(it: usize) -> Self {
-        Self::Count(it)
-    }
-}
-
-impl From<f64> for Value {
-    fn from(it: f64) -> Self {
-        Self::Number(it)
-    }
-}
-
-impl From<&str> for Value {
-    fn from(it: &str) -> Self {
-        Self::Words(it.to_owned())
-    }
-}
-
-impl From<String> for Value {
-    fn from(it: String) -> Self {
-        Self::Words(it)
-    }
-}
-
-impl From<&String> for Value {
-    fn from(it: &String) -> Self {
-        Self::Words(it.clone())
-    }
-}
-
-impl From<Vec<(String, Value)>> for Value {
-    fn from(members: Vec<(String, Value)>) -> Self {
-        Self::Object(members)
-    }
-}
-
-impl From<&[String]> for Value {
-    fn from(list: &[String]) -> Self {
-        Self::List(list.iter().map(Self::from).collect())
-    }
+from! {
+    bool => Self::Flag,
+    usize => Self::Count,
+    f64 => Self::Number,
+    String => Self::Words,
+    &str => |it: &str| Self::Words(it.to_owned()),
+    &String => |it: &String| Self::Words(it.clone()),
+    Vec<(String, Value)> => Self::Object,
+    &[String] => |list: &[String]| Self::List(list.iter().map(Self::from).collect()),
 }
 
 impl<T: Into<Value>> From<Option<T>> for Value {

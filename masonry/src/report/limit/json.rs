@@ -110,7 +110,7 @@ fn event(model: &Model, event: &Event) -> Written {
     let middle = nalgebra::center(&joint.from, &joint.to);
     let at = [middle.x, middle.y].map(|it| units.length(it).into());
     Ok(Value::Object(members! {
-        "between": Value::List(sides(model, event.joint.index()).map(Value::from).to_vec()),
+        "between": Value::List(sides(model, joint).map(Value::from).to_vec()),
         "at": Value::List(at.to_vec()),
         "change": Value::of(&event.change)?,
         "after": event.after,

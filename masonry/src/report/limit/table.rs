@@ -59,7 +59,7 @@ fn of_events(path: &Path) -> String {
     if path.events.is_empty() {
         return String::new();
     }
-    let mut list = figures::limit::events(path).without(&["number"]);
+    let mut list = figures::limit::events(path).without("number");
     list.columns[2].name = "joint".to_owned();
     list.rows.truncate(EVENTS);
     let more = match path.events.len().saturating_sub(EVENTS) {

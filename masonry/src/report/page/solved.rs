@@ -149,6 +149,6 @@ fn tables_of(outcome: &Outcome) -> String {
     if let Some(state) = &outcome.state {
         list += &tables::joints("Joints", model, &state.contacts);
     }
-    let loads = figures::tables::loads(InUnits(model.units), &load_groups(model));
-    list + &section("Loads", "", &loads.without(&["m"]))
+    let loads = figures::tables::loads(InUnits(model.units), &load_groups(model), false);
+    list + &section("Loads", "", &loads.without("m"))
 }

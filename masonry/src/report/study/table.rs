@@ -8,17 +8,8 @@ use crate::report::figures::Table;
 use crate::report::format::significant;
 use crate::report::text::{drawn, paragraph, section, underlined};
 
-const RECORDS: [&str; 9] = [
-    "route",
-    "asked",
-    "status",
-    "residual",
-    "took",
-    "iterations",
-    "error_force",
-    "error_stress",
-    "error_energy",
-];
+const RECORDS: &str =
+    "route asked status residual took iterations error_force error_stress error_energy";
 
 /// The whole report: what it comes to, the records, the meshes.
 pub fn table(study: &Study) -> String {
@@ -52,7 +43,7 @@ pub fn table(study: &Study) -> String {
 
 fn records(study: &Study, mesh: &Mesh) -> String {
     let of_mesh = study.records.iter().filter(|it| it.mesh == mesh.factor);
-    wide(&figures::records(study, of_mesh).only(&RECORDS))
+    wide(&figures::records(study, of_mesh).only(RECORDS))
 }
 
 /// What was skipped: for each route and reason the meshes.

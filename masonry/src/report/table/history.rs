@@ -20,8 +20,7 @@ pub(super) fn history(model: &Model, history: &History) -> String {
     if records.len() > MOST_ROWS {
         let last = records.len() - 1;
         let is_end = |k: usize| records[k].step.number == records[k].step.of || k == last;
-        rows.rows =
-            rows.rows.into_iter().enumerate().filter(|it| is_end(it.0)).map(|it| it.1).collect();
+        rows.retain(is_end);
     }
     let mut table = drawn(&rows);
     table.set_header(HEADS);
