@@ -6,7 +6,6 @@ mod picture;
 mod summary;
 mod table;
 
-use std::io;
 use std::path::{Path, PathBuf};
 
 pub use json::json;
@@ -23,12 +22,11 @@ use crate::analysis::study::Study;
 /// # Errors
 /// [`OutputError`] for a directory that cannot be made, and for files that cannot be written.
 pub fn write(study: &Study, dir: &Path) -> Result<Vec<PathBuf>, OutputError> {
-    let mut files = vec![("study.csv", Ok(csv(study)))];
-    files.extend(accuracy(study).map(|text| ("accuracy.svg", Ok(text))));
-    let mut names: Vec<&str> = files.iter().map(|(name, _)| *name).collect();
-    names.push("study.json");
-    files.push(("study.json", json(study, &names).map_err(io::Error::from)));
-    write_files(dir, files)
+    let mut files = vec![("study.csv", csv(study).into_bytes())];
+    files.extend(accuracy(study).map(|text| ("accuracy.svg", text.into_bytes())));
+    write_files(dir, files, Some("study.json"), |names| {
+        json(study, &names.iter().map(String::as_str).collect::<Vec<_>>())
+    })
 }
 
 /// The text of `study.csv`: one row for each mesh, route and tolerance.
