@@ -52,9 +52,10 @@ pub(super) fn on_page(figures: &[Figure]) -> Vec<Said> {
     figures.iter().filter_map(|it| it.page.clone()).collect()
 }
 
-/// The figure of this key, for JSON.
-pub(super) fn value(figures: &[Figure], key: &str) -> Value {
-    figures.iter().find(|it| it.key == key).map_or(Value::Nothing, |it| it.value.clone())
+/// Figures as members of an object of JSON, null if they are not known.
+pub(super) fn in_json(figures: &[Figure], keys: &str) -> Vec<(String, Value)> {
+    let value = |key: &str| figures.iter().find(|it| it.key == key).map(|it| it.value.clone());
+    keys.split(' ').map(|key| (key.to_owned(), value(key).into())).collect()
 }
 
 pub(super) fn yes_or_no(it: bool) -> String {

@@ -1,7 +1,7 @@
 //! The result of a scene as one JSON object.
 
 use super::figures::tables::{forces, loads, rates_by_name, reactions};
-use super::figures::{Value, history, members, solved, value};
+use super::figures::{Value, history, in_json, members, solved};
 use super::format::InUnits;
 use super::summary::{self, CornerSum, LoadGroup, Resultant, corner_sums, load_groups, reason};
 use crate::analysis::outcome::{Outcome, PhaseTime};
@@ -25,7 +25,6 @@ pub fn result(outcome: &Outcome, files: &[String]) -> Result<String, serde_json:
     let (model, solve, judgement) = (&outcome.model, &outcome.solve, &outcome.judgement);
     let (units, state) = (InUnits(model.units), outcome.state.as_ref());
     let figures = [solved::checks(outcome), solved::state(outcome)].concat();
-    let figure = |key| value(&figures, key);
     let mut object = members! {
         "verdict": Value::of(&judgement.verdict)?,
         "evidence": Value::of(&judgement.evidence)?,
@@ -55,21 +54,18 @@ pub fn result(outcome: &Outcome, files: &[String]) -> Result<String, serde_json:
         "memory_bytes": outcome.plan.memory_bytes(),
         "residuals": Value::of(&state.map(|_| solve.residuals))?,
         "coulomb_residuals": Value::of(&solve.coulomb_residuals)?,
-        "balance": figure("balance"),
+    });
+    object.extend(in_json(&figures, "balance"));
+    object.extend(members! {
         "reactions": state.map(|_| reactions(units, &outcome.reactions).by_name()),
         "corners": state.map(|_| corners(outcome)),
     });
     object.extend(totals(model));
-    object.extend(members! {
-        "load_groups": groups(model),
-        "contacts": figure("contacts"),
-        "strain_energy": figure("strain_energy"),
-        "max_displacement": figure("max_displacement"),
-        "max_compression": figure("max_compression"),
-        "max_tension": figure("max_tension"),
-    });
+    object.extend(members! { "load_groups": groups(model) });
+    let of_state = "contacts strain_energy max_displacement max_compression max_tension";
+    object.extend(in_json(&figures, of_state));
     if figures.iter().any(|it| it.key == "films") {
-        object.extend(members! { "films": figure("films") });
+        object.extend(in_json(&figures, "films"));
     }
     object.extend(members! { "proved": solve.proved, "soft": Value::of(&solve.soft)? });
     if let Some(found) = &outcome.history {

@@ -24,7 +24,7 @@ struct Row<'a> {
 }
 
 /// A row for every step that was solved.
-fn steps(model: &Model, history: &History) -> Table {
+pub(in crate::report) fn steps(model: &Model, history: &History) -> Table {
     let (mut work, mut dissipated, mut left) = (0.0, 0.0, 0.0);
     let rows = (1..).zip(&history.records).map(|(number, it)| {
         work += it.work;
@@ -57,10 +57,8 @@ fn columns<'a>(model: &'a Model, history: &'a History) -> Columns<'a, Row<'a>> {
     }
     list = list
         .number("work", Energy, Aligned(3), |it| it.it.work)
-        .on_page(4)
         .number("dissipation", Energy, Aligned(3), |it| it.it.dissipation)
         .named("dissipated")
-        .on_page(4)
         .number("W", Energy, Aligned(3), |it| it.work)
         .number("D", Energy, Aligned(3), |it| it.dissipated)
         .number("friction_power", Pure, Aligned(3), |it| it.it.friction_power)
@@ -70,7 +68,6 @@ fn columns<'a>(model: &'a Model, history: &'a History) -> Columns<'a, Row<'a>> {
         .number("balance", Energy, Aligned(3), |it| it.left - it.it.strain_energy)
         .number("max_displacement", Length, Aligned(3), |it| it.it.largest_displacement)
         .named("largest displacement")
-        .on_page(4)
         .count("open", |it| it.it.contacts[0])
         .count("stick", |it| it.it.contacts[1])
         .count("slip", |it| it.it.contacts[2]);

@@ -24,8 +24,6 @@ pub(in crate::report) struct Column {
     pub(in crate::report) name: String,
     pub(in crate::report) quantity: Quantity,
     pub(in crate::report) digits: Digits,
-    /// Significant digits on a page.
-    pub(in crate::report) on_page: usize,
     /// Whether a text has it on the right.
     pub(in crate::report) is_right: bool,
 }
@@ -75,12 +73,8 @@ impl<'a, T> Columns<'a, T> {
         digits: Digits,
         of: impl Fn(&T) -> V + 'a,
     ) -> Self {
-        let on_page = match digits {
-            Digits::Aligned(digits) | Digits::Significant(digits) => digits,
-            Digits::Power => 2,
-        };
         let (key, name) = (key.to_owned(), key.to_owned());
-        let column = Column { key, name, quantity, digits, on_page, is_right: true };
+        let column = Column { key, name, quantity, digits, is_right: true };
         self.0.push((column, Box::new(move |it| of(it).into())));
         self
     }
@@ -88,11 +82,6 @@ impl<'a, T> Columns<'a, T> {
     /// Gives the last column a name of its own for readers.
     pub(in crate::report) fn named(self, name: &str) -> Self {
         self.last(|it| name.clone_into(&mut it.name))
-    }
-
-    /// Gives the last column other digits on a page.
-    pub(in crate::report) fn on_page(self, digits: usize) -> Self {
-        self.last(|it| it.on_page = digits)
     }
 
     /// Puts the last column of a text on the right, or on the left.
@@ -138,14 +127,18 @@ pub(in crate::report) struct Table {
 impl Table {
     /// The table with the columns of these keys, in their order.
     pub(in crate::report) fn only(&self, keys: &str) -> Self {
-        let position = |key| self.columns.iter().position(|it| it.key == key);
-        self.picked(&keys.split(' ').filter_map(position).collect::<Vec<_>>())
+        let positions = keys.split(' ').filter_map(|key| self.position(key));
+        self.picked(&positions.collect::<Vec<_>>())
     }
 
     /// The table without the columns of these keys.
     pub(in crate::report) fn without(&self, keys: &str) -> Self {
         let stays = |k: &usize| keys.split(' ').all(|key| self.columns[*k].key != key);
         self.picked(&(0..self.columns.len()).filter(stays).collect::<Vec<_>>())
+    }
+
+    fn position(&self, key: &str) -> Option<usize> {
+        self.columns.iter().position(|it| it.key == key)
     }
 
     fn picked(&self, positions: &[usize]) -> Self {
@@ -156,10 +149,27 @@ impl Table {
         Self { units: self.units, columns, rows: self.rows.iter().map(row).collect() }
     }
 
+    /// The table with so many digits of all numbers.
+    pub(in crate::report) fn with_digits(mut self, digits: usize) -> Self {
+        self.columns.iter_mut().for_each(|it| it.digits = Digits::Significant(digits));
+        self
+    }
+
     /// Leaves rows out, by their positions.
     pub(in crate::report) fn retain(&mut self, stays: impl Fn(usize) -> bool) {
         let mut position = 0..;
         self.rows.retain(|_| position.next().is_some_and(&stays));
+    }
+
+    /// The numbers of a column.
+    pub(in crate::report) fn numbers(&self, key: &str) -> Vec<f64> {
+        let number = |value: &Value| match value {
+            Value::Number(it) => Some(*it),
+            Value::Count(it) => Some(*it as f64),
+            _ => None,
+        };
+        let values = self.rows.iter().filter_map(|row| row.get(self.position(key)?));
+        values.filter_map(number).collect()
     }
 
     /// Every row as the members of an object.

@@ -22,11 +22,8 @@ pub(in crate::report) fn forces<'a>(
     Columns::<(&str, Resultant)>::new()
         .words("support", |it| it.0)
         .number("fx", Force, Aligned(6), |it| it.1.force.x)
-        .on_page(5)
         .number("fy", Force, Aligned(6), |it| it.1.force.y)
-        .on_page(5)
         .number("m", Energy, Aligned(6), |it| it.1.moment)
-        .on_page(5)
         .table(units, list)
 }
 
@@ -59,11 +56,8 @@ pub(in crate::report) fn loads(units: InUnits, groups: &[LoadGroup<'_>], with_su
         .words("load", |it| it.names[0])
         .words("group", |it| it.names[1])
         .number("factor", Pure, Significant(6), |it| it.factor.map_or("".into(), Value::from))
-        .on_page(4)
         .number("fx", Force, Aligned(6), |it| it.sum.force.x)
-        .on_page(4)
         .number("fy", Force, Aligned(6), |it| it.sum.force.y)
-        .on_page(4)
         .number("m", Energy, Aligned(6), |it| it.sum.moment)
         .table(units, rows)
 }

@@ -6,7 +6,7 @@ use crate::analysis::limit::{
 use crate::method::statics::limit::Extreme;
 use crate::model::Model;
 use crate::report::figures::tables::{reactions, sides};
-use crate::report::figures::{self, Value, members, value};
+use crate::report::figures::{self, Value, in_json, members};
 use crate::report::format::InUnits;
 use crate::report::json::times;
 
@@ -64,25 +64,19 @@ fn report(limit: &Limit, files: &[String]) -> Written {
 
 fn associative(found: &Associative, model: &Model) -> Written {
     let figures = figures::limit::associative(found, model);
-    let figure = |key| value(&figures, key);
-    let mut object = members! {
-        "answer": Value::of(&found.answer)?,
-        "load_factor": figure("load_factor"),
-        "bound": figure("bound"),
-        "gap": figure("gap"),
-        "proved": figure("proved"),
-        "reactions": reactions(InUnits(model.units), &found.reactions).by_name(),
-        "mechanism": figure("mechanism"),
-    };
-    if found.rest.is_some() {
-        object.extend(members! { "rest": figure("rest") });
-    }
+    let mut object = members! { "answer": Value::of(&found.answer)? };
+    object.extend(in_json(&figures, "load_factor bound gap proved"));
+    let reactions = reactions(InUnits(model.units), &found.reactions);
+    object.extend(members! { "reactions": reactions.by_name() });
+    object.extend(in_json(
+        &figures,
+        if found.rest.is_some() { "mechanism rest" } else { "mechanism" },
+    ));
     Ok(Value::Object(object))
 }
 
 fn path(path: &Path) -> Written {
     let figures = figures::limit::path(path);
-    let figure = |key| value(&figures, key);
     let units = InUnits(path.model.units);
     let curve = figures::limit::curve(path).objects();
     let last = curve.last().map(|state| {
@@ -91,16 +85,15 @@ fn path(path: &Path) -> Written {
         state
     });
     let events: Result<Vec<_>, _> = path.events.iter().map(|it| event(&path.model, it)).collect();
-    Ok(Value::Object(members! {
-        "load_factor": figure("load_factor"),
-        "falls": figure("falls"),
-        "decided": figure("decided"),
-        "last_stable": last,
-        "mechanism": figure("mechanism"),
+    let mut object = in_json(&figures, "load_factor falls decided");
+    object.extend(members! { "last_stable": last });
+    object.extend(in_json(&figures, "mechanism"));
+    object.extend(members! {
         "events": Value::List(events?),
         "curve": Value::List(curve.into_iter().map(Value::Object).collect()),
         "dry_joints": path.model.dry_joints(),
-    }))
+    });
+    Ok(Value::Object(object))
 }
 
 /// The two bodies that meet, the middle of their joint, and what it does between two factors.
@@ -168,20 +161,18 @@ fn ends([min, max]: [Extreme; 2], units: InUnits) -> Value {
 /// # Errors
 /// As [`json`].
 pub fn thickness_json(it: &Thickness, files: &[String]) -> Result<String, serde_json::Error> {
-    let figures = figures::limit::thickness(it);
-    let figure = |key| value(&figures, key);
-    let rates = it.mechanism.as_ref();
-    Value::Object(members! {
+    let mut object = members! {
         "sentence": &it.sentence,
         "interrupted": it.is_interrupted,
         "title": &it.title,
         "arch": &it.arch,
         "length": it.model.units.length_name(),
-        "falls": figure("falls"),
-        "stands": figure("stands"),
-        "proved": figure("proved"),
+    };
+    object.extend(in_json(&figures::limit::thickness(it), "falls stands proved"));
+    let rates = it.mechanism.as_ref();
+    object.extend(members! {
         "mechanism": rates.map(|rates| figures::tables::rates_by_name(&it.model, rates)),
         "files": files,
-    })
-    .file()
+    });
+    Value::Object(object).file()
 }

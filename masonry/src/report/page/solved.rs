@@ -141,7 +141,7 @@ fn tables_of(outcome: &Outcome) -> String {
     let mut list = tables::reactions("Reactions", model, &outcome.reactions);
     if let Some(history) = &outcome.history {
         let note = "Work and dissipated energy are those of the step.";
-        list += &section("Steps", note, &figures::history::on_page(model, history));
+        list += &section("Steps", note, &figures::history::on_page(model, history).with_digits(4));
     }
     if let Some(rates) = &outcome.mechanism {
         list += &tables::hinges("Joints of the mechanism", model, rates);
@@ -150,5 +150,5 @@ fn tables_of(outcome: &Outcome) -> String {
         list += &tables::joints("Joints", model, &state.contacts);
     }
     let loads = figures::tables::loads(InUnits(model.units), &load_groups(model), false);
-    list + &section("Loads", "", &loads.without("m"))
+    list + &section("Loads", "", &loads.without("m").with_digits(4))
 }

@@ -3,7 +3,7 @@
 use nalgebra::Vector2;
 
 use crate::model::Model;
-use crate::report::figures::{Column, Table, Value, tables};
+use crate::report::figures::{Column, Digits, Table, Value, tables};
 use crate::report::format::{InUnits, significant};
 use crate::report::svg::escaped;
 use crate::state::{ContactState, Reaction};
@@ -20,7 +20,8 @@ pub(super) fn section(title: &str, note: &str, table: &Table) -> String {
     let head = |it: &Column| format!("<th scope=\"col\">{}</th>", escaped(&it.head(table.units)));
     let heads: String = table.columns.iter().map(head).collect();
     let row = |values: &Vec<Value>| {
-        let cells: String = values.iter().zip(&table.columns).map(cell).collect();
+        let cells: String =
+            values.iter().zip(&table.columns).map(|(value, it)| cell(value, it)).collect();
         format!("<tr>{cells}</tr>\n")
     };
     let rows: String = table.rows.iter().map(row).collect();
@@ -32,13 +33,19 @@ pub(super) fn section(title: &str, note: &str, table: &Table) -> String {
 }
 
 /// Words are sorted as such; nothing is sorted last.
-fn cell((value, column): (&Value, &Column)) -> String {
+fn cell(value: &Value, column: &Column) -> String {
     let number = |value: f64, text: &str| {
         format!("<td class=\"number\" data-value=\"{value:e}\">{}</td>", escaped(text))
     };
     match value {
         Value::Words(text) => format!("<td>{}</td>", escaped(text)),
-        Value::Number(it) => number(*it, &significant(*it, column.on_page)),
+        Value::Number(it) => number(
+            *it,
+            &match column.digits {
+                Digits::Aligned(digits) | Digits::Significant(digits) => significant(*it, digits),
+                Digits::Power => format!("{it:.1e}"),
+            },
+        ),
         Value::Count(it) => number(*it as f64, &it.to_string()),
         _ => "<td></td>".to_owned(),
     }
@@ -47,7 +54,7 @@ fn cell((value, column): (&Value, &Column)) -> String {
 /// The reactions of supports.
 pub(super) fn reactions(title: &str, model: &Model, list: &[Reaction]) -> String {
     let note = "Forces on the structure; moments about the origin.";
-    section(title, note, &tables::reactions(InUnits(model.units), list))
+    section(title, note, &tables::reactions(InUnits(model.units), list).with_digits(5))
 }
 
 /// What every joint carries and how far it has opened.
