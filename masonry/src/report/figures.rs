@@ -37,6 +37,11 @@ impl Figure {
         Self { text: Some((name, text)), ..self }
     }
 
+    /// The same in text and on a page.
+    pub(super) fn both(self, name: &'static str, text: String) -> Self {
+        self.text(name, text.clone()).page(name, text)
+    }
+
     pub(super) fn page(self, name: &'static str, text: String) -> Self {
         Self { page: Some((name, text)), ..self }
     }

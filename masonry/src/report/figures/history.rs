@@ -24,7 +24,7 @@ struct Row<'a> {
 }
 
 /// A row for every step that was solved.
-pub(in crate::report) fn steps(model: &Model, history: &History) -> Table {
+pub(crate) fn steps(model: &Model, history: &History) -> Table {
     let (mut work, mut dissipated, mut left) = (0.0, 0.0, 0.0);
     let rows = (1..).zip(&history.records).map(|(number, it)| {
         work += it.work;
@@ -86,29 +86,26 @@ fn columns<'a>(model: &'a Model, history: &'a History) -> Columns<'a, Row<'a>> {
 }
 
 /// The number of a step and of all of its stage.
-pub(in crate::report) fn place(step: &Step) -> String {
+pub(crate) fn place(step: &Step) -> String {
     format!("{}/{}", step.number, step.of)
 }
 
-pub(in crate::report) fn in_csv(model: &Model, history: &History) -> Table {
+pub(crate) fn in_csv(model: &Model, history: &History) -> Table {
     steps(model, history).without("number of place route W D dragged balance")
 }
 
-pub(in crate::report) fn on_page(model: &Model, history: &History) -> Table {
+pub(crate) fn on_page(model: &Model, history: &History) -> Table {
     steps(model, history)
         .only("number stage step max_displacement work dissipation open stick slip")
 }
 
-pub(in crate::report) fn in_text(model: &Model, history: &History) -> Table {
+pub(crate) fn in_text(model: &Model, history: &History) -> Table {
     steps(model, history)
         .only("stage place W D strain_energy balance max_displacement open stick slip way")
 }
 
 /// The object of a history; `failed` is the step that could not be solved.
-pub(in crate::report) fn in_json(
-    model: &Model,
-    history: &History,
-) -> Result<Value, serde_json::Error> {
+pub(crate) fn in_json(model: &Model, history: &History) -> Result<Value, serde_json::Error> {
     let units = InUnits(model.units);
     let all = steps(model, history);
     let [before, after] = [ACTIONS, FOUND].map(|keys| all.only(keys).objects());

@@ -16,7 +16,7 @@ fn bound(it: Option<f64>, side: Side, digits: usize) -> String {
 }
 
 /// The limit load of associated flow.
-pub(in crate::report) fn associative(found: &Associative, model: &Model) -> Vec<Figure> {
+pub(crate) fn associative(found: &Associative, model: &Model) -> Vec<Figure> {
     let Associative { load_factor, bound: limit, .. } = *found;
     let meant = |it: Option<f64>, side, what: &str| match it {
         Some(_) => format!("{}, {what}", bound(it, side, 10)),
@@ -34,24 +34,19 @@ pub(in crate::report) fn associative(found: &Associative, model: &Model) -> Vec<
             .page("cannot stand above", bound(limit, Side::Above, 5)),
         Figure::new("gap", gap)
             .text("gap", gap.map_or("none".to_owned(), |gap| significant(gap, 2))),
-        Figure::new("proved", found.proved)
-            .text("proved", yes_or_no(found.proved))
-            .page("proved", yes_or_no(found.proved)),
+        Figure::new("proved", found.proved).both("proved", yes_or_no(found.proved)),
     ];
     list.extend(found.mechanism.as_ref().map(|rates| moves(model, rates)));
     list.extend(found.rest.map(|rest| {
-        let text = carried_by_rest(rest);
         let object = members! { "load_factor": rest.load_factor, "bound": rest.bound };
-        Figure::new("rest", object).text("the rest", text.clone()).page("the rest", text)
+        Figure::new("rest", object).both("the rest", carried_by_rest(rest))
     }));
     list
 }
 
 fn moves(model: &Model, rates: &[Vec<nalgebra::Vector2<f64>>]) -> Figure {
     let part = moving_part(model, rates);
-    Figure::new("mechanism", rates_by_name(model, rates))
-        .text("moves", part.clone())
-        .page("moves", part)
+    Figure::new("mechanism", rates_by_name(model, rates)).both("moves", part)
 }
 
 /// What the rest of a structure carries if the part that moves is held.
@@ -72,7 +67,7 @@ fn carried_by_rest(Rest { load_factor, bound }: Rest) -> String {
 }
 
 /// The limit load along a path.
-pub(in crate::report) fn path(path: &Path) -> Vec<Figure> {
+pub(crate) fn path(path: &Path) -> Vec<Figure> {
     let units = InUnits(path.model.units);
     let factor = bound(path.load_factor, Side::Below, 10);
     let factor = format!("{factor}, the last at which blocks rest");
@@ -98,7 +93,7 @@ pub(in crate::report) fn path(path: &Path) -> Vec<Figure> {
 }
 
 /// The states at rest, by growing factor.
-pub(in crate::report) fn curve(path: &Path) -> Table {
+pub(crate) fn curve(path: &Path) -> Table {
     Columns::<&Stand>::new()
         .number("load_factor", Pure, Significant(5), |it| it.load_factor)
         .number("displacement", Length, Significant(5), |it| it.displacement)
@@ -109,7 +104,7 @@ pub(in crate::report) fn curve(path: &Path) -> Table {
 }
 
 /// Joints that open and slide along a path, each between two factors.
-pub(in crate::report) fn events(path: &Path) -> Table {
+pub(crate) fn events(path: &Path) -> Table {
     let model = &path.model;
     let sides = |it: &Event| sides(model, &model.joints[it.joint.index()]);
     Columns::<(usize, &Event)>::new()
@@ -127,7 +122,7 @@ pub(in crate::report) fn events(path: &Path) -> Table {
 }
 
 /// The least thickness of an arch.
-pub(in crate::report) fn thickness(it: &Thickness) -> Vec<Figure> {
+pub(crate) fn thickness(it: &Thickness) -> Vec<Figure> {
     let units = InUnits(it.model.units);
     let unit = units.0.length_name();
     let figure = |key, name, metres: Option<f64>, side| {
@@ -140,14 +135,12 @@ pub(in crate::report) fn thickness(it: &Thickness) -> Vec<Figure> {
     vec![
         figure("stands", "stands at", it.stands, Side::Above),
         figure("falls", "falls at", it.falls, Side::Below),
-        Figure::new("proved", it.proved)
-            .text("proved", yes_or_no(it.proved))
-            .page("proved", yes_or_no(it.proved)),
+        Figure::new("proved", it.proved).both("proved", yes_or_no(it.proved)),
     ]
 }
 
 /// The least and the largest reactions of supports.
-pub(in crate::report) fn range(range: &Range) -> Option<Table> {
+pub(crate) fn range(range: &Range) -> Option<Table> {
     let units = InUnits(range.model.units);
     let value = |it: Extreme| match it {
         // Less than what is left open is nothing.

@@ -14,7 +14,7 @@ use crate::report::summary::{
 use crate::state::{FilmStress, State};
 
 /// Errors of balances, and how many contact points are open, stick and slip.
-pub(in crate::report) fn checks(outcome: &Outcome) -> Vec<Figure> {
+pub(crate) fn checks(outcome: &Outcome) -> Vec<Figure> {
     let Some(it) = &outcome.checks else { return Vec::new() };
     // Keys, names and values.
     let errors = [
@@ -34,20 +34,19 @@ pub(in crate::report) fn checks(outcome: &Outcome) -> Vec<Figure> {
         Figure::new("balance", balance)
             .text("balance", listed(&errors.map(|(_, name, value)| (name, value)))),
         Figure::new("contacts", counts([it.open, it.stick, it.slip]))
-            .text("contact points", points.clone())
-            .page("contact points", points),
+            .both("contact points", points),
     ]
 }
 
 /// Names and numbers in a line.
-pub(in crate::report) fn listed(values: &[(&str, f64)]) -> String {
+pub(crate) fn listed(values: &[(&str, f64)]) -> String {
     let texts: Vec<String> =
         values.iter().map(|(name, value)| format!("{name} {}", significant(*value, 3))).collect();
     texts.join(", ")
 }
 
 /// Extremes of displacements, cracks, stresses and friction.
-pub(in crate::report) fn state(outcome: &Outcome) -> Vec<Figure> {
+pub(crate) fn state(outcome: &Outcome) -> Vec<Figure> {
     let Some(state) = &outcome.state else { return Vec::new() };
     let model = &outcome.model;
     let units = InUnits(model.units);

@@ -5,7 +5,7 @@ use crate::report::format::{InUnits, Quantity};
 
 /// How a text writes the numbers of a column.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(in crate::report) enum Digits {
+pub(crate) enum Digits {
     /// As many decimals as give the largest number so many significant digits, in it and in its neighbours of the same
     /// quantity.
     Aligned(usize),
@@ -17,20 +17,20 @@ pub(in crate::report) enum Digits {
 
 /// A column of a table.
 #[derive(Debug, Clone)]
-pub(in crate::report) struct Column {
+pub(crate) struct Column {
     /// In JSON and CSV.
-    pub(in crate::report) key: String,
+    pub(crate) key: String,
     /// For readers.
-    pub(in crate::report) name: String,
-    pub(in crate::report) quantity: Quantity,
-    pub(in crate::report) digits: Digits,
+    pub(crate) name: String,
+    pub(crate) quantity: Quantity,
+    pub(crate) digits: Digits,
     /// Whether a text has it on the right.
-    pub(in crate::report) is_right: bool,
+    pub(crate) is_right: bool,
 }
 
 impl Column {
     /// Its name and its unit.
-    pub(in crate::report) fn head(&self, units: InUnits) -> String {
+    pub(crate) fn head(&self, units: InUnits) -> String {
         match units.unit(self.quantity).as_str() {
             "" => self.name.clone(),
             unit => format!("{} [{unit}]", self.name),
@@ -42,31 +42,23 @@ impl Column {
 type Entry<'a, T> = Box<dyn Fn(&T) -> Value + 'a>;
 
 /// Columns, each with what stands in it for a record.
-pub(in crate::report) struct Columns<'a, T>(Vec<(Column, Entry<'a, T>)>);
+pub(crate) struct Columns<'a, T>(Vec<(Column, Entry<'a, T>)>);
 
 impl<'a, T> Columns<'a, T> {
-    pub(in crate::report) fn new() -> Self {
+    pub(crate) fn new() -> Self {
         Self(Vec::new())
     }
 
-    pub(in crate::report) fn words<V: Into<Value>>(
-        mut self,
-        key: &str,
-        of: impl Fn(&T) -> V + 'a,
-    ) -> Self {
+    pub(crate) fn words<V: Into<Value>>(mut self, key: &str, of: impl Fn(&T) -> V + 'a) -> Self {
         self = self.count(key, of);
         self.right(false)
     }
 
-    pub(in crate::report) fn count<V: Into<Value>>(
-        self,
-        key: &str,
-        of: impl Fn(&T) -> V + 'a,
-    ) -> Self {
+    pub(crate) fn count<V: Into<Value>>(self, key: &str, of: impl Fn(&T) -> V + 'a) -> Self {
         self.number(key, Quantity::Pure, Digits::Power, of)
     }
 
-    pub(in crate::report) fn number<V: Into<Value>>(
+    pub(crate) fn number<V: Into<Value>>(
         mut self,
         key: &str,
         quantity: Quantity,
@@ -80,12 +72,12 @@ impl<'a, T> Columns<'a, T> {
     }
 
     /// Gives the last column a name of its own for readers.
-    pub(in crate::report) fn named(self, name: &str) -> Self {
+    pub(crate) fn named(self, name: &str) -> Self {
         self.last(|it| name.clone_into(&mut it.name))
     }
 
     /// Puts the last column of a text on the right, or on the left.
-    pub(in crate::report) fn right(self, is_right: bool) -> Self {
+    pub(crate) fn right(self, is_right: bool) -> Self {
         self.last(|it| it.is_right = is_right)
     }
 
@@ -97,11 +89,7 @@ impl<'a, T> Columns<'a, T> {
     }
 
     /// The table with a row for every record.
-    pub(in crate::report) fn table(
-        &self,
-        units: InUnits,
-        records: impl IntoIterator<Item = T>,
-    ) -> Table {
+    pub(crate) fn table(&self, units: InUnits, records: impl IntoIterator<Item = T>) -> Table {
         let value = |column: &Column, value| match value {
             Value::Number(si) => Value::Number(units.of(column.quantity, si)),
             other => other,
@@ -117,22 +105,22 @@ impl<'a, T> Columns<'a, T> {
 
 /// Rows of values under columns.
 #[derive(Debug, Clone)]
-pub(in crate::report) struct Table {
-    pub(in crate::report) units: InUnits,
-    pub(in crate::report) columns: Vec<Column>,
+pub(crate) struct Table {
+    pub(crate) units: InUnits,
+    pub(crate) columns: Vec<Column>,
     /// In the units of the scene; rows without values are gaps.
-    pub(in crate::report) rows: Vec<Vec<Value>>,
+    pub(crate) rows: Vec<Vec<Value>>,
 }
 
 impl Table {
     /// The table with the columns of these keys, in their order.
-    pub(in crate::report) fn only(&self, keys: &str) -> Self {
+    pub(crate) fn only(&self, keys: &str) -> Self {
         let positions = keys.split(' ').filter_map(|key| self.position(key));
         self.picked(&positions.collect::<Vec<_>>())
     }
 
     /// The table without the columns of these keys.
-    pub(in crate::report) fn without(&self, keys: &str) -> Self {
+    pub(crate) fn without(&self, keys: &str) -> Self {
         let stays = |k: &usize| keys.split(' ').all(|key| self.columns[*k].key != key);
         self.picked(&(0..self.columns.len()).filter(stays).collect::<Vec<_>>())
     }
@@ -150,19 +138,19 @@ impl Table {
     }
 
     /// The table with so many digits of all numbers.
-    pub(in crate::report) fn with_digits(mut self, digits: usize) -> Self {
+    pub(crate) fn with_digits(mut self, digits: usize) -> Self {
         self.columns.iter_mut().for_each(|it| it.digits = Digits::Significant(digits));
         self
     }
 
     /// Leaves rows out, by their positions.
-    pub(in crate::report) fn retain(&mut self, stays: impl Fn(usize) -> bool) {
+    pub(crate) fn retain(&mut self, stays: impl Fn(usize) -> bool) {
         let mut position = 0..;
         self.rows.retain(|_| position.next().is_some_and(&stays));
     }
 
     /// The numbers of a column.
-    pub(in crate::report) fn numbers(&self, key: &str) -> Vec<f64> {
+    pub(crate) fn numbers(&self, key: &str) -> Vec<f64> {
         let number = |value: &Value| match value {
             Value::Number(it) => Some(*it),
             Value::Count(it) => Some(*it as f64),
@@ -173,13 +161,13 @@ impl Table {
     }
 
     /// Every row as the members of an object.
-    pub(in crate::report) fn objects(&self) -> Vec<Vec<(String, Value)>> {
+    pub(crate) fn objects(&self) -> Vec<Vec<(String, Value)>> {
         let keys = || self.columns.iter().map(|it| it.key.clone());
         self.rows.iter().map(|row| keys().zip(row.iter().cloned()).collect()).collect()
     }
 
     /// An object with a member for every row, which the first column names.
-    pub(in crate::report) fn by_name(&self) -> Vec<(String, Value)> {
+    pub(crate) fn by_name(&self) -> Vec<(String, Value)> {
         let named = |mut row: Vec<(String, Value)>| match row.remove(0).1 {
             Value::Words(name) => (name, Value::Object(row)),
             _ => (String::new(), Value::Object(row)),

@@ -15,7 +15,7 @@ use crate::report::summary::{LoadGroup, Resultant};
 use crate::state::{ContactState, ContactStatus, FilmStress, Reaction, State};
 
 /// Forces with names.
-pub(in crate::report) fn forces<'a>(
+pub(crate) fn forces<'a>(
     units: InUnits,
     list: impl IntoIterator<Item = (&'a str, Resultant)>,
 ) -> Table {
@@ -28,7 +28,7 @@ pub(in crate::report) fn forces<'a>(
 }
 
 /// The reactions of supports.
-pub(in crate::report) fn reactions(units: InUnits, list: &[Reaction]) -> Table {
+pub(crate) fn reactions(units: InUnits, list: &[Reaction]) -> Table {
     let of = |it: &Reaction| Resultant { force: Vector2::new(it.fx, it.fy), moment: it.m };
     forces(units, list.iter().map(|it| (it.support.as_str(), of(it))))
 }
@@ -41,7 +41,7 @@ struct LoadRow<'a> {
 }
 
 /// The loads of groups; with sums as readers like it, each group named once.
-pub(in crate::report) fn loads(units: InUnits, groups: &[LoadGroup<'_>], with_sums: bool) -> Table {
+pub(crate) fn loads(units: InUnits, groups: &[LoadGroup<'_>], with_sums: bool) -> Table {
     let mut rows = Vec::new();
     for LoadGroup { name, loads, sum } in groups {
         for (k, (load, sum)) in loads.iter().enumerate() {
@@ -63,7 +63,7 @@ pub(in crate::report) fn loads(units: InUnits, groups: &[LoadGroup<'_>], with_su
 }
 
 /// By block the rates of its corners.
-pub(in crate::report) fn rates_by_name(model: &Model, rates: &[Vec<Vector2<f64>>]) -> Value {
+pub(crate) fn rates_by_name(model: &Model, rates: &[Vec<Vector2<f64>>]) -> Value {
     let rate = |it: &Vector2<f64>| Value::List(vec![it.x.into(), it.y.into()]);
     let of_block = |rates: &Vec<Vector2<f64>>| Value::List(rates.iter().map(rate).collect());
     let names = model.blocks.iter().map(|block| block.name.clone());
@@ -71,7 +71,7 @@ pub(in crate::report) fn rates_by_name(model: &Model, rates: &[Vec<Vector2<f64>>
 }
 
 /// The bodies on both sides of a joint.
-pub(in crate::report) fn sides<'a>(model: &'a Model, joint: &Joint) -> [&'a str; 2] {
+pub(crate) fn sides<'a>(model: &'a Model, joint: &Joint) -> [&'a str; 2] {
     [joint.a, Body::Block(joint.b)].map(|body| body_name(model, body))
 }
 
@@ -88,7 +88,7 @@ struct JointRow<'a> {
 }
 
 /// What every joint carries and how far it has opened.
-pub(in crate::report) fn joints(model: &Model, contacts: &[ContactState]) -> Table {
+pub(crate) fn joints(model: &Model, contacts: &[ContactState]) -> Table {
     let (forces, openings) = (joints::forces(model, contacts), joints::openings(model, contacts));
     let rows = model.joints.iter().enumerate().map(|(index, joint)| JointRow {
         index,
@@ -113,7 +113,7 @@ pub(in crate::report) fn joints(model: &Model, contacts: &[ContactState]) -> Tab
 }
 
 /// The joints that yield in a mechanism, with the numbers of its picture.
-pub(in crate::report) fn hinges(model: &Model, rates: &[Vec<Vector2<f64>>]) -> Table {
+pub(crate) fn hinges(model: &Model, rates: &[Vec<Vector2<f64>>]) -> Table {
     /// Rates below this part of the largest are rounding errors.
     const NO_RATE: f64 = 1e-9;
     let rate = |it: f64| if it > NO_RATE { it } else { 0.0 };
@@ -149,7 +149,7 @@ impl PointRow<'_> {
 }
 
 /// All contact points, in the order of the model.
-pub(in crate::report) fn contacts(model: &Model, state: &State) -> Table {
+pub(crate) fn contacts(model: &Model, state: &State) -> Table {
     let mut films = state.films.iter().peekable();
     let points = model.contacts.iter().zip(&state.contacts).enumerate();
     let rows = points.map(|(index, (contact, state))| PointRow {
@@ -195,6 +195,6 @@ pub(in crate::report) fn contacts(model: &Model, state: &State) -> Table {
 }
 
 /// The numbers of contact points that are open, stick and slip.
-pub(in crate::report) fn counts([open, stick, slip]: [usize; 3]) -> Value {
+pub(crate) fn counts([open, stick, slip]: [usize; 3]) -> Value {
     Value::Object(members! { "open": open, "stick": stick, "slip": slip })
 }

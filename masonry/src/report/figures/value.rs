@@ -4,7 +4,7 @@ use serde::Serialize;
 
 /// A value of JSON; members of objects keep their order.
 #[derive(Debug, Clone)]
-pub(in crate::report) enum Value {
+pub(crate) enum Value {
     /// What is not known, or does not exist.
     Nothing,
     Flag(bool),
@@ -24,16 +24,16 @@ macro_rules! members {
     };
 }
 
-pub(in crate::report) use members;
+pub(crate) use members;
 
 impl Value {
     /// What knows by itself how it is written.
-    pub(in crate::report) fn of(it: &(impl Serialize + ?Sized)) -> Result<Self, serde_json::Error> {
+    pub(crate) fn of(it: &(impl Serialize + ?Sized)) -> Result<Self, serde_json::Error> {
         serde_json::to_string_pretty(it).map(Self::Json)
     }
 
     /// The text of a file.
-    pub(in crate::report) fn file(&self) -> Result<String, serde_json::Error> {
+    pub(crate) fn file(&self) -> Result<String, serde_json::Error> {
         Ok(self.pretty()? + "\n")
     }
 

@@ -60,7 +60,7 @@ fn of_events(path: &Path) -> String {
         return String::new();
     }
     let mut list = figures::limit::events(path).without("number");
-    list.columns[2].name = "joint".to_owned();
+    "joint".clone_into(&mut list.columns[2].name);
     list.rows.truncate(EVENTS);
     let more = match path.events.len().saturating_sub(EVENTS) {
         0 => String::new(),

@@ -53,7 +53,9 @@ pub(in crate::report) fn curves(
         list.push(Chart { stages: stages(&history.records), ..chart });
     }
     if !for_page {
-        list.iter_mut().for_each(|chart| chart.steps.clear());
+        for chart in &mut list {
+            chart.steps.clear();
+        }
     }
     charts(&format!("{title}: load history"), &list)
 }

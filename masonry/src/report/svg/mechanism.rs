@@ -105,6 +105,7 @@ fn drawn(title: &str, model: &Model, rates: &[Vec<Vector2<f64>>], for_page: bool
 }
 
 /// How far all has moved, and whether a page changes that.
+#[derive(Clone, Copy)]
 struct Amplitude {
     factor: f64,
     for_page: bool,

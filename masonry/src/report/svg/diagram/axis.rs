@@ -38,8 +38,8 @@ impl Axis {
         values: impl Iterator<Item = f64> + Clone,
         pixels: [i32; 2],
     ) -> Option<Self> {
-        let (low, high) = (values.clone().reduce(f64::min)?, values.clone().reduce(f64::max)?);
         let is_count = values.clone().all(|value| value.fract() == 0.0);
+        let (low, high) = (values.clone().reduce(f64::min)?, values.reduce(f64::max)?);
         let (ends, lines) = match scale {
             Scale::Linear => linear([low, high], is_count),
             Scale::Logarithmic => logarithmic([low, high].map(f64::log10)),
