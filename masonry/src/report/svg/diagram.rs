@@ -97,9 +97,12 @@ impl Kind {
         format!("{look}{}", self.style)
     }
 
-    fn rule(self) -> String {
+    fn rule(self, scale: Scale) -> String {
         let (name, colour) = (self.name(), COLOURS[self.style]);
         match self.look {
+            Look::Full | Look::Hollow if scale == Scale::Linear => {
+                format!(".{name}{{stroke:{colour};stroke-width:2}}\n")
+            }
             Look::Full | Look::Hollow => {
                 format!(".{name}{{stroke:{colour};stroke-width:2;marker:url(#{name})}}\n")
             }
@@ -114,24 +117,40 @@ impl Kind {
         }
     }
 
+    /// The inside of markers, if there are any.
+    fn fill(self) -> Option<&'static str> {
+        match self.look {
+            Look::Full => Some(COLOURS[self.style]),
+            Look::Hollow => Some("#fff"),
+            Look::Dots | Look::Bound => None,
+        }
+    }
+
+    /// The outline of a marker.
+    fn outline(self, [x, y]: [i32; 2]) -> String {
+        let corners = MARKERS[self.style].iter().map(|it| format!("{} {}", x + it[0], y + it[1]));
+        format!("M{}z", corners.collect::<Vec<_>>().join(" "))
+    }
+
     /// What stands at every point of a line.
     fn marker(self) -> Option<String> {
-        let fill = match self.look {
-            Look::Full => COLOURS[self.style],
-            Look::Hollow => "#fff",
-            Look::Dots | Look::Bound => return None,
-        };
-        let (name, colour) = (self.name(), COLOURS[self.style]);
-        let corners = MARKERS[self.style].iter().map(|[x, y]| format!("{x} {y}"));
-        let corners: Vec<String> = corners.collect();
+        let (name, colour, fill) = (self.name(), COLOURS[self.style], self.fill()?);
         Some(format!(
             "<marker id=\"{name}\" markerUnits=\"userSpaceOnUse\" overflow=\"visible\">\
-             <path d=\"M{}z\" style=\"fill:{fill};stroke:{colour};stroke-width:1\"/></marker>\n",
-            corners.join(" ")
+             <path d=\"{}\" style=\"fill:{fill};stroke:{colour};stroke-width:1\"/></marker>\n",
+            self.outline([0, 0])
         ))
     }
 
-    fn path(self, text: &mut String, style: &str, pixels: &[[i32; 2]]) {
+    /// Markers one by one: pages refer to nothing by an address, and so have no markers of their own.
+    fn draw_markers(self, text: &mut String, pixels: &[[i32; 2]]) {
+        let Some(fill) = self.fill() else { return };
+        let (colour, outlines) = (COLOURS[self.style], pixels.iter().map(|it| self.outline(*it)));
+        let data: String = outlines.collect();
+        let _ = writeln!(text, "<path style=\"fill:{fill};stroke:{colour}\" d=\"{data}\"/>");
+    }
+
+    fn path(self, text: &mut String, pixels: &[[i32; 2]]) {
         let mut data = String::new();
         for (k, [x, y]) in pixels.iter().enumerate() {
             let _ = match self.look {
@@ -144,7 +163,7 @@ impl Kind {
             data += "h0";
         }
         if !data.is_empty() {
-            let _ = writeln!(text, "<path class=\"{}\"{style} d=\"{data}\"/>", self.name());
+            let _ = writeln!(text, "<path class=\"{}\" d=\"{data}\"/>", self.name());
         }
     }
 }
@@ -192,7 +211,13 @@ pub fn picture(title: &str, diagrams: &[Diagram], notes: &[String]) -> Option<St
         [columns, diagrams.len().div_ceil(columns)].map(|it| i32::try_from(it).unwrap_or(1));
     let mut drawn = String::new();
     let mut top = draw_lines(&mut drawn, title, TITLE, EDGE, width * size[0]);
-    top = draw_legend(&mut drawn, &diagrams[0].series, [EDGE, top], width * size[0]);
+    top = draw_legend(
+        &mut drawn,
+        &diagrams[0].series,
+        Scale::Logarithmic,
+        [EDGE, top],
+        width * size[0],
+    );
     for note in notes {
         top = draw_lines(&mut drawn, note, TEXT, top, width * size[0]);
     }
@@ -202,7 +227,7 @@ pub fn picture(title: &str, diagrams: &[Diagram], notes: &[String]) -> Option<St
         let corner = [EDGE + column * size[0], top + row * size[1]];
         Panel::of(diagram, Scale::Logarithmic, corner, size).draw(&mut drawn);
     }
-    Some(file(title, all(), [width * size[0], top + height * size[1]], &drawn))
+    Some(file(title, all(), Scale::Logarithmic, [width * size[0], top + height * size[1]], &drawn))
 }
 
 /// The same of charts, one below the other, each with its legend; `None` where no series has two points.
@@ -215,24 +240,32 @@ pub(in crate::report) fn charts(title: &str, charts: &[Chart]) -> Option<String>
     let mut drawn = String::new();
     let mut top = draw_lines(&mut drawn, title, TITLE, EDGE, width);
     for chart in &charts {
-        top = draw_legend(&mut drawn, &chart.diagram.series, [EDGE + LEFT, top], width - LEFT);
+        top = draw_legend(
+            &mut drawn,
+            &chart.diagram.series,
+            Scale::Linear,
+            [EDGE + LEFT, top],
+            width - LEFT,
+        );
         let panel = Panel::of(&chart.diagram, Scale::Linear, [EDGE, top], CHART);
         panel.draw(&mut drawn);
         panel.draw_steps(&mut drawn, chart);
         top += height;
     }
-    Some(file(title, all, [width, top], &drawn))
+    Some(file(title, all, Scale::Linear, [width, top], &drawn))
 }
 
 fn file<'a>(
     title: &str,
     all: impl Iterator<Item = &'a Series>,
+    scale: Scale,
     [width, bottom]: [i32; 2],
     drawn: &str,
 ) -> String {
     let kinds: BTreeSet<Kind> = all.map(Series::kind).collect();
-    let rules: String = kinds.iter().map(|kind| kind.rule()).collect();
-    let markers: String = kinds.iter().filter_map(|kind| kind.marker()).collect();
+    let rules: String = kinds.iter().map(|kind| kind.rule(scale)).collect();
+    let kinds = kinds.iter().filter(|_| scale == Scale::Logarithmic);
+    let markers: String = kinds.filter_map(|kind| kind.marker()).collect();
     let [width, height] = [width + 2 * EDGE, bottom + EDGE];
     format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" viewBox=\"0 0 {width} {height}\" \
@@ -247,6 +280,7 @@ fn file<'a>(
 fn draw_legend(
     drawn: &mut String,
     series: &[Series],
+    scale: Scale,
     [left, mut top]: [i32; 2],
     width: i32,
 ) -> i32 {
@@ -264,7 +298,10 @@ fn draw_legend(
             drawn,
             "<path class=\"{name}\" style=\"marker:none\" d=\"M{left} {middle}h22\"/>"
         );
-        kind.path(drawn, "", &[[left + 11, middle]]);
+        match scale {
+            Scale::Linear => kind.draw_markers(drawn, &[[left + 11, middle]]),
+            Scale::Logarithmic => kind.path(drawn, &[[left + 11, middle]]),
+        }
         draw_text(drawn, [left + 28, middle + HALF], "", &series.name);
         x += wide;
     }
@@ -343,9 +380,10 @@ impl<'a> Panel<'a> {
         for series in &self.diagram.series {
             let pixels = series.drawn(self.scale).map(|[x, y]| [across.at(x), up.at(y)]);
             let pixels: Vec<_> = pixels.collect();
-            let is_plain = self.scale == Scale::Linear && pixels.len() > MARKED;
-            let style = if is_plain { " style=\"marker:none\"" } else { "" };
-            series.kind().path(drawn, style, &pixels);
+            series.kind().path(drawn, &pixels);
+            if self.scale == Scale::Linear && pixels.len() <= MARKED {
+                series.kind().draw_markers(drawn, &pixels);
+            }
         }
     }
 
