@@ -53,15 +53,15 @@ struct Step {
 #[derive(Debug)]
 struct Choice {
     /// In the address of the page.
-    key: String,
+    key: &'static str,
     /// On the switch.
-    name: String,
+    name: &'static str,
     pictures: Vec<String>,
 }
 
 impl Choice {
-    fn one(key: &str, name: &str, picture: String) -> Self {
-        Self { key: key.to_owned(), name: name.to_owned(), pictures: vec![picture] }
+    fn one(key: &'static str, name: &'static str, picture: String) -> Self {
+        Self { key, name, pictures: vec![picture] }
     }
 }
 

@@ -3,6 +3,7 @@
 use super::tables::{self, section};
 use super::{Choice, Page, Step, size};
 use crate::analysis::outcome::{Frame, Outcome};
+use crate::report::figures::history::place;
 use crate::report::figures::{self, Said, on_page};
 use crate::report::format::{InUnits, significant};
 use crate::report::summary::{self, Resultant, load_groups, reason, weight};
@@ -11,6 +12,13 @@ use crate::report::svg::{self, ReferenceLines};
 use crate::report::table;
 use crate::verify::verdict::Verdict;
 
+/// The files of pictures, their keys and switches in the order of a page.
+const SHOWN: [(&str, &str, &str); 4] = [
+    ("forces.svg", "forces", "Forces"),
+    ("principal_stresses.svg", "stresses", "Stresses"),
+    ("cracks.svg", "cracks", "Cracks"),
+    ("deformed.svg", "deformed", "Deformed"),
+];
 /// So many steps of a load history have pictures; of more, every second, third and so on.
 const FRAMES: usize = 40;
 
@@ -70,20 +78,12 @@ fn pictures_of(
             .map(|(frame, title)| Shown { title, model: &frame.model, state: &frame.state })
             .collect();
         shown.push(last);
-        for Pictures { file, pictures } in pictures(&shown, reference, true) {
-            let key = file.trim_end_matches(".svg");
-            let (place, key, name) = match key {
-                "forces" => (0, "forces", "Forces"),
-                "principal_stresses" => (1, "stresses", "Stresses"),
-                "cracks" => (2, "cracks", "Cracks"),
-                _ => (3, "deformed", "Deformed"),
-            };
-            let choice = Choice { key: key.to_owned(), name: name.to_owned(), pictures };
-            choices.push((place, choice));
+        let mut list = pictures(&shown, reference, true);
+        for (file, key, name) in SHOWN {
+            let of_kind = list.extract_if(.., |it: &mut Pictures| it.file == file);
+            choices.extend(of_kind.map(|it| Choice { key, name, pictures: it.pictures }));
         }
-        choices.sort_by_key(|(place, _)| *place);
     }
-    let mut choices: Vec<Choice> = choices.into_iter().map(|(_, choice)| choice).collect();
     if let Some(rates) = &outcome.mechanism {
         let picture = svg::mechanism_on_page(&outcome.title, model, rates);
         choices.push(Choice::one("mechanism", "Mechanism", picture));
@@ -98,7 +98,7 @@ fn steps(outcome: &Outcome, frames: &[Frame]) -> (Vec<Step>, Vec<String>) {
         return (Vec::new(), vec![outcome.title.clone()]);
     };
     let position = outcome.history.as_ref().map_or(0, |history| history.records.len() - 1);
-    let name = |step: &crate::history::Step| format!("{} {}/{}", step.stage, step.number, step.of);
+    let name = |step: &crate::history::Step| format!("{} {}", step.stage, place(step));
     let earlier = frames.iter().take_while(|frame| frame.position < position);
     let steps: Vec<Step> = earlier
         .map(|frame| Step { name: name(&frame.step), position: frame.position })
