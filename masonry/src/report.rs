@@ -4,6 +4,7 @@
 //! of the modules return the contents of files; [`write_all`] writes them.
 
 pub mod csv;
+mod figures;
 mod format;
 pub mod hinges;
 pub mod joints;
@@ -16,6 +17,7 @@ pub mod study;
 pub mod summary;
 pub mod svg;
 pub mod table;
+mod text;
 pub mod vtu;
 
 use std::fs;
@@ -128,35 +130,8 @@ pub fn write_all(
     dir: &Path,
     options: &Options,
 ) -> Result<Vec<PathBuf>, OutputError> {
-    fs::create_dir_all(dir)
-        .map_err(|source| OutputError::Directory { path: dir.to_owned(), source })?;
-    let mut written = Vec::new();
-    let mut failed = Vec::new();
-    let mut write = |name: &str, contents: io::Result<Vec<u8>>| {
-        let path = dir.join(name);
-        match contents.and_then(|bytes| write_atomically(&path, &bytes)) {
-            Ok(()) => {
-                written.push(path);
-                true
-            }
-            Err(error) => {
-                failed.push((path, error));
-                false
-            }
-        }
-    };
-    let mut names = Vec::new();
-    for (name, contents) in contents(outcome, options) {
-        if write(name, Ok(contents)) {
-            names.push(name.to_owned());
-        }
-    }
-    if options.formats.contains(&Format::Json) {
-        names.push("result.json".to_owned());
-        let text = json::result(outcome, &names);
-        write("result.json", text.map(String::into_bytes).map_err(io::Error::from));
-    }
-    if failed.is_empty() { Ok(written) } else { Err(OutputError::Files { written, failed }) }
+    let listing = options.formats.contains(&Format::Json).then_some("result.json");
+    write_files(dir, contents(outcome, options), listing, |names| json::result(outcome, names))
 }
 
 /// Names and contents of all files but `result.json`.
@@ -206,20 +181,35 @@ fn titled(outcome: &Outcome) -> String {
     }
 }
 
-/// Writes files into a directory, which is created: each whole or not at all, whatever becomes of the others.
+/// Writes files into a directory, which is created: each whole or not at all, whatever becomes of the others; and last
+/// the one that lists those that were written, itself among them.
 fn write_files(
     dir: &Path,
-    files: Vec<(&str, io::Result<String>)>,
+    files: Vec<(&str, Vec<u8>)>,
+    listing: Option<&str>,
+    list: impl FnOnce(&[String]) -> Result<String, serde_json::Error>,
 ) -> Result<Vec<PathBuf>, OutputError> {
     fs::create_dir_all(dir)
         .map_err(|source| OutputError::Directory { path: dir.to_owned(), source })?;
-    let (mut written, mut failed) = (Vec::new(), Vec::new());
-    for (name, text) in files {
+    let (mut names, mut written, mut failed) = (Vec::new(), Vec::new(), Vec::new());
+    let mut write = |name: &str, bytes: io::Result<Vec<u8>>| {
         let path = dir.join(name);
-        match text.and_then(|text| write_atomically(&path, text.as_bytes())) {
+        let end = bytes.and_then(|bytes| write_atomically(&path, &bytes));
+        let is_written = end.is_ok();
+        match end {
             Ok(()) => written.push(path),
             Err(error) => failed.push((path, error)),
         }
+        is_written
+    };
+    for (name, bytes) in files {
+        if write(name, Ok(bytes)) {
+            names.push(name.to_owned());
+        }
+    }
+    if let Some(name) = listing {
+        names.push(name.to_owned());
+        write(name, list(&names).map(String::into_bytes).map_err(io::Error::from));
     }
     if failed.is_empty() { Ok(written) } else { Err(OutputError::Files { written, failed }) }
 }

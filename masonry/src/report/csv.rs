@@ -1,13 +1,12 @@
 //! Contact points, and the load history, as tables of comma-separated values.
 
-mod history;
-
 use std::borrow::Cow;
 
-pub use self::history::history;
-use super::format::{InUnits, block_name, body_name, shortest};
-use crate::data::state::{ContactStatus, FilmStress, State};
-use crate::model::{Body, Model};
+use super::figures::{self, Column, Table, Value, tables};
+use super::format::shortest;
+use crate::data::state::State;
+use crate::history::History;
+use crate::model::Model;
 
 /// The text of `contacts.csv`: one row per contact point, in the order of the model.
 ///
@@ -19,87 +18,50 @@ use crate::model::{Body, Model};
 /// `film_sigma_x_kN/m2` where films are whole strips. Numbers read back exactly; fields are
 /// quoted where RFC 4180 asks for it, and lines end with CR LF.
 pub fn contacts(model: &Model, state: &State) -> String {
-    let units = InUnits(model.units);
-    let columns = film_columns(state);
-    let mut text = header(units, columns);
-    let mut films = state.films.iter().peekable();
-    for (index, (contact, force)) in model.contacts.iter().zip(&state.contacts).enumerate() {
-        let joint = &model.joints[contact.joint.index()];
-        let traction = |force: f64| {
-            if contact.weight > 0.0 { units.stress(force / contact.weight) } else { 0.0 }
-        };
-        let mut fields = vec![
-            index.to_string().into(),
-            contact.joint.index().to_string().into(),
-            quoted(model.joint_classes.get(joint.class).map_or("", |class| &class.name)),
-            quoted(match contact.a {
-                Some(anchor) => block_name(model, anchor.block),
-                None => body_name(model, joint.a),
-            }),
-            quoted(body_name(model, Body::Block(joint.b))),
-            shortest(units.length(contact.position.x)).into(),
-            shortest(units.length(contact.position.y)).into(),
-            shortest(units.area(contact.weight)).into(),
-            shortest(units.force(force.t_n)).into(),
-            shortest(units.force(force.t_t)).into(),
-            shortest(traction(force.t_n)).into(),
-            shortest(traction(force.t_t)).into(),
-            shortest(units.length(force.y_n)).into(),
-            shortest(units.length(force.y_t)).into(),
-            shortest(contact.law.mu).into(),
-            Cow::Borrowed(status_name(force.status)),
-        ];
-        let film = films.next_if(|film| film.contact.index() == index);
-        fields.extend(columns.iter().map(|(_, stress)| {
-            let stress = film.and_then(*stress);
-            stress.map_or(Cow::Borrowed(""), |stress| shortest(units.stress(stress)).into())
-        }));
-        text += &fields.join(",");
-        text += "\r\n";
-    }
-    text
+    text(&tables::contacts(model, state))
 }
 
-/// The name of a column and the stress in it.
-type FilmColumn = (&'static str, fn(&FilmStress) -> Option<f64>);
-
-const FILM_COLUMNS: [FilmColumn; 3] = [
-    ("film_sigma_x", |film| film.sigma_x),
-    ("film_sigma_y", |film| Some(film.sigma_y)),
-    ("film_tau", |film| Some(film.tau)),
-];
-
-/// The columns for which there are values.
-fn film_columns(state: &State) -> &'static [FilmColumn] {
-    match state.films.first() {
-        None => &[],
-        Some(film) if film.sigma_x.is_none() => &FILM_COLUMNS[1..],
-        Some(_) => &FILM_COLUMNS,
-    }
+/// The text of `history.csv`: one row per step that was solved.
+///
+/// Columns carry the units of the scene in their names, here m and kN:
+///
+/// * `stage` and `step` (from 1 in each stage);
+/// * the factor `gravity`, and a factor `load NAME` for each load;
+/// * `SUPPORT x_m`, `SUPPORT y_m` and `SUPPORT turn_rad` for each support;
+/// * `work_kJ`, `dissipation_kJ`, `friction_power` and `energy_created_kJ` of the step;
+/// * `strain_energy_kJ` and `max_displacement_m` after it;
+/// * the numbers `open`, `stick` and `slip` of contact points;
+/// * `SUPPORT fx_kN`, `SUPPORT fy_kN` and `SUPPORT m_kNm` (about the origin) for each support;
+/// * the `residual`, the `way` in which the step was found (`law` or `motion`), and its `factorisations`.
+pub fn history(model: &Model, history: &History) -> String {
+    text(&figures::history::in_csv(model, history))
 }
 
-fn header(units: InUnits, films: &[FilmColumn]) -> String {
-    let (length, force) = (units.0.length_name(), units.0.force_name());
-    let stress = units.0.stress_name();
-    let films: Vec<String> = films.iter().map(|(name, _)| format!(",{name}_{stress}")).collect();
-    let films = films.concat();
-    format!(
-        "index,joint,class,a,b,x_{length},y_{length},area_{length}2,t_n_{force},t_t_{force},\
-         traction_n_{stress},traction_t_{stress},gap_{length},slip_{length},mu,status{films}\r\n"
-    )
+/// A table with its heads, each with its unit.
+pub(super) fn text(table: &Table) -> String {
+    let head = |it: &Column| match table.units.unit(it.quantity).as_str() {
+        "" => quoted(&it.key).into_owned(),
+        unit => quoted(&format!("{}_{unit}", it.key)).into_owned(),
+    };
+    let heads = table.columns.iter().map(head).collect();
+    let rows = table.rows.iter().map(|row| row.iter().map(field).collect());
+    let line = |fields: Vec<String>| fields.join(",") + "\r\n";
+    std::iter::once(heads).chain(rows).map(line).collect()
 }
 
-fn status_name(status: ContactStatus) -> &'static str {
-    match status {
-        ContactStatus::Open => "open",
-        ContactStatus::Stick => "stick",
-        ContactStatus::Slip => "slip",
+fn field(value: &Value) -> String {
+    match value {
+        Value::Flag(it) => it.to_string(),
+        Value::Count(it) => it.to_string(),
+        Value::Number(it) => shortest(*it),
+        Value::Words(it) => quoted(it).into_owned(),
+        _ => String::new(),
     }
 }
 
 /// A name as RFC 4180 wants it: in quotes when it contains a comma, a quote or a line break. After an apostrophe when spreadsheets
 /// would take it for a formula.
-pub(super) fn quoted(name: &str) -> Cow<'_, str> {
+fn quoted(name: &str) -> Cow<'_, str> {
     let is_formula = name.starts_with(['=', '+', '-', '@']);
     let name = if is_formula { Cow::Owned(format!("'{name}")) } else { Cow::Borrowed(name) };
     if name.contains([',', '"', '\r', '\n']) {

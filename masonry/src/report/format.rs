@@ -4,19 +4,64 @@ use crate::ids::BlockId;
 use crate::model::{Body, Model};
 use crate::units::Units;
 
+/// What a number measures.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Quantity {
+    /// A number without a unit.
+    Pure,
+    Length,
+    Area,
+    Force,
+    Stress,
+    /// Energy, or a moment.
+    Energy,
+    Radians,
+    Seconds,
+    /// A length in millimetres, whatever the units of the scene.
+    Millimetres,
+    /// A part of one, in hundredths.
+    Percent,
+}
+
 /// Conversion of SI values into the units of a scene.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct InUnits(pub(super) Units);
 
 impl InUnits {
+    /// An SI value in the unit of its quantity.
+    pub(super) fn of(self, quantity: Quantity, value: f64) -> f64 {
+        match quantity {
+            Quantity::Pure | Quantity::Radians | Quantity::Seconds => value,
+            Quantity::Length => self.length(value),
+            Quantity::Area => value / (self.0.length_to_si() * self.0.length_to_si()),
+            Quantity::Force => self.force(value),
+            Quantity::Stress => self.stress(value),
+            Quantity::Energy => self.energy(value),
+            Quantity::Millimetres => 1e3 * value,
+            Quantity::Percent => 100.0 * value,
+        }
+    }
+
+    /// The unit of a quantity; empty for a pure number.
+    pub(super) fn unit(self, quantity: Quantity) -> String {
+        match quantity {
+            Quantity::Stress => return self.0.stress_name(),
+            Quantity::Energy => return self.0.energy_name(),
+            Quantity::Area => return format!("{}2", self.0.length_name()),
+            Quantity::Pure => "",
+            Quantity::Length => self.0.length_name(),
+            Quantity::Force => self.0.force_name(),
+            Quantity::Radians => "rad",
+            Quantity::Seconds => "s",
+            Quantity::Millimetres => "mm",
+            Quantity::Percent => "%",
+        }
+        .to_owned()
+    }
+
     /// Metres to the scene's unit of length.
     pub(super) fn length(self, metres: f64) -> f64 {
         metres / self.0.length_to_si()
-    }
-
-    /// Square metres to the square of the scene's unit of length.
-    pub(super) fn area(self, square_metres: f64) -> f64 {
-        square_metres / (self.0.length_to_si() * self.0.length_to_si())
     }
 
     /// Newtons to the scene's unit of force.
@@ -82,27 +127,25 @@ pub(super) fn significant(value: f64, digits: usize) -> String {
     trim_zeros(&format!("{value:.decimals$}")).to_owned()
 }
 
-/// Numbers of one column with equally many decimals, so that the largest has `digits` significant
+/// How numbers of one column are written: with equally many decimals, so that the largest has `digits` significant
 /// digits; with exponents where that would take too many zeros.
-pub(super) fn aligned(values: &[f64], digits: usize) -> Vec<String> {
+pub(super) fn aligned(values: &[f64], digits: usize) -> impl Fn(f64) -> String + use<> {
     let largest = values.iter().fold(0.0, |largest, value| f64::max(largest, value.abs()));
     let exponent = if largest > 0.0 { decimal(largest, digits).1 } else { 0 };
-    let digits_before = exponent + 1;
-    let text = |value: f64| {
+    let decimals = i32::try_from(digits).unwrap_or(i32::MAX) - (exponent + 1);
+    let decimals = usize::try_from(decimals).unwrap_or(0);
+    move |value| {
         if !value.is_finite() {
             return "-".to_owned();
         }
         if !(-3..=9).contains(&exponent) {
             return format!("{:.*e}", digits - 1, value + 0.0);
         }
-        let decimals = i32::try_from(digits).unwrap_or(i32::MAX) - digits_before;
-        let decimals = usize::try_from(decimals).unwrap_or(0);
         let text = format!("{value:.decimals$}");
         // No minus sign before what was rounded to zero.
         let zero = text.bytes().all(|byte| matches!(byte, b'-' | b'.' | b'0'));
         if zero { text.trim_start_matches('-').to_owned() } else { text }
-    };
-    values.iter().map(|value| text(*value)).collect()
+    }
 }
 
 /// The largest of 1, 2, 5 times a power of ten that does not exceed a positive finite `value`.
@@ -181,9 +224,13 @@ mod tests {
 
     #[test]
     fn a_column_has_one_count_of_decimals() {
-        assert_eq!(aligned(&[7.327_68, -0.5, -1e-9], 5), ["7.3277", "-0.5000", "0.0000"]);
-        assert_eq!(aligned(&[0.0, 0.0], 3), ["0.00", "0.00"]);
-        assert_eq!(aligned(&[2e12, f64::NAN], 3), ["2.00e12", "-"]);
+        let written = |values: &[f64], digits| {
+            let text = aligned(values, digits);
+            values.iter().map(|it| text(*it)).collect::<Vec<_>>()
+        };
+        assert_eq!(written(&[7.327_68, -0.5, -1e-9], 5), ["7.3277", "-0.5000", "0.0000"]);
+        assert_eq!(written(&[0.0, 0.0], 3), ["0.00", "0.00"]);
+        assert_eq!(written(&[2e12, f64::NAN], 3), ["2.00e12", "-"]);
     }
 
     #[test]

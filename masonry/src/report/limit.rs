@@ -3,19 +3,13 @@
 mod json;
 mod table;
 
-use std::io;
 use std::path::{Path, PathBuf};
 
-use nalgebra::Vector2;
-
 pub use json::{json, json_both, range_json, thickness_json};
-pub(in crate::report) use table::carried_by_rest;
 pub use table::{range_table, table, table_both, thickness_table};
 
 use super::{OutputError, svg, write_files};
 use crate::analysis::limit::{Limit, Thickness};
-use crate::data::state::ContactState;
-use crate::model::Model;
 
 /// Writes `forces.svg` and `mechanism.svg`, where there are forces and a mechanism, the same of the path with its curve, and
 /// `limit.json`, which lists them, into `dir`, which is created.
@@ -24,20 +18,25 @@ use crate::model::Model;
 /// [`OutputError`] for a directory that cannot be made, and for files that cannot be written.
 pub fn write(limit: &Limit, dir: &Path) -> Result<Vec<PathBuf>, OutputError> {
     let mut list = Pictures::new();
+    let title = &limit.title;
     if let Some(found) = &limit.associative {
-        let both = (found.forces.as_deref(), found.mechanism.as_deref());
-        list = pictures(&limit.title, &limit.model, both);
+        let (forces, rates) = (found.forces.as_ref(), found.mechanism.as_ref());
+        list.push(("forces.svg", forces.map(|it| svg::forces(title, &limit.model, it))));
+        list.push(("mechanism.svg", rates.map(|it| svg::mechanism(title, &limit.model, it))));
     }
     if let Some(path) = &limit.path {
-        let title = format!("{}, path", limit.title);
-        let forces = path.contacts.as_deref().map(|it| svg::forces(&title, &path.model, it));
-        let rates = path.mechanism.as_deref().map(|it| svg::mechanism(&title, &path.model, it));
-        list.extend(forces.map(|picture| ("path_forces.svg", picture)));
-        list.extend(rates.map(|picture| ("path_mechanism.svg", picture)));
-        let curve = svg::path(&limit.title, &limit.group, path);
-        list.extend(curve.map(|picture| ("path.svg", picture)));
+        let (forces, rates) = (path.contacts.as_ref(), path.mechanism.as_ref());
+        let of_path = format!("{title}, path");
+        let forces = forces.map(|it| svg::forces(&of_path, &path.model, it));
+        let rates = rates.map(|it| svg::mechanism(&of_path, &path.model, it));
+        let curve = svg::path(title, &limit.group, path);
+        list.extend([
+            ("path_forces.svg", forces),
+            ("path_mechanism.svg", rates),
+            ("path.svg", curve),
+        ]);
     }
-    write_with(dir, list, |names| json(limit, names))
+    write_files(dir, bytes(list), Some("limit.json"), |names| json(limit, names))
 }
 
 /// The same of the least thickness of an arch: the forces at the thickness that stands, and the mechanism of the one that
@@ -46,34 +45,16 @@ pub fn write(limit: &Limit, dir: &Path) -> Result<Vec<PathBuf>, OutputError> {
 /// # Errors
 /// As [`write()`].
 pub fn write_thickness(thickness: &Thickness, dir: &Path) -> Result<Vec<PathBuf>, OutputError> {
-    let both = (thickness.forces.as_deref(), thickness.mechanism.as_deref());
-    let pictures = pictures(&thickness.title, &thickness.model, both);
-    write_with(dir, pictures, |names| thickness_json(thickness, names))
+    let Thickness { title, model, forces, mechanism, .. } = thickness;
+    let forces = forces.as_ref().map(|it| svg::forces(title, model, it));
+    let rates = mechanism.as_ref().map(|it| svg::mechanism(title, model, it));
+    let list = bytes(vec![("forces.svg", forces), ("mechanism.svg", rates)]);
+    write_files(dir, list, Some("limit.json"), |names| thickness_json(thickness, names))
 }
 
-/// Rates of the corners of one block.
-type Rates = Vec<Vector2<f64>>;
-/// Pictures by name.
-type Pictures = Vec<(&'static str, String)>;
+/// Pictures by name, if they exist.
+type Pictures = Vec<(&'static str, Option<String>)>;
 
-fn pictures(
-    title: &str,
-    model: &Model,
-    (forces, rates): (Option<&[ContactState]>, Option<&[Rates]>),
-) -> Pictures {
-    let forces = forces.map(|forces| ("forces.svg", svg::forces(title, model, forces)));
-    let mechanism = rates.map(|rates| ("mechanism.svg", svg::mechanism(title, model, rates)));
-    forces.into_iter().chain(mechanism).collect()
-}
-
-fn write_with(
-    dir: &Path,
-    pictures: Pictures,
-    json: impl FnOnce(&[String]) -> Result<String, serde_json::Error>,
-) -> Result<Vec<PathBuf>, OutputError> {
-    let names = pictures.iter().map(|(name, _)| *name).chain(["limit.json"]);
-    let names: Vec<String> = names.map(str::to_owned).collect();
-    let mut files: Vec<_> = pictures.into_iter().map(|(name, text)| (name, Ok(text))).collect();
-    files.push(("limit.json", json(&names).map_err(io::Error::from)));
-    write_files(dir, files)
+fn bytes(list: Pictures) -> Vec<(&'static str, Vec<u8>)> {
+    list.into_iter().filter_map(|(name, text)| Some((name, text?.into_bytes()))).collect()
 }

@@ -12,8 +12,8 @@ mod tables;
 
 pub use limit::{limit, thickness};
 pub use solved::{is_framed, solved};
-use tables::Table;
 
+use super::figures::Said;
 use super::svg::{counted, escaped};
 use crate::model::Model;
 
@@ -29,13 +29,14 @@ struct Page {
     sentence: String,
     warnings: Vec<String>,
     /// Names and values.
-    figures: Vec<(String, String)>,
+    figures: Vec<Said>,
     pictures: Vec<Choice>,
     /// The steps that pictures have, by their names; empty or one without a history.
     steps: Vec<Step>,
     /// Curves, always seen.
     curves: Option<String>,
-    tables: Vec<Table>,
+    /// One below the other.
+    tables: String,
     /// The report as text.
     text: String,
 }
@@ -52,15 +53,15 @@ struct Step {
 #[derive(Debug)]
 struct Choice {
     /// In the address of the page.
-    key: String,
+    key: &'static str,
     /// On the switch.
-    name: String,
+    name: &'static str,
     pictures: Vec<String>,
 }
 
 impl Choice {
-    fn one(key: &str, name: &str, picture: String) -> Self {
-        Self { key: key.to_owned(), name: name.to_owned(), pictures: vec![picture] }
+    fn one(key: &'static str, name: &'static str, picture: String) -> Self {
+        Self { key, name, pictures: vec![picture] }
     }
 }
 
@@ -77,7 +78,7 @@ impl Page {
             self.curves.as_ref().map_or_else(String::new, |curves| {
                 format!("<figure class=\"curves\">\n{curves}</figure>\n")
             }),
-            self.tables.iter().map(Table::html).collect(),
+            self.tables.clone(),
             format!(
                 "<details>\n<summary>Report as text</summary>\n<pre>{}</pre>\n</details>\n",
                 text_of(&self.text)
@@ -105,7 +106,7 @@ impl Page {
     }
 
     fn key_figures(&self) -> String {
-        let figure = |(name, value): &(String, String)| {
+        let figure = |(name, value): &Said| {
             let (name, value) = (escaped(name), escaped(value));
             format!("<div><dt>{name}</dt><dd>{value}</dd></div>\n")
         };

@@ -5,9 +5,7 @@
 
 mod canvas;
 mod cracks;
-mod curve;
 mod deformed;
-#[cfg(feature = "study")]
 pub mod diagram;
 mod dimensions;
 mod forces;

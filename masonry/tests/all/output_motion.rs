@@ -193,11 +193,14 @@ fn a_history_has_curves_of_the_movement_and_of_the_reactions() {
     assert!(!picture.contains("NaN") && !picture.contains("data-steps"));
     // The pushing stop: no force in the first step, half the weight in the others, so its curve has two levels.
     let pixels = |it: &Node<'_, '_>| -> Vec<f64> {
-        let points = it.attribute("points").unwrap().split(' ');
-        points.map(|it| it.split(',').nth(1).unwrap().parse().unwrap()).collect()
+        let points = it.attribute("d").unwrap().trim_start_matches('M').split(' ');
+        points.skip(1).step_by(2).filter_map(|it| it.parse().ok()).collect()
     };
-    let curves = with_class(&document, "curve");
-    let levels = curves.iter().map(pixels).find(|it| it.len() == 4 && (it[0] - it[1]).abs() > 1.0);
+    let curves = document.descendants().filter(|it| {
+        it.has_tag_name("path") && it.attribute("class").is_some_and(|it| it.starts_with("full"))
+    });
+    let levels =
+        curves.map(|it| pixels(&it)).find(|it| it.len() == 4 && (it[0] - it[1]).abs() > 1.0);
     let levels = levels.unwrap();
     assert!((levels[1] - levels[3]).abs() < 0.02, "{levels:?}");
 

@@ -1,15 +1,17 @@
 //! A limit load, or the ranges of reactions, as one JSON object.
 
-use serde::Serialize;
-
 use crate::analysis::limit::{
-    Answer, Directions, Extremes, Governs, Limit, Range, Rest, Thickness,
+    Associative, Directions, Event, Extremes, Governs, Limit, Path, Range, Thickness,
 };
 use crate::data::statics::Extreme;
+use crate::model::Model;
+use crate::report::figures::tables::{reactions, sides};
+use crate::report::figures::{self, Value, in_json, members};
 use crate::report::format::InUnits;
-use crate::report::json::{ByName, Force, named_force, rates_by_name};
+use crate::report::json::times;
 
-pub(super) mod path;
+/// A value, unless it cannot be written.
+type Written = Result<Value, serde_json::Error>;
 
 /// The object of `limit.json` and of `masonry limit --json`, pretty-printed.
 ///
@@ -23,7 +25,7 @@ pub(super) mod path;
 /// # Errors
 /// None that this data can cause; the signature is that of the serialiser.
 pub fn json(limit: &Limit, files: &[String]) -> Result<String, serde_json::Error> {
-    Ok(serde_json::to_string_pretty(&report(limit, files))? + "\n")
+    report(limit, files)?.file()
 }
 
 /// The object of `masonry limit --both --json`, pretty-printed: the object of [`json`] for the `given` direction of the load and for
@@ -35,35 +37,89 @@ pub fn json(limit: &Limit, files: &[String]) -> Result<String, serde_json::Error
 pub fn json_both(both: &Directions, files: &[String]) -> Result<String, serde_json::Error> {
     let is_opposite = both.governs == Governs::Opposite;
     let (of_given, of_opposite) = if is_opposite { (&[][..], files) } else { (files, &[][..]) };
-    let (given, opposite) = (report(&both.given, of_given), report(&both.opposite, of_opposite));
-    let both = Both { governs: both.governs, given, opposite };
-    Ok(serde_json::to_string_pretty(&both)? + "\n")
+    Value::Object(members! {
+        "governs": Value::of(&both.governs)?,
+        "given": report(&both.given, of_given)?,
+        "opposite": report(&both.opposite, of_opposite)?,
+    })
+    .file()
 }
 
-fn report<'a>(limit: &'a Limit, files: &'a [String]) -> Report<'a> {
+fn report(limit: &Limit, files: &[String]) -> Written {
     let model = &limit.model;
+    let found = limit.associative.as_ref().map(|found| associative(found, model)).transpose()?;
+    Ok(Value::Object(members! {
+        "sentence": &limit.sentence,
+        "warnings": limit.warnings.as_slice(),
+        "interrupted": limit.is_interrupted,
+        "title": &limit.title,
+        "group": &limit.group,
+        "units": names_of_units(model),
+        "associative": found,
+        "path": limit.path.as_ref().map(path).transpose()?,
+        "time_s": times(&limit.times),
+        "files": files,
+    }))
+}
+
+fn associative(found: &Associative, model: &Model) -> Written {
+    let figures = figures::limit::associative(found, model);
+    let mut object = members! { "answer": Value::of(&found.answer)? };
+    object.extend(in_json(&figures, "load_factor bound gap proved"));
+    let reactions = reactions(InUnits(model.units), &found.reactions);
+    object.extend(members! { "reactions": reactions.by_name() });
+    object.extend(in_json(
+        &figures,
+        if found.rest.is_some() { "mechanism rest" } else { "mechanism" },
+    ));
+    Ok(Value::Object(object))
+}
+
+fn path(path: &Path) -> Written {
+    let figures = figures::limit::path(path);
+    let units = InUnits(path.model.units);
+    let curve = figures::limit::curve(path).objects();
+    let last = curve.last().map(|state| {
+        let mut state = state.clone();
+        state.extend(members! { "reactions": reactions(units, &path.reactions).by_name() });
+        state
+    });
+    let events: Result<Vec<_>, _> = path.events.iter().map(|it| event(&path.model, it)).collect();
+    let mut object = in_json(&figures, "load_factor falls decided");
+    object.extend(members! { "last_stable": last });
+    object.extend(in_json(&figures, "mechanism"));
+    object.extend(members! {
+        "events": Value::List(events?),
+        "curve": Value::List(curve.into_iter().map(Value::Object).collect()),
+        "dry_joints": path.model.dry_joints(),
+    });
+    Ok(Value::Object(object))
+}
+
+/// The two bodies that meet, the middle of their joint, and what it does between two factors.
+fn event(model: &Model, event: &Event) -> Written {
     let units = InUnits(model.units);
-    Report {
-        sentence: &limit.sentence,
-        warnings: &limit.warnings,
-        interrupted: limit.is_interrupted,
-        title: &limit.title,
-        group: &limit.group,
-        units: Names::of(units),
-        associative: limit.associative.as_ref().map(|found| Associative {
-            answer: found.answer,
-            load_factor: found.load_factor,
-            bound: found.bound,
-            gap: found.bound.zip(found.load_factor).map(|(bound, factor)| bound - factor),
-            proved: found.proved,
-            reactions: ByName(found.reactions.iter().map(|it| named_force(it, units)).collect()),
-            mechanism: found.mechanism.as_ref().map(|rates| rates_by_name(model, rates)),
-            rest: found.rest,
-        }),
-        path: limit.path.as_ref().map(|it| path::of(it, units)),
-        time_s: ByName(limit.times.iter().map(|it| (it.phase.as_str(), it.seconds)).collect()),
-        files,
-    }
+    let joint = &model.joints[event.joint.index()];
+    let middle = nalgebra::center(&joint.from, &joint.to);
+    let at = [middle.x, middle.y].map(|it| units.length(it).into());
+    Ok(Value::Object(members! {
+        "between": Value::List(sides(model, joint).map(Value::from).to_vec()),
+        "at": Value::List(at.to_vec()),
+        "change": Value::of(&event.change)?,
+        "after": event.after,
+        "before": event.before,
+    }))
+}
+
+fn names_of_units(model: &Model) -> Value {
+    let units = model.units;
+    Value::Object(members! {
+        "load_factor": "1",
+        "length": units.length_name(),
+        "force": units.force_name(),
+        "moment": units.energy_name(),
+        "time_s": "s",
+    })
 }
 
 /// The object of `masonry limit --range --json`, pretty-printed: by support the `min` and `max` of `fx` and `fy`, each with its
@@ -73,17 +129,30 @@ fn report<'a>(limit: &'a Limit, files: &'a [String]) -> Report<'a> {
 /// As [`json`].
 pub fn range_json(range: &Range) -> Result<String, serde_json::Error> {
     let units = InUnits(range.model.units);
-    let supports = range.supports.as_ref();
-    let report = RangeReport {
-        sentence: &range.sentence,
-        title: &range.title,
-        units: Names::of(units),
-        range: supports.map(|supports| {
-            let of = |it| Components::of(it, units);
-            ByName(supports.iter().map(|it| (it.support.as_str(), of(it))).collect())
-        }),
+    let components = |it: &Extremes| {
+        let object = members! { "fx": ends(it.fx, units), "fy": ends(it.fy, units) };
+        (it.support.clone(), Value::Object(object))
     };
-    Ok(serde_json::to_string_pretty(&report)? + "\n")
+    let supports = range.supports.as_ref();
+    Value::Object(members! {
+        "sentence": &range.sentence,
+        "title": &range.title,
+        "units": names_of_units(&range.model),
+        "range": supports.map(|list| list.iter().map(components).collect::<Vec<_>>()),
+    })
+    .file()
+}
+
+fn ends([min, max]: [Extreme; 2], units: InUnits) -> Value {
+    let end = |extreme: Extreme| {
+        let (value, bound) = match extreme {
+            Extreme::Value { value, bound } => (Some(units.force(value)), Some(units.force(bound))),
+            Extreme::Unlimited | Extreme::Open => (None, None),
+        };
+        let is_unlimited = extreme == Extreme::Unlimited;
+        members! { "value": value, "bound": bound, "unlimited": is_unlimited }
+    };
+    Value::Object(members! { "min": end(min), "max": end(max) })
 }
 
 /// The object of `masonry limit --thickness ARCH --json`, pretty-printed: the largest thickness that `falls` and the smallest that
@@ -92,128 +161,18 @@ pub fn range_json(range: &Range) -> Result<String, serde_json::Error> {
 /// # Errors
 /// As [`json`].
 pub fn thickness_json(it: &Thickness, files: &[String]) -> Result<String, serde_json::Error> {
-    let units = InUnits(it.model.units);
-    let length = |metres: Option<f64>| metres.map(|metres| units.length(metres));
-    let report = ThicknessReport {
-        sentence: &it.sentence,
-        interrupted: it.is_interrupted,
-        title: &it.title,
-        arch: &it.arch,
-        length: units.0.length_name(),
-        falls: length(it.falls),
-        stands: length(it.stands),
-        proved: it.proved,
-        mechanism: it.mechanism.as_ref().map(|rates| rates_by_name(&it.model, rates)),
-        files,
+    let mut object = members! {
+        "sentence": &it.sentence,
+        "interrupted": it.is_interrupted,
+        "title": &it.title,
+        "arch": &it.arch,
+        "length": it.model.units.length_name(),
     };
-    Ok(serde_json::to_string_pretty(&report)? + "\n")
-}
-
-#[derive(Serialize)]
-struct ThicknessReport<'a> {
-    sentence: &'a str,
-    interrupted: bool,
-    title: &'a str,
-    arch: &'a str,
-    length: &'a str,
-    falls: Option<f64>,
-    stands: Option<f64>,
-    proved: bool,
-    mechanism: Option<ByName<'a, Vec<[f64; 2]>>>,
-    files: &'a [String],
-}
-
-#[derive(Serialize)]
-struct Both<'a> {
-    governs: Governs,
-    given: Report<'a>,
-    opposite: Report<'a>,
-}
-
-#[derive(Serialize)]
-struct Report<'a> {
-    sentence: &'a str,
-    warnings: &'a [String],
-    interrupted: bool,
-    title: &'a str,
-    group: &'a str,
-    units: Names,
-    associative: Option<Associative<'a>>,
-    path: Option<path::Path<'a>>,
-    time_s: ByName<'a, f64>,
-    files: &'a [String],
-}
-
-#[derive(Serialize)]
-struct Associative<'a> {
-    answer: Answer,
-    load_factor: Option<f64>,
-    bound: Option<f64>,
-    gap: Option<f64>,
-    proved: bool,
-    reactions: ByName<'a, Force>,
-    mechanism: Option<ByName<'a, Vec<[f64; 2]>>>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    rest: Option<Rest>,
-}
-
-#[derive(Serialize)]
-struct Names {
-    load_factor: &'static str,
-    length: &'static str,
-    force: &'static str,
-    moment: String,
-    time_s: &'static str,
-}
-
-impl Names {
-    fn of(units: InUnits) -> Self {
-        let (force, moment) = (units.0.force_name(), units.0.energy_name());
-        Self { load_factor: "1", length: units.0.length_name(), force, moment, time_s: "s" }
-    }
-}
-
-#[derive(Serialize)]
-struct RangeReport<'a> {
-    sentence: &'a str,
-    title: &'a str,
-    units: Names,
-    range: Option<ByName<'a, Components>>,
-}
-
-#[derive(Serialize)]
-struct Components {
-    fx: Ends,
-    fy: Ends,
-}
-
-#[derive(Serialize)]
-struct Ends {
-    min: End,
-    max: End,
-}
-
-#[derive(Serialize)]
-struct End {
-    value: Option<f64>,
-    bound: Option<f64>,
-    unlimited: bool,
-}
-
-impl Components {
-    fn of(it: &Extremes, units: InUnits) -> Self {
-        let ends =
-            |[min, max]: [Extreme; 2]| Ends { min: End::of(min, units), max: End::of(max, units) };
-        Self { fx: ends(it.fx), fy: ends(it.fy) }
-    }
-}
-
-impl End {
-    fn of(extreme: Extreme, units: InUnits) -> Self {
-        let (value, bound) = match extreme {
-            Extreme::Value { value, bound } => (Some(units.force(value)), Some(units.force(bound))),
-            Extreme::Unlimited | Extreme::Open => (None, None),
-        };
-        Self { value, bound, unlimited: extreme == Extreme::Unlimited }
-    }
+    object.extend(in_json(&figures::limit::thickness(it), "falls stands proved"));
+    let rates = it.mechanism.as_ref();
+    object.extend(members! {
+        "mechanism": rates.map(|rates| figures::tables::rates_by_name(&it.model, rates)),
+        "files": files,
+    });
+    Value::Object(object).file()
 }

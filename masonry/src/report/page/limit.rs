@@ -2,64 +2,60 @@
 
 use nalgebra::Vector2;
 
-use super::tables::{self, Cell, Table};
+use super::tables::{self, section};
 use super::{Choice, Page, size};
-use crate::analysis::limit::{Answer, Associative, Change, Limit, Path, Thickness};
+use crate::analysis::limit::{Answer, Associative, Limit, Path, Thickness};
 use crate::data::state::{ContactState, Reaction};
 use crate::model::Model;
-use crate::report::format::{InUnits, significant};
-use crate::report::hinges::yielding;
-use crate::report::limit::{carried_by_rest, table, thickness_table};
-use crate::report::moving::moving_part;
+use crate::report::figures::{self, Said, on_page};
+use crate::report::format::significant;
+use crate::report::limit::{table, thickness_table};
 use crate::report::svg;
-use crate::rounding::{Side, outwards};
 
 /// Rates of the corners of one block.
 type Rates = Vec<Vector2<f64>>;
 
 /// The page of a limit load.
 pub fn limit(limit: &Limit) -> String {
-    let (mut pictures, mut list) = (Vec::new(), Vec::new());
-    let (title, mut curves) = (&limit.title, None);
-    if let Some(found) = &limit.associative {
-        let law = ByLaw {
-            of: "associative flow",
-            names: [("forces", "Forces"), ("mechanism", "Mechanism")],
-            model: &limit.model,
-            forces: found.forces.as_deref(),
-            mechanism: found.mechanism.as_deref(),
-            reactions: &found.reactions,
-            events: None,
-        };
-        law.show(title, &mut pictures, &mut list);
-    }
-    if let Some(path) = &limit.path {
-        let law = ByLaw {
-            of: "path",
-            names: [("path-forces", "Forces, path"), ("path-mechanism", "Mechanism, path")],
-            model: &path.model,
-            forces: path.contacts.as_deref(),
-            mechanism: path.mechanism.as_deref(),
-            reactions: &path.reactions,
-            events: events(path),
-        };
-        law.show(title, &mut pictures, &mut list);
-        curves = svg::path(title, &limit.group, path);
-    }
-    pictures.push(Choice::one("scene", "Scene", svg::scene(title, &limit.model)));
-    Page {
+    let title = &limit.title;
+    let mut page = Page {
         title: title.clone(),
         verdict: verdict(limit),
         sentence: limit.sentence.clone(),
         warnings: limit.warnings.clone(),
         figures: figures(limit),
-        pictures,
-        curves,
-        tables: list,
         text: table(limit),
         ..Page::default()
+    };
+    if let Some(found) = &limit.associative {
+        let law = ByLaw {
+            of: ", associative flow",
+            names: [("forces", "Forces"), ("mechanism", "Mechanism")],
+            model: &limit.model,
+            forces: found.forces.as_deref(),
+            mechanism: found.mechanism.as_deref(),
+            reactions: &found.reactions,
+            events: String::new(),
+        };
+        law.show(&mut page);
     }
-    .finish()
+    if let Some(path) = &limit.path {
+        let (title, note) =
+            ("Joints that open and slide along the path", "Each between two load factors.");
+        let law = ByLaw {
+            of: ", path",
+            names: [("path-forces", "Forces, path"), ("path-mechanism", "Mechanism, path")],
+            model: &path.model,
+            forces: path.contacts.as_deref(),
+            mechanism: path.mechanism.as_deref(),
+            reactions: &path.reactions,
+            events: section(title, note, &figures::limit::events(path)),
+        };
+        law.show(&mut page);
+        page.curves = svg::path(&limit.title, &limit.group, path);
+    }
+    page.pictures.push(Choice::one("scene", "Scene", svg::scene(title, &limit.model)));
+    page.finish()
 }
 
 /// What a page shows of one law of friction.
@@ -72,24 +68,26 @@ struct ByLaw<'a> {
     forces: Option<&'a [ContactState]>,
     mechanism: Option<&'a [Rates]>,
     reactions: &'a [Reaction],
-    events: Option<Table>,
+    events: String,
 }
 
 impl ByLaw<'_> {
-    fn show(self, title: &str, pictures: &mut Vec<Choice>, list: &mut Vec<Table>) {
+    fn show(self, page: &mut Page) {
         let Self { of, names: [forces, mechanism], model, .. } = self;
+        let title = format!("{}{of}", page.title);
         if let Some(found) = self.forces {
-            let picture = svg::forces(&format!("{title}, {of}"), model, found);
-            pictures.push(Choice::one(forces.0, forces.1, picture));
+            let picture = svg::forces(&title, model, found);
+            page.pictures.push(Choice::one(forces.0, forces.1, picture));
         }
         if let Some(rates) = self.mechanism {
-            moving(pictures, list, (title, model), rates, (mechanism.0, mechanism.1, of));
+            let picture = svg::mechanism_on_page(&title, model, rates);
+            page.pictures.push(Choice::one(mechanism.0, mechanism.1, picture));
+            page.tables += &tables::hinges(&format!("Joints of the mechanism{of}"), model, rates);
         }
-        let units = InUnits(model.units);
-        list.extend(tables::reactions(&format!("Reactions, {of}"), self.reactions, units));
-        list.extend(self.events);
+        page.tables += &tables::reactions(&format!("Reactions{of}"), model, self.reactions);
+        page.tables += &self.events;
         if let Some(found) = self.forces {
-            list.extend(tables::joints(&format!("Joints, {of}"), model, found));
+            page.tables += &tables::joints(&format!("Joints{of}"), model, found);
         }
     }
 }
@@ -97,38 +95,27 @@ impl ByLaw<'_> {
 /// The page of the least thickness of an arch.
 pub fn thickness(thickness: &Thickness) -> String {
     let (title, model) = (&thickness.title, &thickness.model);
-    let (mut pictures, mut list) = (Vec::new(), Vec::new());
-    if let Some(forces) = &thickness.forces {
-        pictures.push(Choice::one("forces", "Forces", svg::forces(title, model, forces)));
-        list.extend(tables::joints("Joints", model, forces));
-    }
-    if let Some(rates) = &thickness.mechanism {
-        let keys = ("mechanism", "Mechanism", "of the thicker that falls");
-        moving(&mut pictures, &mut list, (title, model), rates, keys);
-    }
-    pictures.push(Choice::one("scene", "Scene", svg::scene(title, model)));
-    let units = InUnits(model.units);
-    let length = |it: Option<f64>, side| {
-        let text = |it: f64| outwards(units.length(it), side, |it| significant(it, 6));
-        it.map_or("none".to_owned(), |it| {
-            format!("{}\u{a0}{}", text(it), model.units.length_name())
-        })
-    };
-    Page {
+    let mut page = Page {
         title: title.clone(),
         verdict: verdict_of(thickness),
         sentence: thickness.sentence.clone(),
-        figures: vec![
-            ("stands at".to_owned(), length(thickness.stands, Side::Above)),
-            ("falls at".to_owned(), length(thickness.falls, Side::Below)),
-            ("proved".to_owned(), yes_or_no(thickness.proved)),
-        ],
-        pictures,
-        tables: list,
+        figures: on_page(&figures::limit::thickness(thickness)),
         text: thickness_table(thickness),
         ..Page::default()
+    };
+    if let Some(forces) = &thickness.forces {
+        let picture = svg::forces(title, model, forces);
+        page.pictures.push(Choice::one("forces", "Forces", picture));
+        page.tables += &tables::joints("Joints", model, forces);
     }
-    .finish()
+    if let Some(rates) = &thickness.mechanism {
+        let of = ", of the thicker that falls";
+        let picture = svg::mechanism_on_page(&format!("{title}{of}"), model, rates);
+        page.pictures.push(Choice::one("mechanism", "Mechanism", picture));
+        page.tables += &tables::hinges(&format!("Joints of the mechanism{of}"), model, rates);
+    }
+    page.pictures.push(Choice::one("scene", "Scene", svg::scene(title, model)));
+    page.finish()
 }
 
 /// Whether the arch stands at the thickness of the scene.
@@ -139,20 +126,6 @@ fn verdict_of(thickness: &Thickness) -> &'static str {
         (Some(stands), _) if given >= stands => "stands",
         _ => "undecided",
     }
-}
-
-/// Picture and table of a mechanism.
-fn moving(
-    pictures: &mut Vec<Choice>,
-    tables: &mut Vec<Table>,
-    (title, model): (&str, &Model),
-    rates: &[Rates],
-    (key, name, of): (&str, &str, &str),
-) {
-    let picture = svg::mechanism_on_page(&format!("{title}, {of}"), model, rates);
-    pictures.push(Choice::one(key, name, picture));
-    let title = format!("Joints of the mechanism, {of}");
-    tables.extend(tables::yielding(&title, model, &yielding(model, rates)));
 }
 
 /// Says whether the structure stands under the loads that stay, and some part of those that grow.
@@ -173,52 +146,23 @@ fn verdict(limit: &Limit) -> &'static str {
     }
 }
 
-fn yes_or_no(it: bool) -> String {
-    if it { "yes" } else { "no" }.to_owned()
-}
-
-fn figures(limit: &Limit) -> Vec<(String, String)> {
-    let bound = |it: Option<f64>, side| {
-        it.map_or("none".to_owned(), |it| outwards(it, side, |it| significant(it, 5)))
-    };
+fn figures(limit: &Limit) -> Vec<Said> {
     let mut list = vec![("load that grows", limit.group.clone())];
-    let moves = |it: &Option<Vec<Rates>>| {
-        it.as_ref().map(|rates| ("moves", moving_part(&limit.model, rates)))
-    };
     if let Some(path) = &limit.path {
-        list.push(("factor along a path", bound(path.load_factor, Side::Below)));
-        list.push(("falls at", bound(path.falls, Side::Above)));
-        list.extend(moves(&path.mechanism));
+        list.extend(on_page(&figures::limit::path(path)));
     }
     if let Some(found) = &limit.associative {
-        list.push(("factor, associative flow", bound(found.load_factor, Side::Below)));
-        list.push(("cannot stand above", bound(found.bound, Side::Above)));
-        if limit.path.is_none() {
-            list.extend(moves(&found.mechanism));
-        }
-        list.extend(found.rest.map(|rest| ("the rest", carried_by_rest(rest))));
-        list.push(("proved", yes_or_no(found.proved)));
+        let mut found = figures::limit::associative(found, &limit.model);
+        // Readers see the answer first and the proof last, and one motion.
+        let place = |key: &str| {
+            ["load_factor", "bound", "mechanism", "rest"].iter().position(|it| *it == key)
+        };
+        found.retain(|it| it.key != "mechanism" || limit.path.is_none());
+        found.sort_by_key(|it| place(it.key).unwrap_or(usize::MAX));
+        list.extend(on_page(&found));
     }
     list.push(("size", size(&limit.model)));
     let seconds: f64 = limit.times.iter().map(|it| it.seconds).sum();
     list.push(("time", format!("{} s", significant(seconds, 2))));
-    list.into_iter().map(|(name, value)| (name.to_owned(), value)).collect()
-}
-
-fn events(path: &Path) -> Option<Table> {
-    let heads = ["number", "between", "and", "change", "after", "before"];
-    let mut table = Table::new("Joints that open and slide along the path", &heads)
-        .with_note("Each between two load factors.");
-    for (index, event) in path.events.iter().enumerate() {
-        let mut row = vec![Cell::count(index + 1)];
-        row.extend(tables::sides(&path.model, event.joint.index()));
-        row.push(Cell::words(match event.change {
-            Change::Hinges => "hinges",
-            Change::Opens => "opens",
-            Change::Slides => "slides",
-        }));
-        row.extend([Cell::number(event.after, 5), Cell::number(event.before, 5)]);
-        table.row(row);
-    }
-    table.if_any()
+    list
 }

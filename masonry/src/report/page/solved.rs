@@ -1,21 +1,24 @@
 //! The page of a scene that was solved, or was not.
 
-use super::tables::{self, Cell, Table};
+use super::tables::{self, section};
 use super::{Choice, Page, Step, size};
 use crate::analysis::outcome::{Frame, Outcome};
-use crate::data::state::State;
 use crate::data::verdict::Verdict;
-use crate::history::History;
-use crate::report::format::{InUnits, block_name, significant, stress_text};
-use crate::report::hinges::yielding;
-use crate::report::joints;
-use crate::report::summary::{
-    self, Resultant, extreme_stresses, largest_displacement, reason, weight,
-};
+use crate::report::figures::history::place;
+use crate::report::figures::{self, Said, on_page};
+use crate::report::format::{InUnits, significant};
+use crate::report::summary::{self, Resultant, load_groups, reason, weight};
 use crate::report::svg::pictures::{Pictures, Shown, pictures};
 use crate::report::svg::{self, ReferenceLines};
 use crate::report::table;
 
+/// The files of pictures, their keys and switches in the order of a page.
+const SHOWN: [(&str, &str, &str); 4] = [
+    ("forces.svg", "forces", "Forces"),
+    ("principal_stresses.svg", "stresses", "Stresses"),
+    ("cracks.svg", "cracks", "Cracks"),
+    ("deformed.svg", "deformed", "Deformed"),
+];
 /// So many steps of a load history have pictures; of more, every second, third and so on.
 const FRAMES: usize = 40;
 
@@ -75,20 +78,12 @@ fn pictures_of(
             .map(|(frame, title)| Shown { title, model: &frame.model, state: &frame.state })
             .collect();
         shown.push(last);
-        for Pictures { file, pictures } in pictures(&shown, reference, true) {
-            let key = file.trim_end_matches(".svg");
-            let (place, key, name) = match key {
-                "forces" => (0, "forces", "Forces"),
-                "principal_stresses" => (1, "stresses", "Stresses"),
-                "cracks" => (2, "cracks", "Cracks"),
-                _ => (3, "deformed", "Deformed"),
-            };
-            let choice = Choice { key: key.to_owned(), name: name.to_owned(), pictures };
-            choices.push((place, choice));
+        let mut list = pictures(&shown, reference, true);
+        for (file, key, name) in SHOWN {
+            let of_kind = list.extract_if(.., |it: &mut Pictures| it.file == file);
+            choices.extend(of_kind.map(|it| Choice { key, name, pictures: it.pictures }));
         }
-        choices.sort_by_key(|(place, _)| *place);
     }
-    let mut choices: Vec<Choice> = choices.into_iter().map(|(_, choice)| choice).collect();
     if let Some(rates) = &outcome.mechanism {
         let picture = svg::mechanism_on_page(&outcome.title, model, rates);
         choices.push(Choice::one("mechanism", "Mechanism", picture));
@@ -103,7 +98,7 @@ fn steps(outcome: &Outcome, frames: &[Frame]) -> (Vec<Step>, Vec<String>) {
         return (Vec::new(), vec![outcome.title.clone()]);
     };
     let position = outcome.history.as_ref().map_or(0, |history| history.records.len() - 1);
-    let name = |step: &crate::history::Step| format!("{} {}/{}", step.stage, step.number, step.of);
+    let name = |step: &crate::history::Step| format!("{} {}", step.stage, place(step));
     let earlier = frames.iter().take_while(|frame| frame.position < position);
     let steps: Vec<Step> = earlier
         .map(|frame| Step { name: name(&frame.step), position: frame.position })
@@ -113,13 +108,11 @@ fn steps(outcome: &Outcome, frames: &[Frame]) -> (Vec<Step>, Vec<String>) {
     (steps, titles)
 }
 
-fn figures(outcome: &Outcome) -> Vec<(String, String)> {
+fn figures(outcome: &Outcome) -> Vec<Said> {
     let model = &outcome.model;
     let units = InUnits(model.units);
-    let mut list: Vec<(&str, String)> = Vec::new();
-    if let Some(state) = &outcome.state {
-        list.extend(figures_of_state(outcome, state));
-    }
+    let of_state = [figures::solved::state(outcome), figures::solved::checks(outcome)].concat();
+    let mut list = on_page(&of_state);
     let force = |it: Resultant| {
         let [fx, fy] = [it.force.x, it.force.y].map(|it| significant(units.force(it), 4));
         format!("({fx}, {fy}) {}", units.0.force_name())
@@ -140,104 +133,22 @@ fn figures(outcome: &Outcome) -> Vec<(String, String)> {
     if outcome.state.is_some() {
         list.push(("largest residual", significant(solve.residuals.worst(), 2)));
     }
-    list.into_iter().map(|(name, value)| (name.to_owned(), value)).collect()
-}
-
-fn figures_of_state(outcome: &Outcome, state: &State) -> Vec<(&'static str, String)> {
-    let model = &outcome.model;
-    let mut list = Vec::new();
-    if let Some(it) = largest_displacement(model, state).filter(|it| it.value != 0.0) {
-        let (value, block) = (significant(1e3 * it.value, 4), block_name(model, it.block));
-        let text = format!("u_{} = {value}\u{a0}mm, {block}", it.component);
-        list.push(("largest displacement", text));
-    }
-    let openings = joints::openings(model, &state.contacts);
-    let widest = openings.iter().map(|it| it.widest).fold(0.0, f64::max);
-    let slip = openings.iter().map(|it| it.slip).fold(0.0, f64::max);
-    for (name, value) in [("widest crack", widest), ("largest slip", slip)] {
-        if value > 0.0 {
-            list.push((name, format!("{}\u{a0}mm", significant(1e3 * value, 3))));
-        }
-    }
-    let (compression, tension) = extreme_stresses(state);
-    for (name, it) in [("largest compression", compression), ("largest tension", tension)] {
-        if let Some(it) = it {
-            let value = stress_text(it.value.abs());
-            list.push((name, format!("{value}, {}", block_name(model, it.block))));
-        }
-    }
-    let forces = joints::forces(model, &state.contacts);
-    let most = forces.iter().filter_map(|it| it.utilisation).fold(0.0, f64::max);
-    if most > 0.0 {
-        list.push(("friction used at most", format!("{} %", significant(100.0 * most, 3))));
-    }
-    if let Some(checks) = &outcome.checks {
-        let counts = format!("{} open, {} stick, {} slip", checks.open, checks.stick, checks.slip);
-        list.push(("contact points", counts));
-    }
     list
 }
 
-fn tables_of(outcome: &Outcome) -> Vec<Table> {
+fn tables_of(outcome: &Outcome) -> String {
     let model = &outcome.model;
-    let units = InUnits(model.units);
-    let mut list = Vec::new();
-    list.extend(tables::reactions("Reactions", &outcome.reactions, units));
-    list.extend(outcome.history.as_ref().and_then(|history| steps_table(history, units)));
-    list.extend(outcome.mechanism.as_ref().and_then(|rates| {
-        tables::yielding("Joints of the mechanism", model, &yielding(model, rates))
-    }));
+    let mut list = tables::reactions("Reactions", model, &outcome.reactions);
+    if let Some(history) = &outcome.history {
+        let note = "Work and dissipated energy are those of the step.";
+        list += &section("Steps", note, &figures::history::on_page(model, history).with_digits(4));
+    }
+    if let Some(rates) = &outcome.mechanism {
+        list += &tables::hinges("Joints of the mechanism", model, rates);
+    }
     if let Some(state) = &outcome.state {
-        list.extend(tables::joints("Joints", model, &state.contacts));
+        list += &tables::joints("Joints", model, &state.contacts);
     }
-    list.extend(loads_table(outcome, units));
-    list
-}
-
-fn loads_table(outcome: &Outcome, units: InUnits) -> Option<Table> {
-    let force = units.0.force_name();
-    let heads = ["load", "group", "factor", &format!("fx [{force}]"), &format!("fy [{force}]")];
-    let mut table = Table::new("Loads", &heads);
-    for group in summary::load_groups(&outcome.model) {
-        for (load, sum) in group.loads {
-            table.row(vec![
-                Cell::words(&load.name),
-                Cell::words(group.name),
-                Cell::number(load.factor, 4),
-                Cell::number(units.force(sum.force.x), 4),
-                Cell::number(units.force(sum.force.y), 4),
-            ]);
-        }
-    }
-    table.if_any()
-}
-
-fn steps_table(history: &History, units: InUnits) -> Option<Table> {
-    let (length, energy) = (units.0.length_name(), units.0.energy_name());
-    let heads = [
-        "number",
-        "stage",
-        "step",
-        &format!("largest displacement [{length}]"),
-        &format!("work [{energy}]"),
-        &format!("dissipated [{energy}]"),
-        "open",
-        "stick",
-        "slip",
-    ];
-    let mut table =
-        Table::new("Steps", &heads).with_note("Work and dissipated energy are those of the step.");
-    for (index, record) in history.records.iter().enumerate() {
-        let mut row = vec![
-            Cell::count(index + 1),
-            Cell::words(&record.step.stage),
-            Cell::count(record.step.number),
-            Cell::number(units.length(record.largest_displacement), 4),
-            Cell::number(units.energy(record.work), 4),
-            Cell::number(units.energy(record.dissipation), 4),
-        ];
-        row.extend(record.contacts.map(Cell::count));
-        table.row(row);
-    }
-    table.if_any()
+    let loads = figures::tables::loads(InUnits(model.units), &load_groups(model), false);
+    list + &section("Loads", "", &loads.without("m").with_digits(4))
 }

@@ -1,9 +1,8 @@
 //! A study as one JSON object.
 
-use serde::Serialize;
-
 use super::summary;
-use crate::analysis::study::{Mesh, Record, Study, Values};
+use crate::analysis::study::{Mesh, Study, Values};
+use crate::report::figures::{Value, members};
 use crate::report::format::InUnits;
 
 /// The object of `study.json` and of `masonry study --json`, pretty-printed: `title`, `units`,
@@ -14,45 +13,26 @@ use crate::report::format::InUnits;
 /// # Errors
 /// None that this data can cause; the signature is that of the serialiser.
 pub fn json(study: &Study, files: &[&str]) -> Result<String, serde_json::Error> {
-    let units = InUnits(study.units);
-    let report = Report {
-        title: &study.title,
-        units: Names {
-            strain_energy: study.units.energy_name(),
-            thrust: study.units.force_name(),
-            displacement: study.units.length_name(),
-            seconds: "s",
+    let units = study.units;
+    let meshes: Vec<Mesh> =
+        study.meshes.iter().map(|mesh| in_units(mesh, InUnits(units))).collect();
+    Value::Object(members! {
+        "title": &study.title,
+        "units": members! {
+            "strain_energy": units.energy_name(),
+            "thrust": units.force_name(),
+            "displacement": units.length_name(),
+            "seconds": "s",
         },
-        time_limit_s: study.time_limit.as_secs_f64(),
-        machine: study.machine.as_deref(),
-        interrupted: study.is_interrupted,
-        records: &study.records,
-        meshes: study.meshes.iter().map(|mesh| in_units(mesh, units)).collect(),
-        summary: summary(study),
-        files,
-    };
-    Ok(serde_json::to_string_pretty(&report)? + "\n")
-}
-
-#[derive(Serialize)]
-struct Report<'a> {
-    title: &'a str,
-    units: Names,
-    time_limit_s: f64,
-    machine: Option<&'a str>,
-    interrupted: bool,
-    records: &'a [Record],
-    meshes: Vec<Mesh>,
-    summary: Vec<String>,
-    files: &'a [&'a str],
-}
-
-#[derive(Serialize)]
-struct Names {
-    strain_energy: String,
-    thrust: &'static str,
-    displacement: &'static str,
-    seconds: &'static str,
+        "time_limit_s": study.time_limit.as_secs_f64(),
+        "machine": study.machine.as_ref(),
+        "interrupted": study.is_interrupted,
+        "records": Value::of(&study.records)?,
+        "meshes": Value::of(&meshes)?,
+        "summary": summary(study).as_slice(),
+        "files": Value::of(files)?,
+    })
+    .file()
 }
 
 fn in_units(mesh: &Mesh, units: InUnits) -> Mesh {

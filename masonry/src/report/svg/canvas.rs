@@ -38,7 +38,6 @@ impl Pixel {
 pub(super) enum Anchor {
     Start,
     Middle,
-    End,
 }
 
 impl Anchor {
@@ -46,7 +45,6 @@ impl Anchor {
         match self {
             Self::Start => "start",
             Self::Middle => "middle",
-            Self::End => "end",
         }
     }
 }

@@ -3,11 +3,11 @@
 use nalgebra::Vector2;
 
 use super::canvas::{Canvas, Pixel, fixed};
-use super::marks::{self, BRICK, OUTLINE};
+use super::marks::{self, BRICK};
 use super::sheet::{Frame, Margins, Sheet};
 use crate::data::state::ContactState;
 use crate::model::{Joint, Model};
-use crate::report::format::{InUnits, round_down, significant};
+use crate::report::format::{round_down, significant};
 use crate::report::joints::{self, Opening};
 
 /// From the narrowest to the widest: readable in grey, and by the colour-blind.
@@ -41,25 +41,18 @@ pub(in crate::report) fn coloured(
     let openings = joints::openings(model, contacts);
     let widest = openings.iter().map(|it| it.widest).fold(0.0, f64::max);
     let slip = openings.iter().map(|it| it.slip).fold(0.0, f64::max);
-    let mut sheet = Sheet::new(&format!("{title}: cracks"), marks::bounds(model), Margins::HATCH);
-    let frame = sheet.frame;
-    let brick = marks::brick_size(model, &frame);
-    let outline = fixed(marks::outline_width(brick));
-    let style = format!(
-        "class=\"bricks\" fill=\"{BRICK}\" stroke=\"{OUTLINE}\" stroke-width=\"{outline}\" \
-         stroke-linejoin=\"round\""
-    );
-    marks::blocks(&mut sheet, model, &style);
+    let mut sheet =
+        Sheet::new(&format!("{title}: cracks"), model, marks::bounds(model), Margins::HATCH);
+    marks::bricks(&mut sheet, &model.blocks, BRICK);
     marks::supports(&mut sheet, model);
-    let width = (0.07 * brick).clamp(1.0, 4.5);
+    let width = (0.07 * sheet.brick).clamp(1.0, 4.5);
     draw_slips(&mut sheet, model, &openings, slip, width);
     if widest > 0.0 {
         draw_widths(&mut sheet, model, &openings, [widest, widest_of_all], width);
     }
     if openings.is_empty() {
-        sheet.entry("no joint has opened or slid", |_| {});
+        sheet.note("no joint has opened or slid");
     }
-    sheet.length_bar(InUnits(model.units));
     sheet.finish()
 }
 
@@ -115,20 +108,14 @@ fn draw_widths(
             None if widest < widest_of_all => format!("crack of {least} mm and more"),
             None => format!("crack of {least} mm and more, widest {}\u{a0}mm", millimetres(widest)),
         };
-        sheet.entry(&text, |symbol| {
-            let style = format!("stroke=\"{}\" stroke-width=\"4\"", WIDTHS[index]);
-            symbol.line(Pixel::new(-22.0, 0.0), Pixel::new(22.0, 0.0), &style);
-        });
+        sheet.line_entry(&text, WIDTHS[index], "4");
     }
     if widest < widest_of_all {
-        sheet.entry(&format!("widest here {}\u{a0}mm", millimetres(widest)), |_| {});
+        sheet.note(&format!("widest here {}\u{a0}mm", millimetres(widest)));
     }
     if !pieces[0].is_empty() {
         let text = format!("below {} mm", millimetres(CLASSES[0] * round));
-        sheet.entry(&text, |symbol| {
-            let style = format!("stroke=\"{HAIRLINE}\" stroke-width=\"2\"");
-            symbol.line(Pixel::new(-22.0, 0.0), Pixel::new(22.0, 0.0), &style);
-        });
+        sheet.line_entry(&text, HAIRLINE, "2");
     }
 }
 
@@ -178,8 +165,5 @@ fn draw_slips(sheet: &mut Sheet, model: &Model, openings: &[Opening], largest: f
     });
     let count = marks::counted(found.len(), "joint");
     let text = format!("{count} slid, up to {}\u{a0}mm", millimetres(most));
-    sheet.entry(&text, |symbol| {
-        let style = format!("stroke=\"{SLIDING}\" stroke-width=\"2.4\"");
-        symbol.line(Pixel::new(-22.0, 0.0), Pixel::new(22.0, 0.0), &style);
-    });
+    sheet.line_entry(&text, SLIDING, "2.4");
 }

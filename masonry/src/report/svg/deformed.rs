@@ -1,11 +1,11 @@
 //! The deformed structure over its undeformed outline.
 
+use crate::data::state::State;
 use nalgebra::{Point2, Vector2};
 
 use super::canvas::{Pixel, before, fixed};
 use super::marks::{self, OUTLINE};
-use super::sheet::{Bounds, Margins, Sheet};
-use crate::data::state::State;
+use super::sheet::{BLOCK, Bounds, Margins, Sheet};
 use crate::model::{Block, Model};
 use crate::report::format::{InUnits, round_down, significant};
 use crate::report::summary::{largest_displacement, nodes};
@@ -66,20 +66,19 @@ pub(in crate::report) fn magnified(
     state: &State,
     by: &Magnified,
 ) -> String {
-    let mut sheet = Sheet::new(&format!("{title}: deformed"), by.bounds, Margins::HATCH);
-    let width = marks::outline_width(marks::brick_size(model, &sheet.frame));
+    let mut sheet = Sheet::new(&format!("{title}: deformed"), model, by.bounds, Margins::HATCH);
+    let width = marks::outline_width(sheet.brick);
     let thin = fixed(0.7 * width);
     let style = format!(
         "class=\"undeformed\" fill=\"none\" stroke=\"{UNDEFORMED}\" stroke-width=\"{thin}\""
     );
-    marks::blocks(&mut sheet, model, &style);
+    marks::outlines(&mut sheet, &model.blocks, &style);
     draw_moved(&mut sheet, model, state, by, width);
     marks::moved_supports(&mut sheet, model, by.factor, by.for_page);
     if by.for_page && by.largest > 0.0 {
         sheet.tell("magnified", &significant(by.factor, 4));
     }
     add_legend(&mut sheet, InUnits(model.units), by, model, state);
-    sheet.length_bar(InUnits(model.units));
     sheet.finish()
 }
 
@@ -145,7 +144,7 @@ fn mesh_lines(block: &Block, nodes: usize) -> Vec<Vec<usize>> {
 fn add_legend(sheet: &mut Sheet, units: InUnits, by: &Magnified, model: &Model, state: &State) {
     sheet.entry("undeformed", |symbol| {
         let style = format!("fill=\"none\" stroke=\"{UNDEFORMED}\" stroke-width=\"0.8\"");
-        symbol.rectangle(Pixel::new(-16.0, -6.0), 32.0, 12.0, &style);
+        symbol.rectangle(BLOCK, -2.0 * BLOCK.x, -2.0 * BLOCK.y, &style);
     });
     let largest = largest_displacement(model, state).map_or(0.0, |it| it.value.abs());
     let factor = significant(by.factor, 4);
@@ -154,15 +153,12 @@ fn add_legend(sheet: &mut Sheet, units: InUnits, by: &Magnified, model: &Model, 
         (true, true) => "deformed".to_owned(),
         (false, _) => "no displacement".to_owned(),
     };
-    sheet.entry(&text, |symbol| {
-        let style = format!("fill=\"{FILLED}\" stroke=\"{OUTLINE}\" stroke-width=\"1\"");
-        symbol.rectangle(Pixel::new(-16.0, -6.0), 32.0, 12.0, &style);
-    });
+    sheet.block_entry(&text, FILLED);
     if largest > 0.0 && by.for_page {
         // A line of its own, which the page changes.
-        sheet.entry(&format!("magnified {factor} times"), |_| {});
+        sheet.note(&format!("magnified {factor} times"));
     }
     if largest > 0.0 {
-        sheet.entry(&format!("largest component {}", units.length_text(largest)), |_| {});
+        sheet.note(&format!("largest component {}", units.length_text(largest)));
     }
 }

@@ -1,13 +1,15 @@
-//! Diagrams with logarithmic axes, one or many in a picture.
+//! Diagrams, one or many in a picture: of ratios with logarithmic axes, of curves with linear ones.
 //!
 //! Lines and markers have classes, and coordinates are whole pixels: pages with hundreds of curves stay small.
 
+mod axis;
+
 use std::collections::BTreeSet;
 use std::fmt::Write as _;
-use std::ops::Range;
 
 use super::canvas::{escape, text_width, wrapped};
 use super::style::{COLOURS, FONT, TEXT, TITLE};
+use axis::{Axis, Scale};
 
 /// Height of a line of text, and from its top to the foot of its letters.
 const LINE: i32 = 19;
@@ -17,6 +19,8 @@ const HALF: i32 = 5;
 const EDGE: i32 = 16;
 /// A diagram alone, and one of several, which stand in two columns.
 const SIZES: [[i32; 2]; 2] = [[868, 430], [560, 340]];
+/// A chart, of which every one has a row of its own.
+const CHART: [i32; 2] = [868, 300];
 /// Room left of, right of and below the lines of a diagram.
 const LEFT: i32 = 76;
 const RIGHT: i32 = 15;
@@ -33,11 +37,8 @@ const MARKERS: [&[[i32; 2]]; 7] = [
     &[[-3, 0], [0, -7], [3, 0], [0, 7]],
     &[[-6, 0], [0, -3], [6, 0], [0, 3]],
 ];
-/// Axes of fewer decades have lines at 2 and 5 too.
-const FEW: f64 = 3.0;
-const MOST_LABELS: f64 = 9.0;
-/// Axes within these have no exponents.
-const PLAIN: Range<f64> = 0.9e-4..1.1e4;
+/// Lines through more points have no markers on linear axes.
+const MARKED: usize = 60;
 
 /// How a series is drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -61,7 +62,7 @@ pub struct Series {
     pub style: usize,
     /// How it is drawn.
     pub look: Look,
-    /// Positive coordinates; others are left out.
+    /// Those that have no place on the axes are left out.
     pub points: Vec<[f64; 2]>,
 }
 
@@ -71,9 +72,9 @@ impl Series {
         Kind { look: self.look, style: self.style % styles }
     }
 
-    fn drawn(&self) -> impl Iterator<Item = [f64; 2]> + Clone {
-        let is_drawn = |point: &&[f64; 2]| point.iter().all(|it| it.is_finite() && *it > 0.0);
-        self.points.iter().filter(is_drawn).copied()
+    fn drawn(&self, scale: Scale) -> impl Iterator<Item = [f64; 2]> + Clone {
+        let has_place = move |it: &f64| it.is_finite() && (scale == Scale::Linear || *it > 0.0);
+        self.points.iter().filter(move |it| it.iter().all(has_place)).copied()
     }
 }
 
@@ -96,9 +97,12 @@ impl Kind {
         format!("{look}{}", self.style)
     }
 
-    fn rule(self) -> String {
+    fn rule(self, scale: Scale) -> String {
         let (name, colour) = (self.name(), COLOURS[self.style]);
         match self.look {
+            Look::Full | Look::Hollow if scale == Scale::Linear => {
+                format!(".{name}{{stroke:{colour};stroke-width:2}}\n")
+            }
             Look::Full | Look::Hollow => {
                 format!(".{name}{{stroke:{colour};stroke-width:2;marker:url(#{name})}}\n")
             }
@@ -113,21 +117,37 @@ impl Kind {
         }
     }
 
+    /// The inside of markers, if there are any.
+    fn fill(self) -> Option<&'static str> {
+        match self.look {
+            Look::Full => Some(COLOURS[self.style]),
+            Look::Hollow => Some("#fff"),
+            Look::Dots | Look::Bound => None,
+        }
+    }
+
+    /// The outline of a marker.
+    fn outline(self, [x, y]: [i32; 2]) -> String {
+        let corners = MARKERS[self.style].iter().map(|it| format!("{} {}", x + it[0], y + it[1]));
+        format!("M{}z", corners.collect::<Vec<_>>().join(" "))
+    }
+
     /// What stands at every point of a line.
     fn marker(self) -> Option<String> {
-        let fill = match self.look {
-            Look::Full => COLOURS[self.style],
-            Look::Hollow => "#fff",
-            Look::Dots | Look::Bound => return None,
-        };
-        let (name, colour) = (self.name(), COLOURS[self.style]);
-        let corners = MARKERS[self.style].iter().map(|[x, y]| format!("{x} {y}"));
-        let corners: Vec<String> = corners.collect();
+        let (name, colour, fill) = (self.name(), COLOURS[self.style], self.fill()?);
         Some(format!(
             "<marker id=\"{name}\" markerUnits=\"userSpaceOnUse\" overflow=\"visible\">\
-             <path d=\"M{}z\" style=\"fill:{fill};stroke:{colour};stroke-width:1\"/></marker>\n",
-            corners.join(" ")
+             <path d=\"{}\" style=\"fill:{fill};stroke:{colour};stroke-width:1\"/></marker>\n",
+            self.outline([0, 0])
         ))
+    }
+
+    /// Markers one by one: pages refer to nothing by an address, and so have no markers of their own.
+    fn draw_markers(self, text: &mut String, pixels: &[[i32; 2]]) {
+        let Some(fill) = self.fill() else { return };
+        let (colour, outlines) = (COLOURS[self.style], pixels.iter().map(|it| self.outline(*it)));
+        let data: String = outlines.collect();
+        let _ = writeln!(text, "<path style=\"fill:{fill};stroke:{colour}\" d=\"{data}\"/>");
     }
 
     fn path(self, text: &mut String, pixels: &[[i32; 2]]) {
@@ -161,42 +181,109 @@ pub struct Diagram {
     pub series: Vec<Series>,
 }
 
+/// A diagram of curves with linear axes.
+#[derive(Debug, Clone)]
+pub(in crate::report) struct Chart {
+    pub(in crate::report) diagram: Diagram,
+    /// Where a stage begins, and its name.
+    pub(in crate::report) stages: Vec<(f64, String)>,
+    /// Where a page marks the step that it shows: a place for every step; none in a file.
+    pub(in crate::report) steps: Vec<f64>,
+}
+
+impl Chart {
+    /// A chart of full lines in colours of their own; of bounds the style stays.
+    pub(in crate::report) fn of(axes: [String; 2], mut series: Vec<Series>) -> Self {
+        let full = series.iter_mut().filter(|it| it.look == Look::Full);
+        full.enumerate().for_each(|(style, it)| it.style = style);
+        let diagram = Diagram { title: String::new(), axes, least: None, series };
+        Self { diagram, stages: Vec::new(), steps: Vec::new() }
+    }
+}
+
 /// The text of an SVG file; `None` where no series has a point. The legend above all is that of the first diagram.
 pub fn picture(title: &str, diagrams: &[Diagram], notes: &[String]) -> Option<String> {
     let all = || diagrams.iter().flat_map(|it| &it.series);
-    all().find_map(|it| it.drawn().next())?;
+    all().find_map(|it| it.drawn(Scale::Logarithmic).next())?;
     let columns = diagrams.len().min(SIZES.len());
-    let rows = diagrams.len().div_ceil(columns);
-    let [width, height] = [columns, rows].map(|it| i32::try_from(it).unwrap_or(1));
-    let [wide, high] = SIZES[columns - 1];
+    let size = SIZES[columns - 1];
+    let [width, height] =
+        [columns, diagrams.len().div_ceil(columns)].map(|it| i32::try_from(it).unwrap_or(1));
     let mut drawn = String::new();
-    let head = draw_head(&mut drawn, title, &diagrams[0].series, notes, width * wide);
+    let mut top = draw_lines(&mut drawn, title, TITLE, EDGE, width * size[0]);
+    top = draw_legend(
+        &mut drawn,
+        &diagrams[0].series,
+        Scale::Logarithmic,
+        [EDGE, top],
+        width * size[0],
+    );
+    for note in notes {
+        top = draw_lines(&mut drawn, note, TEXT, top, width * size[0]);
+    }
+    top += LINE / 2;
     let places = (0..height).flat_map(|row| (0..width).map(move |column| [column, row]));
     for (diagram, [column, row]) in diagrams.iter().zip(places) {
-        diagram.draw(&mut drawn, [EDGE + column * wide, head + row * high], [wide, high]);
+        let corner = [EDGE + column * size[0], top + row * size[1]];
+        Panel::of(diagram, Scale::Logarithmic, corner, size).draw(&mut drawn);
     }
-    let kinds: BTreeSet<Kind> = all().map(Series::kind).collect();
-    let rules: String = kinds.iter().map(|kind| kind.rule()).collect();
-    let markers: String = kinds.iter().filter_map(|kind| kind.marker()).collect();
-    let [width, height] = [width * wide + 2 * EDGE, head + height * high + EDGE];
-    Some(format!(
+    Some(file(title, all(), Scale::Logarithmic, [width * size[0], top + height * size[1]], &drawn))
+}
+
+/// The same of charts, one below the other, each with its legend; `None` where no series has two points.
+pub(in crate::report) fn charts(title: &str, charts: &[Chart]) -> Option<String> {
+    let has_curve = |it: &&Chart| it.diagram.series.iter().any(|it| it.points.len() > 1);
+    let charts: Vec<&Chart> = charts.iter().filter(has_curve).collect();
+    let all = charts.iter().flat_map(|it| &it.diagram.series);
+    all.clone().next()?;
+    let [width, height] = CHART;
+    let mut drawn = String::new();
+    let mut top = draw_lines(&mut drawn, title, TITLE, EDGE, width);
+    for chart in &charts {
+        top = draw_legend(
+            &mut drawn,
+            &chart.diagram.series,
+            Scale::Linear,
+            [EDGE + LEFT, top],
+            width - LEFT,
+        );
+        let panel = Panel::of(&chart.diagram, Scale::Linear, [EDGE, top], CHART);
+        panel.draw(&mut drawn);
+        panel.draw_steps(&mut drawn, chart);
+        top += height;
+    }
+    Some(file(title, all, Scale::Linear, [width, top], &drawn))
+}
+
+fn file<'a>(
+    title: &str,
+    all: impl Iterator<Item = &'a Series>,
+    scale: Scale,
+    [width, bottom]: [i32; 2],
+    drawn: &str,
+) -> String {
+    let kinds: BTreeSet<Kind> = all.map(Series::kind).collect();
+    let rules: String = kinds.iter().map(|kind| kind.rule(scale)).collect();
+    let kinds = kinds.iter().filter(|_| scale == Scale::Logarithmic);
+    let markers: String = kinds.filter_map(|kind| kind.marker()).collect();
+    let [width, height] = [width + 2 * EDGE, bottom + EDGE];
+    format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" viewBox=\"0 0 {width} {height}\" \
          font-family=\"{FONT}\" font-size=\"{TEXT}\">\n\
          <title>{}</title>\n<style>\npath{{fill:none}}\n.grid{{stroke:#ddd}}\n.axes{{stroke:#000}}\n{rules}</style>\n{markers}\
          <rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n{drawn}</svg>\n",
         escape(title)
-    ))
+    )
 }
 
-/// Title, legend and notes, in as many lines as they take; where they end.
-fn draw_head(
+/// Lines with their names, in as many rows as they take; where they end.
+fn draw_legend(
     drawn: &mut String,
-    title: &str,
     series: &[Series],
-    notes: &[String],
+    scale: Scale,
+    [left, mut top]: [i32; 2],
     width: i32,
 ) -> i32 {
-    let mut top = draw_lines(drawn, title, TITLE, EDGE, width);
     let (mut x, gap) = (0, 40);
     for series in series.iter().filter(|it| !it.name.is_empty()) {
         #[allow(clippy::cast_possible_truncation)]
@@ -204,22 +291,21 @@ fn draw_head(
         if x > 0 && x + wide > width {
             (x, top) = (0, top + LINE);
         }
-        let [left, middle] = [EDGE + x, top + LINE / 2];
+        let [left, middle] = [left + x, top + LINE / 2];
         // The marker stands in the middle of the line, which has none at its ends.
         let (kind, name) = (series.kind(), series.kind().name());
         let _ = writeln!(
             drawn,
             "<path class=\"{name}\" style=\"marker:none\" d=\"M{left} {middle}h22\"/>"
         );
-        kind.path(drawn, &[[left + 11, middle]]);
+        match scale {
+            Scale::Linear => kind.draw_markers(drawn, &[[left + 11, middle]]),
+            Scale::Logarithmic => kind.path(drawn, &[[left + 11, middle]]),
+        }
         draw_text(drawn, [left + 28, middle + HALF], "", &series.name);
         x += wide;
     }
-    top += LINE + LINE / 3;
-    for note in notes {
-        top = draw_lines(drawn, note, TEXT, top, width);
-    }
-    top + LINE / 2
+    top + LINE + LINE / 3
 }
 
 /// A text in lines below `top`; where they end.
@@ -236,93 +322,102 @@ fn draw_text(drawn: &mut String, [x, y]: [i32; 2], attributes: &str, text: &str)
     let _ = writeln!(drawn, "<text x=\"{x}\" y=\"{y}\"{attributes}>{}</text>", escape(text));
 }
 
-impl Diagram {
-    fn draw(&self, drawn: &mut String, [x, y]: [i32; 2], [width, height]: [i32; 2]) {
-        let all = || self.series.iter().flat_map(Series::drawn);
-        let least = self.least.into_iter().flatten();
-        let caption = if self.title.is_empty() { 0 } else { LINE + 2 };
-        let [left, right] = [x + LEFT, x + width - RIGHT];
-        let [top, bottom] = [y + caption, y + height - BELOW];
-        let across = Axis::around(all().map(|it| it[0]), [left, right]);
-        let up = Axis::around(all().map(|it| it[1]).chain(least), [bottom, top]);
-        let (Some(across), Some(up)) = (across, up) else { return };
-        let centre = [x + width / 2, i32::midpoint(left, right)];
+/// A diagram and its place.
+struct Panel<'a> {
+    diagram: &'a Diagram,
+    scale: Scale,
+    corner: [i32; 2],
+    width: i32,
+    /// Left, top, right and bottom of what the axes enclose.
+    inner: [i32; 4],
+    /// Across and up, if there is anything.
+    axes: Option<[Axis; 2]>,
+}
+
+impl<'a> Panel<'a> {
+    fn of(diagram: &'a Diagram, scale: Scale, corner: [i32; 2], [width, height]: [i32; 2]) -> Self {
+        let all = || diagram.series.iter().flat_map(|it| it.drawn(scale));
+        let least = diagram.least.into_iter().flatten();
+        let caption = if diagram.title.is_empty() { 0 } else { LINE + 2 };
+        let [x, y] = corner;
+        let inner = [x + LEFT, y + caption, x + width - RIGHT, y + height - BELOW];
+        let [left, top, right, bottom] = inner;
+        let across = Axis::around(scale, all().map(|it| it[0]), [left, right]);
+        let up = Axis::around(scale, all().map(|it| it[1]).chain(least), [bottom, top]);
+        let axes = across.zip(up).map(|(across, up)| [across, up]);
+        Self { diagram, scale, corner, width, inner, axes }
+    }
+
+    fn draw(&self, drawn: &mut String) {
+        let Some([across, up]) = &self.axes else { return };
+        let ([x, y], [left, top, right, bottom]) = (self.corner, self.inner);
+        let (title, names) = (&self.diagram.title, &self.diagram.axes);
         *drawn += "<g text-anchor=\"middle\">\n";
-        if caption > 0 {
-            draw_text(drawn, [centre[0], y + FOOT], "", &self.title);
+        if !title.is_empty() {
+            draw_text(drawn, [x + self.width / 2, y + FOOT], "", title);
         }
-        draw_text(drawn, [centre[1], bottom + 44], "", &self.axes[0]);
+        draw_text(drawn, [i32::midpoint(left, right), bottom + 44], "", &names[0]);
         let [side, middle] = [x + 11, i32::midpoint(top, bottom)];
         let turned = format!(" transform=\"rotate(270 {side} {middle})\"");
-        draw_text(drawn, [side, middle], &turned, &self.axes[1]);
+        draw_text(drawn, [side, middle], &turned, &names[1]);
         let [mut grid, mut ticks] = [String::new(), String::new()];
         for (at, label) in across.labels() {
             let _ = write!(grid, "M{at} {bottom}V{top}");
             let _ = write!(ticks, "M{at} {bottom}v{TICK}");
-            draw_text(drawn, [at, bottom + TICK + FOOT + 3], "", &label);
+            draw_text(drawn, [at, bottom + TICK + FOOT + 3], "", label);
         }
         *drawn += "</g>\n<g text-anchor=\"end\">\n";
         for (at, label) in up.labels() {
             let _ = write!(grid, "M{left} {at}H{right}");
             let _ = write!(ticks, "M{left} {at}h-{TICK}");
-            draw_text(drawn, [left - 2 * TICK, at + HALF], "", &label);
+            draw_text(drawn, [left - 2 * TICK, at + HALF], "", label);
         }
         let _ = writeln!(
             drawn,
             "</g>\n<path class=\"grid\" d=\"{grid}\"/>\n\
              <path class=\"axes\" d=\"M{left} {top}V{bottom}H{right}{ticks}\"/>"
         );
-        for series in &self.series {
-            let pixels = series.drawn().map(|[x, y]| [across.at(x), up.at(y)]);
-            series.kind().path(drawn, &pixels.collect::<Vec<_>>());
+        for series in &self.diagram.series {
+            let pixels = series.drawn(self.scale).map(|[x, y]| [across.at(x), up.at(y)]);
+            let pixels: Vec<_> = pixels.collect();
+            series.kind().path(drawn, &pixels);
+            if self.scale == Scale::Linear && pixels.len() <= MARKED {
+                series.kind().draw_markers(drawn, &pixels);
+            }
         }
     }
-}
 
-/// A logarithmic axis.
-struct Axis {
-    /// Decimal logarithms.
-    ends: [f64; 2],
-    pixels: [i32; 2],
-    /// Where lines are: at decades and, where these are few, at their second and fifth multiples.
-    lines: Vec<f64>,
-}
-
-impl Axis {
-    /// The axis on which all values have their place; `None` without values.
-    fn around(values: impl Iterator<Item = f64> + Clone, pixels: [i32; 2]) -> Option<Self> {
-        let [low, high] = [values.clone().reduce(f64::min)?, values.reduce(f64::max)?];
-        let [low, high] = [low, high].map(f64::log10);
-        let room = (0.03 * (high - low)).max(0.1);
-        let ends = [low - room, high + room];
-        let span = ends[1] - ends[0];
-        let step = (span / MOST_LABELS).ceil();
-        let multiples: &[f64] = if span < FEW { &[1.0, 2.0, 5.0] } else { &[1.0] };
-        let decades = (0..).map(|k| (ends[0] / step).floor() * step + step * f64::from(k));
-        let decades = decades.take_while(|decade| *decade <= ends[1]);
-        let lines = decades.flat_map(|decade| multiples.iter().map(move |it| decade + it.log10()));
-        let lines = lines.filter(|it| (ends[0]..=ends[1]).contains(it));
-        Some(Self { ends, pixels, lines: lines.map(|it| 10_f64.powf(it)).collect() })
-    }
-
-    fn at(&self, value: f64) -> i32 {
-        let share = (value.log10() - self.ends[0]) / (self.ends[1] - self.ends[0]);
-        let [from, to] = self.pixels;
-        #[allow(clippy::cast_possible_truncation)]
-        let pixels = (share * f64::from(to - from)).round() as i32;
-        from + pixels
-    }
-
-    /// Labels of an axis are alike: with exponents, or none with.
-    fn labels(&self) -> impl Iterator<Item = (i32, String)> {
-        let exponents = self.lines.iter().any(|it| !PLAIN.contains(it));
-        self.lines.iter().map(move |value| {
-            let decimals = (-value.log10() - 1e-9).ceil().max(0.0);
-            #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
-            let decimals = decimals as usize;
-            let label =
-                if exponents { format!("{value:.0e}") } else { format!("{value:.decimals$}") };
-            (self.at(*value), label)
-        })
+    /// Where stages begin, with their names where there is room, and where a page marks its step.
+    fn draw_steps(&self, drawn: &mut String, chart: &Chart) {
+        let Some([across, _]) = &self.axes else { return };
+        let [_, top, right, bottom] = self.inner;
+        // Two rows, which are free from here on.
+        let mut free = [i32::MIN; 2];
+        for (value, name) in &chart.stages {
+            let at = across.at(*value);
+            let _ = writeln!(
+                drawn,
+                "<path stroke=\"#8a8a8a\" stroke-dasharray=\"3 3\" d=\"M{at} {bottom}V{top}\"/>"
+            );
+            #[allow(clippy::cast_possible_truncation)]
+            let end = at + TICK + text_width(name, TEXT) as i32;
+            let rows = free.iter_mut().zip([top + LINE, top + 2 * LINE]);
+            if let Some((free, y)) = rows.into_iter().find(|it| at >= *it.0 && end < right) {
+                let rim = " stroke=\"#fff\" stroke-width=\"3\" stroke-linejoin=\"round\"";
+                draw_text(drawn, [at + TICK, y], rim, name);
+                draw_text(drawn, [at + TICK, y], "", name);
+                *free = end + TICK;
+            }
+        }
+        if let Some(last) = chart.steps.last() {
+            let places = chart.steps.iter().map(|it| across.at(*it).to_string());
+            let _ = writeln!(
+                drawn,
+                "<line class=\"step\" stroke=\"#c4161c\" stroke-width=\"1.4\" data-steps=\"{}\" x1=\"{x}\" \
+                 x2=\"{x}\" y1=\"{bottom}\" y2=\"{top}\"/>",
+                places.collect::<Vec<_>>().join(" "),
+                x = across.at(*last)
+            );
+        }
     }
 }

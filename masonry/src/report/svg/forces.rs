@@ -2,14 +2,14 @@
 
 mod reactions;
 
+use crate::data::state::ContactState;
 use nalgebra::{Point2, Vector2};
 
 use super::canvas::{Canvas, Pixel, fixed};
 use super::labels::Labels;
 use super::loads::Loads;
-use super::marks::{self, BRICK, COMPRESSION, OUTLINE, TENSION};
-use super::sheet::{Bounds, Frame, Margins, Sheet};
-use crate::data::state::ContactState;
+use super::marks::{self, BRICK, COMPRESSION, TENSION};
+use super::sheet::{Bounds, Margins, SYMBOL, Sheet};
 use crate::model::{Body, Model};
 use crate::report::format::InUnits;
 use crate::report::joints::{self, JointForce};
@@ -84,14 +84,8 @@ pub(in crate::report) fn shared(
     let loads = Loads::of(model, units);
     let all = joints::forces(model, contacts);
     let reactions = Reactions::of(model, &all, units);
-    let mut sheet = Sheet::new(&format!("{title}: forces"), by.bounds, by.margins);
-    let brick = marks::brick_size(model, &sheet.frame);
-    let outline = fixed(marks::outline_width(brick));
-    let style = format!(
-        "class=\"bricks\" fill=\"{BRICK}\" stroke=\"{OUTLINE}\" stroke-width=\"{outline}\" \
-         stroke-linejoin=\"round\""
-    );
-    marks::blocks(&mut sheet, model, &style);
+    let mut sheet = Sheet::new(&format!("{title}: forces"), model, by.bounds, by.margins);
+    marks::bricks(&mut sheet, &model.blocks, BRICK);
     marks::supports(&mut sheet, model);
     let largest = by.largest;
     let least = if all.len() > MANY { LEAST_OF_MANY } else { LEAST };
@@ -100,15 +94,15 @@ pub(in crate::report) fn shared(
     // With tensile strength a joint can carry a moment whose resultant passes beside it.
     let drawn: Vec<&JointForce> =
         large.iter().copied().filter(|it| it.eccentricity.abs() <= ENDS).collect();
-    draw_paths(&mut sheet, model, &drawn, largest, brick);
-    draw_uses(&mut sheet, model, &drawn, brick);
-    draw_resultants(&mut sheet, &drawn, largest, brick, units);
+    draw_paths(&mut sheet, model, &drawn, largest);
+    draw_uses(&mut sheet, model, &drawn);
+    draw_resultants(&mut sheet, &drawn, largest, units);
     let mut labels = Labels::within(sheet.room());
     marks::avoid_supports(&sheet.frame, model, &mut labels);
     loads.mark(&sheet.frame, &mut labels);
     reactions.mark(&sheet.frame, &mut labels);
     for it in &drawn {
-        let [from, to] = stroke(&sheet.frame, it, largest, brick);
+        let [from, to] = stroke(&sheet, it, largest);
         labels.avoid(from, to);
     }
     loads.draw(&mut sheet, model, &mut labels);
@@ -119,19 +113,18 @@ pub(in crate::report) fn shared(
     let (small, beside) = (all.len() - large.len(), large.len() - drawn.len());
     if all.len() > MANY && small > 0 {
         let count = marks::counted(small, "joint");
-        sheet.entry(&format!("left out: {count} with less than 1 % of the largest force"), |_| {});
+        sheet.note(&format!("left out: {count} with less than 1 % of the largest force"));
     }
     if beside > 0 {
         let count = marks::counted(beside, "joint");
-        sheet.entry(&format!("left out: {count} whose resultant passes beside them"), |_| {});
+        sheet.note(&format!("left out: {count} whose resultant passes beside them"));
     }
-    sheet.entry("one of many sets of forces where they are not unique", |_| {});
-    sheet.length_bar(units);
+    sheet.note("one of many sets of forces where they are not unique");
     sheet.finish()
 }
 
 /// Lines from every joint of a block to the middle of its forces: of a block with two joints one straight line.
-fn draw_paths(sheet: &mut Sheet, model: &Model, drawn: &[&JointForce], largest: f64, brick: f64) {
+fn draw_paths(sheet: &mut Sheet, model: &Model, drawn: &[&JointForce], largest: f64) {
     let mut of_blocks: Vec<Vec<(Point2<f64>, f64)>> = vec![Vec::new(); model.blocks.len()];
     for it in drawn.iter().filter(|it| it.normal > 0.0) {
         let joint = &model.joints[it.joint.index()];
@@ -144,7 +137,7 @@ fn draw_paths(sheet: &mut Sheet, model: &Model, drawn: &[&JointForce], largest: 
     if of_blocks.iter().all(|ends| ends.len() < 2) {
         return;
     }
-    let (frame, widest) = (sheet.frame, (0.16 * brick).clamp(1.5, 9.0));
+    let (frame, widest) = (sheet.frame, (0.16 * sheet.brick).clamp(1.5, 9.0));
     let style = format!("class=\"paths\" stroke=\"{PATH}\" stroke-linecap=\"round\"");
     sheet.canvas.group(&style, |canvas| {
         for ends in of_blocks.iter().filter(|ends| ends.len() > 1) {
@@ -165,9 +158,9 @@ fn draw_paths(sheet: &mut Sheet, model: &Model, drawn: &[&JointForce], largest: 
 }
 
 /// Joints that use much of their friction.
-fn draw_uses(sheet: &mut Sheet, model: &Model, drawn: &[&JointForce], brick: f64) {
+fn draw_uses(sheet: &mut Sheet, model: &Model, drawn: &[&JointForce]) {
     let frame = sheet.frame;
-    let width = (0.05 * brick).clamp(0.8, 3.2);
+    let width = (0.05 * sheet.brick).clamp(0.8, 3.2);
     let mut below = f64::INFINITY;
     for (least, colour, name) in USES {
         let within =
@@ -185,22 +178,14 @@ fn draw_uses(sheet: &mut Sheet, model: &Model, drawn: &[&JointForce], brick: f64
             }
         });
         let text = format!("{name}: {}", marks::counted(found.len(), "joint"));
-        sheet.entry(&text, |symbol| {
-            let style = format!("stroke=\"{colour}\" stroke-width=\"3.2\"");
-            symbol.line(Pixel::new(-22.0, 0.0), Pixel::new(22.0, 0.0), &style);
-        });
+        sheet.line_entry(&text, colour, "3.2");
     }
 }
 
-fn draw_resultants(
-    sheet: &mut Sheet,
-    drawn: &[&JointForce],
-    largest: f64,
-    brick: f64,
-    units: InUnits,
-) {
+fn draw_resultants(sheet: &mut Sheet, drawn: &[&JointForce], largest: f64, units: InUnits) {
     let frame = sheet.frame;
-    let (width, radius) = ((0.03 * brick).clamp(0.6, 2.0), (0.035 * brick).clamp(0.8, 2.8));
+    let (width, radius) =
+        ((0.03 * sheet.brick).clamp(0.6, 2.0), (0.035 * sheet.brick).clamp(0.8, 2.8));
     let dot = |canvas: &mut Canvas, at: Pixel, radius: f64, colour: &str, inside: bool| {
         let fill = if inside { colour } else { "#ffffff" };
         let rim = fixed(0.45 * radius);
@@ -218,9 +203,9 @@ fn draw_resultants(
         }
         let style =
             format!("class=\"{name}\" stroke=\"{colour}\" stroke-width=\"{}\"", fixed(width));
+        let strokes: Vec<_> = of_kind().map(|it| stroke(sheet, it, largest)).collect();
         sheet.canvas.group(&style, |canvas| {
-            for it in of_kind() {
-                let [from, to] = stroke(&frame, it, largest, brick);
+            for [from, to] in strokes {
                 canvas.stroke(from, to);
             }
         });
@@ -232,7 +217,7 @@ fn draw_resultants(
         let text = format!("resultant in a joint, {name}, up to {}", units.force_text(most));
         sheet.entry(&text, |symbol| {
             let style = format!("stroke=\"{colour}\" stroke-width=\"1.8\"");
-            symbol.line(Pixel::new(-22.0, 0.0), Pixel::new(22.0, 0.0), &style);
+            symbol.line(Pixel::new(-SYMBOL, 0.0), Pixel::new(SYMBOL, 0.0), &style);
             dot(symbol, Pixel::new(0.0, 0.0), 2.8, colour, true);
         });
         let outside = of_kind().filter(|it| !is_inside(it)).count();
@@ -248,8 +233,8 @@ fn is_inside(it: &JointForce) -> bool {
 }
 
 /// The ends of the stroke of a resultant: the largest is nearly as long as a brick.
-fn stroke(frame: &Frame, it: &JointForce, largest: f64, brick: f64) -> [Pixel; 2] {
-    let (at, half) = (frame.at(it.at), 0.45 * brick * it.force.norm() / largest);
+fn stroke(sheet: &Sheet, it: &JointForce, largest: f64) -> [Pixel; 2] {
+    let (at, half) = (sheet.frame.at(it.at), 0.45 * sheet.brick * it.force.norm() / largest);
     [-half, half].map(|half| at.shifted(it.force.x, -it.force.y, half))
 }
 

@@ -22,37 +22,100 @@ const ACCELERATION_ROOM: f64 = LONGEST + 2.0 * TEXT;
 /// Everything that acts and is not zero.
 #[derive(Debug)]
 pub(super) struct Loads {
-    edges: Vec<Group>,
-    points: Vec<Force>,
+    edges: Vec<Push>,
+    points: Vec<Push>,
     accelerations: Vec<Acceleration>,
 }
 
-/// A force at a place of a block.
+/// A force at a place of a block, or one traction on edges in one line, which share a label.
 #[derive(Debug)]
-struct Force {
-    at: Point2<f64>,
+struct Push {
+    on: On,
     value: Vector2<f64>,
-    /// Where the arrow lies seen from the place: one that pulls at an edge begins there, all others end there.
+    /// Out of the loaded blocks. Of a force it is where the arrow lies seen from the place: one that pulls at an edge
+    /// begins there, all others end there.
     outwards: Vector2<f64>,
-    /// Size relative to the largest force of the model.
+    /// Size relative to the largest one of its kind in the model.
     part: f64,
     label: String,
 }
 
-impl Force {
+/// Where a load acts.
+#[derive(Debug)]
+enum On {
+    Edges(Vec<[Point2<f64>; 2]>),
+    Place(Point2<f64>),
+}
+
+/// The arrows on an edge, and the line that joins the tails of those which press.
+struct Strokes {
+    arrows: Vec<[Pixel; 2]>,
+    bar: Option<[Pixel; 2]>,
+}
+
+impl Push {
     fn length(&self) -> f64 {
         SHORTEST + (LONGEST - SHORTEST) * self.part
     }
 
-    fn pulls(&self) -> bool {
-        self.outwards.dot(&self.value) > 0.0
+    /// Whether a traction runs along the edge, so that arrows stand beside it.
+    fn is_tangential(&self) -> bool {
+        self.value.dot(&self.outwards).abs() < 0.2 * self.value.norm()
     }
 
-    /// Tail and tip.
-    fn arrow(&self, frame: &Frame) -> [Pixel; 2] {
-        let (at, n) = (frame.at(self.at), self.outwards);
-        let far = at.shifted(n.x, -n.y, self.length());
-        if self.pulls() { [at, far] } else { [far, at] }
+    fn strokes(&self, frame: &Frame) -> Vec<Strokes> {
+        match &self.on {
+            On::Edges(pieces) => {
+                pieces.iter().map(|ends| self.on_edge(ends.map(|end| frame.at(end)))).collect()
+            }
+            On::Place(at) => {
+                let (at, n) = (frame.at(*at), self.outwards);
+                let far = at.shifted(n.x, -n.y, self.length());
+                let arrow = if n.dot(&self.value) > 0.0 { [at, far] } else { [far, at] };
+                vec![Strokes { arrows: vec![arrow], bar: None }]
+            }
+        }
+    }
+
+    fn on_edge(&self, [from, to]: [Pixel; 2]) -> Strokes {
+        let (t, n, length) = (self.value, self.outwards, self.length());
+        let mut count = 1.0;
+        while from.distance(to) / (count + 1.0) > SPACING {
+            count += 1.0;
+        }
+        let mut arrows = Vec::new();
+        let mut index = 0.5;
+        while index < count {
+            let foot = from.between(to, index / count);
+            arrows.push(if self.is_tangential() {
+                let middle = foot.shifted(n.x, -n.y, 7.0);
+                let half = 0.5 * length.min(0.9 * from.distance(to));
+                [middle.shifted(-t.x, t.y, half), middle.shifted(t.x, -t.y, half)]
+            } else if t.dot(&n) < 0.0 {
+                [foot.shifted(-t.x, t.y, length), foot]
+            } else {
+                [foot, foot.shifted(t.x, -t.y, length)]
+            });
+            index += 1.0;
+        }
+        let presses = t.dot(&n) < 0.0 && !self.is_tangential();
+        let bar = presses.then(|| [from, to].map(|end| end.shifted(-t.x, t.y, length)));
+        Strokes { arrows, bar }
+    }
+
+    /// Where a label is best.
+    fn label_at(&self, frame: &Frame) -> Pixel {
+        let (n, t) = (self.outwards, self.value.normalize());
+        let (middle, reach) = match &self.on {
+            On::Place(at) => (*at, self.length()),
+            On::Edges(pieces) => {
+                let extent = Bounds::of(pieces.iter().flatten().copied());
+                let beside = self.length() * t.dot(&n).abs();
+                let reach = if self.is_tangential() { 12.0 } else { beside };
+                (nalgebra::center(&extent.low, &extent.high), reach)
+            }
+        };
+        frame.at(middle).shifted(n.x, -n.y, reach + 5.0)
     }
 }
 
@@ -75,29 +138,6 @@ impl Acceleration {
     }
 }
 
-/// Loads of one traction on edges in one line: they share a label.
-#[derive(Debug)]
-pub(super) struct Group {
-    pieces: Vec<(Point2<f64>, Point2<f64>)>,
-    traction: Vector2<f64>,
-    /// Out of the loaded blocks.
-    normal: Vector2<f64>,
-    /// Size relative to the largest traction of the model.
-    part: f64,
-    label: String,
-}
-
-impl Group {
-    fn length(&self) -> f64 {
-        SHORTEST + (LONGEST - SHORTEST) * self.part
-    }
-
-    /// Whether the traction runs along the edge, so that arrows stand beside it.
-    fn tangential(&self) -> bool {
-        self.traction.dot(&self.normal).abs() < 0.2 * self.traction.norm()
-    }
-}
-
 impl Loads {
     pub(super) fn of(model: &Model, units: InUnits) -> Self {
         let accelerations = model.accelerations.iter().filter(|it| it.value.norm() > 0.0);
@@ -106,10 +146,14 @@ impl Loads {
             Acceleration { value, label }
         };
         Self {
-            edges: groups(model),
+            edges: tractions(model),
             points: forces(model, units),
             accelerations: accelerations.map(|it| acceleration(it.value)).collect(),
         }
+    }
+
+    fn pushes(&self) -> impl Iterator<Item = &Push> {
+        self.edges.iter().chain(&self.points)
     }
 
     /// Room that arrows and labels need around the structure.
@@ -133,10 +177,9 @@ impl Loads {
 
     fn margins_of_forces(&self) -> Margins {
         let mut margins = Margins::HATCH;
-        let edges = self.edges.iter().map(|it| (it.normal, it.length(), &it.label));
-        let points = self.points.iter().map(|it| (it.outwards, it.length(), &it.label));
-        for (n, length, label) in edges.chain(points) {
-            let reach = length + 12.0;
+        for it in self.pushes() {
+            let (n, label) = (it.outwards, &it.label);
+            let reach = it.length() + 12.0;
             let (beside, above) = (reach + label_room(label), reach + TEXT + 6.0);
             if n.x > 0.5 {
                 margins.right = margins.right.max(beside);
@@ -154,18 +197,10 @@ impl Loads {
 
     /// Keeps labels away from all arrows.
     pub(super) fn mark(&self, frame: &Frame, labels: &mut Labels) {
-        for group in &self.edges {
-            for (from, to) in group.pieces.iter().map(|(from, to)| (frame.at(*from), frame.at(*to)))
-            {
-                let bar = bar(group, from, to);
-                for [from, to] in arrows(group, from, to).into_iter().chain(bar) {
-                    labels.avoid(from, to);
-                }
+        for Strokes { arrows, bar } in self.pushes().flat_map(|it| it.strokes(frame)) {
+            for [from, to] in arrows.into_iter().chain(bar) {
+                labels.avoid(from, to);
             }
-        }
-        for force in &self.points {
-            let [tail, tip] = force.arrow(frame);
-            labels.avoid(tail, tip);
         }
     }
 
@@ -173,17 +208,22 @@ impl Loads {
     pub(super) fn draw(&self, sheet: &mut Sheet, model: &Model, labels: &mut Labels) {
         let frame = sheet.frame;
         sheet.canvas.group("class=\"loads\"", |canvas| {
-            for group in &self.edges {
-                for &(from, to) in &group.pieces {
-                    draw_piece(canvas, group, frame.at(from), frame.at(to));
+            for push in self.pushes() {
+                for Strokes { arrows, bar } in push.strokes(&frame) {
+                    for [tail, tip] in arrows {
+                        canvas.arrow(tail, tip, COLOUR);
+                    }
+                    if let Some([from, to]) = bar {
+                        canvas.line(from, to, &format!("stroke=\"{COLOUR}\" stroke-width=\"1\""));
+                    }
+                }
+                if let On::Place(at) = push.on {
+                    canvas.circle(frame.at(at), 2.2, &format!("fill=\"{COLOUR}\""));
                 }
             }
-            for force in &self.points {
-                let [tail, tip] = force.arrow(&frame);
-                canvas.arrow(tail, tip, COLOUR);
-                canvas.circle(frame.at(force.at), 2.2, &format!("fill=\"{COLOUR}\""));
+            for it in self.pushes() {
+                labels.draw(canvas, it.label_at(&frame), it.outwards, TEXT, &it.label);
             }
-            self.draw_labels(canvas, &frame, labels);
         });
         if !self.accelerations.is_empty() {
             sheet.canvas.group("class=\"accelerations\"", |canvas| {
@@ -191,7 +231,7 @@ impl Loads {
             });
         }
         let units = InUnits(model.units);
-        let tractions = self.edges.iter().map(|it| it.traction);
+        let tractions = self.edges.iter().map(|it| it.value);
         entry(sheet, "edge load", tractions, stress_text, stress_text);
         let forces = self.points.iter().map(|it| it.value);
         let number = |value| significant(units.force(value), 4);
@@ -199,22 +239,6 @@ impl Loads {
         let accelerations = self.accelerations.iter().map(|it| it.value);
         let number = |value| significant(value, 4);
         entry(sheet, "body acceleration", accelerations, number, acceleration_text);
-    }
-
-    fn draw_labels(&self, canvas: &mut Canvas, frame: &Frame, labels: &mut Labels) {
-        for group in &self.edges {
-            let extent = Bounds::of(group.pieces.iter().flat_map(|&(from, to)| [from, to]));
-            let middle = frame.at(nalgebra::center(&extent.low, &extent.high));
-            let (n, t) = (group.normal, group.traction.normalize());
-            let reach = if group.tangential() { 12.0 } else { group.length() * t.dot(&n).abs() };
-            let at = middle.shifted(n.x, -n.y, reach + 5.0);
-            labels.draw(canvas, at, n, TEXT, &group.label);
-        }
-        for force in &self.points {
-            let n = force.outwards;
-            let at = frame.at(force.at).shifted(n.x, -n.y, force.length() + 5.0);
-            labels.draw(canvas, at, n, TEXT, &force.label);
-        }
     }
 
     /// One below the other at half the height of the structure.
@@ -239,10 +263,10 @@ impl Loads {
     }
 }
 
-/// All edge loads that are not zero, grouped.
-fn groups(model: &Model) -> Vec<Group> {
+/// All edge loads that are not zero, those of one traction in one line together.
+fn tractions(model: &Model) -> Vec<Push> {
     let near = 1e-9 * marks::bounds(model).diagonal();
-    let mut groups: Vec<Group> = Vec::new();
+    let mut list: Vec<Push> = Vec::new();
     for block in &model.blocks {
         for load in block.edge_loads() {
             let (from, to) = loaded_part(block, load);
@@ -251,30 +275,31 @@ fn groups(model: &Model) -> Vec<Group> {
                 continue;
             }
             let normal = Vector2::new(along.y, -along.x).normalize();
-            let same = groups.iter_mut().find(|group| {
-                group.traction == load.traction
-                    && group.normal.dot(&normal) > 1.0 - 1e-9
-                    && (from - group.pieces[0].0).dot(&normal).abs() <= near
+            let same = list.iter_mut().find_map(|it| match &mut it.on {
+                On::Edges(pieces)
+                    if it.value == load.traction
+                        && it.outwards.dot(&normal) > 1.0 - 1e-9
+                        && (from - pieces[0][0]).dot(&normal).abs() <= near =>
+                {
+                    Some(pieces)
+                }
+                _ => None,
             });
-            if let Some(group) = same {
-                group.pieces.push((from, to));
+            if let Some(pieces) = same {
+                pieces.push([from, to]);
             } else {
-                let label = stress_text(load.traction.norm());
-                let traction = load.traction;
-                groups.push(Group { pieces: vec![(from, to)], traction, normal, part: 1.0, label });
+                let (on, value) = (On::Edges(vec![[from, to]]), load.traction);
+                let label = stress_text(value.norm());
+                list.push(Push { on, value, outwards: normal, part: 1.0, label });
             }
         }
     }
-    let largest = groups.iter().map(|group| group.traction.norm()).fold(0.0, f64::max);
-    for group in &mut groups {
-        group.part = group.traction.norm() / largest;
-    }
-    groups
+    in_parts(list)
 }
 
 /// All forces at places of blocks that are not zero.
-fn forces(model: &Model, units: InUnits) -> Vec<Force> {
-    let mut forces: Vec<Force> = Vec::new();
+fn forces(model: &Model, units: InUnits) -> Vec<Push> {
+    let mut list: Vec<Push> = Vec::new();
     for block in &model.blocks {
         for load in block.point_loads().filter(|load| load.force.norm() > 0.0) {
             let (at, force) = (load.at, load.force);
@@ -286,14 +311,19 @@ fn forces(model: &Model, units: InUnits) -> Vec<Force> {
                 });
             let outwards = if pulls { force.normalize() } else { -force.normalize() };
             let label = units.force_text(force.norm());
-            forces.push(Force { at, value: force, outwards, part: 1.0, label });
+            list.push(Push { on: On::Place(at), value: force, outwards, part: 1.0, label });
         }
     }
-    let largest = forces.iter().map(|it| it.value.norm()).fold(0.0, f64::max);
-    for it in &mut forces {
+    in_parts(list)
+}
+
+/// Sizes relative to the largest.
+fn in_parts(mut list: Vec<Push>) -> Vec<Push> {
+    let largest = list.iter().map(|it| it.value.norm()).fold(0.0, f64::max);
+    for it in &mut list {
         it.part = it.value.norm() / largest;
     }
-    forces
+    list
 }
 
 /// The legend entry of these loads, if there are any.
@@ -324,46 +354,4 @@ fn entry(
             COLOUR,
         );
     });
-}
-
-fn draw_piece(canvas: &mut Canvas, group: &Group, from: Pixel, to: Pixel) {
-    for [tail, tip] in arrows(group, from, to) {
-        canvas.arrow(tail, tip, COLOUR);
-    }
-    if let Some([from, to]) = bar(group, from, to) {
-        canvas.line(from, to, &format!("stroke=\"{COLOUR}\" stroke-width=\"1\""));
-    }
-}
-
-/// Tails and tips of the arrows on a loaded edge.
-fn arrows(group: &Group, from: Pixel, to: Pixel) -> Vec<[Pixel; 2]> {
-    let (t, n) = (group.traction, group.normal);
-    let length = group.length();
-    let mut count = 1.0;
-    while from.distance(to) / (count + 1.0) > SPACING {
-        count += 1.0;
-    }
-    let mut arrows = Vec::new();
-    let mut index = 0.5;
-    while index < count {
-        let foot = from.between(to, index / count);
-        arrows.push(if group.tangential() {
-            let middle = foot.shifted(n.x, -n.y, 7.0);
-            let half = 0.5 * length.min(0.9 * from.distance(to));
-            [middle.shifted(-t.x, t.y, half), middle.shifted(t.x, -t.y, half)]
-        } else if t.dot(&n) < 0.0 {
-            [foot.shifted(-t.x, t.y, length), foot]
-        } else {
-            [foot, foot.shifted(t.x, -t.y, length)]
-        });
-        index += 1.0;
-    }
-    arrows
-}
-
-/// The line that joins the tails of arrows which press.
-fn bar(group: &Group, from: Pixel, to: Pixel) -> Option<[Pixel; 2]> {
-    let t = group.traction;
-    (t.dot(&group.normal) < 0.0 && !group.tangential())
-        .then(|| [from, to].map(|end| end.shifted(-t.x, t.y, group.length())))
 }

@@ -49,11 +49,29 @@ pub(super) fn outline_width(brick: f64) -> f64 {
     (0.02 * brick).clamp(0.25, 1.2)
 }
 
-/// All blocks in their undeformed place, under one style.
-pub(super) fn blocks(sheet: &mut Sheet, model: &Model, style: &str) {
+/// Blocks of one colour, with outlines.
+pub(super) fn bricks<'a>(
+    sheet: &mut Sheet,
+    blocks: impl IntoIterator<Item = &'a Block>,
+    fill: &str,
+) {
+    let width = fixed(outline_width(sheet.brick));
+    let style = format!(
+        "class=\"bricks\" fill=\"{fill}\" stroke=\"{OUTLINE}\" stroke-width=\"{width}\" \
+         stroke-linejoin=\"round\""
+    );
+    outlines(sheet, blocks, &style);
+}
+
+/// Blocks in their undeformed place, under one style.
+pub(super) fn outlines<'a>(
+    sheet: &mut Sheet,
+    blocks: impl IntoIterator<Item = &'a Block>,
+    style: &str,
+) {
     let frame = sheet.frame;
     sheet.canvas.group(style, |canvas| {
-        for block in &model.blocks {
+        for block in blocks {
             let corners: Vec<_> = block.corners.iter().map(|corner| frame.at(*corner)).collect();
             canvas.polygon(&corners, "");
         }
@@ -118,7 +136,7 @@ pub(super) fn moved_supports(sheet: &mut Sheet, model: &Model, factor: f64, for_
 /// of joints which meet in one place stay apart.
 pub(super) fn contact_marks(sheet: &mut Sheet, model: &Model, states: &[ContactState]) {
     let frame = sheet.frame;
-    let radius = (0.05 * brick_size(model, &frame)).clamp(0.8, 3.6);
+    let radius = (0.05 * sheet.brick).clamp(0.8, 3.6);
     for (status, name) in [(ContactStatus::Open, "open"), (ContactStatus::Slip, "sliding")] {
         let mut count = 0_usize;
         sheet.canvas.group(&mark_style(status, radius), |canvas| {

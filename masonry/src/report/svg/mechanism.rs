@@ -8,7 +8,6 @@ use super::labels::Labels;
 use super::marks::{self, BRICK, OUTLINE, counted};
 use super::sheet::{Bounds, Margins, Sheet};
 use crate::model::{Anchor, Model};
-use crate::report::format::InUnits;
 use crate::report::hinges::{Yield, YieldingJoint, yielding};
 use crate::verify::moving::{SLOW, speed};
 
@@ -50,14 +49,13 @@ fn drawn(title: &str, model: &Model, rates: &[Vec<Vector2<f64>>], for_page: bool
     let furthest = moved(if for_page { PAGE * factor } else { factor });
     let bounds = Bounds::of(furthest.into_iter().flatten().chain([still.low, still.high]));
 
-    let mut sheet = Sheet::new(&format!("{title}: mechanism"), bounds, Margins::HATCH);
+    let mut sheet = Sheet::new(&format!("{title}: mechanism"), model, bounds, Margins::HATCH);
     let frame = sheet.frame;
-    let brick = marks::brick_size(model, &frame);
-    let width = marks::outline_width(brick);
+    let width = marks::outline_width(sheet.brick);
     let (outline, thin) = (fixed(width), fixed(0.7 * width));
     let style =
         format!("class=\"undeformed\" fill=\"none\" stroke=\"{STILL}\" stroke-width=\"{thin}\"");
-    marks::blocks(&mut sheet, model, &style);
+    marks::outlines(&mut sheet, &model.blocks, &style);
     let (mut moving, mut slow) = (0_usize, 0_usize);
     let style = format!(
         "fill-opacity=\"0.8\" stroke=\"{OUTLINE}\" stroke-width=\"{outline}\" stroke-linejoin=\"round\""
@@ -94,31 +92,30 @@ fn drawn(title: &str, model: &Model, rates: &[Vec<Vector2<f64>>], for_page: bool
         (still, "at rest".to_owned(), BRICK),
     ] {
         if count > 0 {
-            sheet.entry(&format!("{what}: {}", counted(count, "block")), |symbol| {
-                let style = format!("fill=\"{fill}\" stroke=\"{OUTLINE}\" stroke-width=\"1\"");
-                symbol.rectangle(Pixel::new(-16.0, -6.0), 32.0, 12.0, &style);
-            });
+            sheet.block_entry(&format!("{what}: {}", counted(count, "block")), fill);
         }
     }
-    draw_yielding(&mut sheet, model, &yielding(model, rates), brick, (factor, for_page));
-    sheet.entry("amplitude is arbitrary", |_| {});
+    let by = Amplitude { factor, for_page };
+    draw_yielding(&mut sheet, model, &yielding(model, rates), by);
+    sheet.note("amplitude is arbitrary");
     if dilates(model, rates) {
-        sheet.entry("associated flow: joints that slide also open, by mu times the slip", |_| {});
+        sheet.note("associated flow: joints that slide also open, by mu times the slip");
     }
-    sheet.length_bar(InUnits(model.units));
     sheet.finish()
 }
 
+/// How far all has moved, and whether a page changes that.
+#[derive(Clone, Copy)]
+struct Amplitude {
+    factor: f64,
+    for_page: bool,
+}
+
 /// Marks of hinges and sliding joints where they have moved to, with their numbers.
-fn draw_yielding(
-    sheet: &mut Sheet,
-    model: &Model,
-    joints: &[YieldingJoint],
-    brick: f64,
-    (factor, for_page): (f64, bool),
-) {
+fn draw_yielding(sheet: &mut Sheet, model: &Model, joints: &[YieldingJoint], by: Amplitude) {
+    let Amplitude { factor, for_page } = by;
     let frame = sheet.frame;
-    let radius = (0.09 * brick).clamp(1.2, 4.5);
+    let radius = (0.09 * sheet.brick).clamp(1.2, 4.5);
     let yields = |it: &&YieldingJoint| it.does.is_marked();
     let mut marked: Vec<(usize, &YieldingJoint)> =
         (1..).zip(joints.iter().filter(yields)).collect();
@@ -167,11 +164,11 @@ fn draw_yielding(
             counted(all - marked.len(), "joint"),
             100.0 * SLOW
         );
-        sheet.entry(&text, |_| {});
+        sheet.note(&text);
     }
     let apart = joints.len() - all;
     if apart > 0 {
-        sheet.entry(&format!("coming apart: {}", counted(apart, "joint")), |_| {});
+        sheet.note(&format!("coming apart: {}", counted(apart, "joint")));
     }
 }
 

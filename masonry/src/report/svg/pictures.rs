@@ -41,8 +41,7 @@ pub(in crate::report) fn pictures(
     let large = states.iter().map(|(_, state)| large(&state.stresses));
     let large = large.fold([0.0; 2], |[a, b]: [f64; 2], [c, d]| [a.max(c), b.max(d)]);
     if states.iter().any(|(_, state)| !state.stresses.is_empty()) {
-        let draw =
-            |it: &Shown<'_>| stresses::compared(it.title, it.model, it.state, (reference, large));
+        let draw = |it: &Shown<'_>| stresses::compared(it, reference, large);
         list.push(Pictures { file: "principal_stresses.svg", pictures: each(&draw) });
     }
     let by = Magnified::of(&states, for_page);

@@ -8,7 +8,7 @@ use super::labels::Labels;
 use super::loads::Loads;
 use super::marks;
 use super::materials;
-use super::sheet::Sheet;
+use super::sheet::{SYMBOL, Sheet};
 use super::style::DARK;
 use crate::geometry;
 use crate::law::JointLaw;
@@ -25,23 +25,21 @@ pub fn scene(title: &str, model: &Model) -> String {
     let units = InUnits(model.units);
     let loads = Loads::of(model, units);
     let dimensions = Dimensions::of(model, loads.margins());
-    let mut sheet = Sheet::new(title, marks::bounds(model), dimensions.margins());
-    let brick = marks::brick_size(model, &sheet.frame);
-    materials::draw(&mut sheet, model, brick);
+    let mut sheet = Sheet::new(title, model, marks::bounds(model), dimensions.margins());
+    materials::draw(&mut sheet, model);
     marks::supports(&mut sheet, model);
-    draw_joints(&mut sheet, model, brick);
+    draw_joints(&mut sheet, model);
     let mut labels = Labels::within(sheet.room());
     loads.mark(&sheet.frame, &mut labels);
     loads.draw(&mut sheet, model, &mut labels);
     dimensions.draw(&mut sheet, units);
     draw_names(&mut sheet, model);
     draw_gravity(&mut sheet, model);
-    sheet.length_bar(units);
     sheet.finish()
 }
 
-fn draw_joints(sheet: &mut Sheet, model: &Model, brick: f64) {
-    let frame = sheet.frame;
+fn draw_joints(sheet: &mut Sheet, model: &Model) {
+    let (frame, brick) = (sheet.frame, sheet.brick);
     let (stroke, radius) = ((0.025 * brick).clamp(0.4, 1.8), (0.032 * brick).clamp(0.5, 2.6));
     for (index, class) in model.joint_classes.iter().enumerate() {
         let colour = CLASSES[index % CLASSES.len()];
@@ -65,8 +63,8 @@ fn draw_joints(sheet: &mut Sheet, model: &Model, brick: f64) {
             let text = format!("{} joints, {}", class.name, law(&class.law));
             sheet.entry(&text, |symbol| {
                 let style = format!("stroke=\"{colour}\" stroke-width=\"1.8\"");
-                symbol.line(Pixel::new(-22.0, 0.0), Pixel::new(22.0, 0.0), &style);
-                for x in [-22.0, 22.0] {
+                symbol.line(Pixel::new(-SYMBOL, 0.0), Pixel::new(SYMBOL, 0.0), &style);
+                for x in [-SYMBOL, SYMBOL] {
                     symbol.circle(Pixel::new(x, 0.0), 2.6, &format!("fill=\"{colour}\""));
                 }
             });

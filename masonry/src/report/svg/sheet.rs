@@ -3,13 +3,18 @@
 use nalgebra::{Point2, Vector2};
 
 use super::canvas::{Anchor, Canvas, Pixel, escape, fixed, text_width, wrapped};
+use super::marks::{self, OUTLINE};
 use super::style::{self, DARK, EDGE, TEXT, TEXT_LINE, TITLE_LINE, WIDTH};
+use crate::model::Model;
 use crate::report::format::{InUnits, round_down};
 
 const ENTRY_GAP: f64 = 9.0;
 const SYMBOL_WIDTH: f64 = 64.0;
 const ENTRY_WIDTH: f64 = 280.0;
 const TALLEST: f64 = 760.0;
+/// Half the length of a line in the legend, and the corner of a block there.
+pub(super) const SYMBOL: f64 = 22.0;
+pub(super) const BLOCK: Pixel = Pixel { x: -16.0, y: -6.0 };
 
 /// An axis-parallel box \[m\].
 #[derive(Debug, Clone, Copy)]
@@ -89,6 +94,9 @@ struct Entry {
 pub(super) struct Sheet {
     pub(super) frame: Frame,
     pub(super) canvas: Canvas,
+    /// Size of a middling brick in pixels, from which widths of strokes and marks follow.
+    pub(super) brick: f64,
+    units: InUnits,
     title: String,
     title_lines: Vec<String>,
     legend: Vec<Entry>,
@@ -101,8 +109,8 @@ pub(super) struct Sheet {
 }
 
 impl Sheet {
-    /// A sheet on which everything within `bounds` has its place.
-    pub(super) fn new(title: &str, bounds: Bounds, margins: Margins) -> Self {
+    /// A sheet on which everything of a model within `bounds` has its place.
+    pub(super) fn new(title: &str, model: &Model, bounds: Bounds, margins: Margins) -> Self {
         let title_lines = style::title_lines(title);
         let size = bounds.size();
         let legend_below = size.x > 1.5 * size.y;
@@ -123,9 +131,12 @@ impl Sheet {
             EDGE + margins.left + 0.5 * (width - drawn.x).max(0.0),
             EDGE + titles + 6.0 + margins.top + drawn.y,
         );
+        let frame = Frame { scale, low: bounds.low, origin };
         Self {
-            frame: Frame { scale, low: bounds.low, origin },
+            frame,
             canvas: Canvas::default(),
+            brick: marks::brick_size(model, &frame),
+            units: InUnits(model.units),
             title: title.to_owned(),
             title_lines,
             legend: Vec::new(),
@@ -164,8 +175,27 @@ impl Sheet {
         self.legend.push(Entry { symbol, lines });
     }
 
+    /// Adds a legend entry without a symbol.
+    pub(super) fn note(&mut self, text: &str) {
+        self.entry(text, |_| {});
+    }
+
+    /// Adds a legend entry with a line.
+    pub(super) fn line_entry(&mut self, text: &str, colour: &str, width: &str) {
+        let style = format!("stroke=\"{colour}\" stroke-width=\"{width}\"");
+        let [from, to] = [-SYMBOL, SYMBOL].map(|x| Pixel::new(x, 0.0));
+        self.entry(text, |symbol| symbol.line(from, to, &style));
+    }
+
+    /// Adds a legend entry with a block.
+    pub(super) fn block_entry(&mut self, text: &str, fill: &str) {
+        let style = format!("fill=\"{fill}\" stroke=\"{OUTLINE}\" stroke-width=\"1\"");
+        self.entry(text, |symbol| symbol.rectangle(BLOCK, -2.0 * BLOCK.x, -2.0 * BLOCK.y, &style));
+    }
+
     /// Adds a bar that shows a round length.
-    pub(super) fn length_bar(&mut self, units: InUnits) {
+    fn length_bar(&mut self) {
+        let units = self.units;
         let bar = round_down(units.length(58.0 / self.frame.scale));
         let half = 0.5 * bar * units.0.length_to_si() * self.frame.scale;
         if half.is_finite() && half > 0.0 {
@@ -175,7 +205,8 @@ impl Sheet {
     }
 
     /// The finished file.
-    pub(super) fn finish(self) -> String {
+    pub(super) fn finish(mut self) -> String {
+        self.length_bar();
         let mut legend = Canvas::default();
         let [.., drawn] = self.room;
         let bottom = if self.legend_below {

@@ -3,8 +3,9 @@
 use nalgebra::Point2;
 
 use super::canvas::{Canvas, Pixel, fixed};
-use super::marks::{self, BRICK, COMPRESSION, OUTLINE, TENSION};
-use super::sheet::{Frame, Margins, Sheet, draw_bar};
+use super::marks::{self, BRICK, COMPRESSION, TENSION};
+use super::pictures::Shown;
+use super::sheet::{Frame, Margins, SYMBOL, Sheet, draw_bar};
 use super::style::DARK;
 use crate::data::state::{ElementStress, State};
 use crate::geometry;
@@ -104,43 +105,30 @@ pub fn principal_stresses(
     state: &State,
     reference: Option<&ReferenceLines>,
 ) -> String {
-    compared(title, model, state, (reference, large(&state.stresses)))
+    compared(&Shown { title, model, state }, reference, large(&state.stresses))
 }
 
 /// The same with strokes as long as those of others: a large stress and the largest one of all.
 pub(in crate::report) fn compared(
-    title: &str,
-    model: &Model,
-    state: &State,
-    (reference, large): (Option<&ReferenceLines>, [f64; 2]),
+    shown: &Shown<'_>,
+    reference: Option<&ReferenceLines>,
+    large: [f64; 2],
 ) -> String {
+    let Shown { title, model, state } = *shown;
     let title = format!("{title}: principal stresses");
-    let mut sheet = Sheet::new(&title, marks::bounds(model), Margins::HATCH);
-    let units = InUnits(model.units);
-    let frame = sheet.frame;
-    let brick = marks::brick_size(model, &frame);
-    let width = fixed(marks::outline_width(brick));
-    let style = format!(
-        "class=\"bricks\" fill=\"{BRICK}\" stroke=\"{OUTLINE}\" stroke-width=\"{width}\" \
-         stroke-linejoin=\"round\""
-    );
-    marks::blocks(&mut sheet, model, &style);
-    draw_strokes(&mut sheet, model, state, (units, large));
+    let mut sheet = Sheet::new(&title, model, marks::bounds(model), Margins::HATCH);
+    marks::bricks(&mut sheet, &model.blocks, BRICK);
+    draw_strokes(&mut sheet, model, state, large);
     marks::supports(&mut sheet, model);
     if let Some(lines) = reference {
         draw_reference(&mut sheet, model, lines);
     }
     marks::contact_marks(&mut sheet, model, &state.contacts);
-    sheet.length_bar(units);
     sheet.finish()
 }
 
-fn draw_strokes(
-    sheet: &mut Sheet,
-    model: &Model,
-    state: &State,
-    (units, large): (InUnits, [f64; 2]),
-) {
+fn draw_strokes(sheet: &mut Sheet, model: &Model, state: &State, large: [f64; 2]) {
+    let units = InUnits(model.units);
     let frame = sheet.frame;
     let element = element_size(model, state) * frame.scale;
     let width = (0.055 * element).clamp(0.3, 1.8);
@@ -169,7 +157,7 @@ fn draw_strokes(
     }
     let (compression, tension) = extreme_stresses(state);
     if compression.is_none() && tension.is_none() {
-        sheet.entry("no stress in any element", |_| {});
+        sheet.note("no stress in any element");
         return;
     }
     let largest = [compression, tension].into_iter().flatten().map(|it| it.value.abs());
@@ -181,10 +169,7 @@ fn draw_strokes(
     {
         let most = extreme
             .map_or("none".to_owned(), |it| format!("largest {}", stress_text(it.value.abs())));
-        sheet.entry(&format!("{name}, {most}"), |symbol| {
-            let style = format!("stroke=\"{colour}\" stroke-width=\"{}\"", fixed(width.max(1.2)));
-            symbol.line(Pixel::new(-22.0, 0.0), Pixel::new(22.0, 0.0), &style);
-        });
+        sheet.line_entry(&format!("{name}, {most}"), colour, &fixed(width.max(1.2)));
     }
     sheet.entry(&format!("stroke of {}", stress_text(round)), |symbol| {
         draw_bar(symbol, 0.5 * round * pixels_per_pascal, DARK, 1.4);
@@ -254,7 +239,7 @@ fn draw_reference(sheet: &mut Sheet, model: &Model, lines: &ReferenceLines) {
     });
     sheet.entry(&lines.label, |symbol| {
         symbol.group(&style, |symbol| {
-            symbol.line(Pixel::new(-22.0, 0.0), Pixel::new(22.0, 0.0), "");
+            symbol.line(Pixel::new(-SYMBOL, 0.0), Pixel::new(SYMBOL, 0.0), "");
         });
     });
 }
