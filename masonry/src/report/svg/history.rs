@@ -30,7 +30,7 @@ pub(in crate::report) fn curves(
     let reactions = |support: &str| {
         ["fx", "fy"].map(|part| format!("{support} {part}")).map(|key| [key.clone(), key])
     };
-    let against = Against { table, x: "max_displacement" };
+    let against = Against { table, x: "max_displacement", sense: 1.0 };
     let loads = history.loads.iter().map(|name| [format!("load {name}"), name.clone()]);
     let gravity = [["gravity".to_owned(), "gravity".to_owned()]];
     let factors = against.varying(gravity.into_iter().chain(loads));
@@ -38,13 +38,13 @@ pub(in crate::report) fn curves(
     if !factors.is_empty() {
         list.push(against.chart([&moved, "factor of loads [-]"], factors));
     }
-    if let Some(Moved { support, x, axis }) = most_moved(model, table) {
-        let against = Against { table, x: &x };
+    if let Some(Moved { support, x, sense, axis }) = most_moved(model, table) {
+        let against = Against { table, x: &x, sense };
         let own = reactions(support).map(|column| against.curve(column)).to_vec();
         let y = format!("reaction of \"{support}\" [{force}]");
         list.push(against.chart([&axis, &y], own));
     }
-    let against = Against { table, x: "number" };
+    let against = Against { table, x: "number", sense: 1.0 };
     let displacement = against.curve(["max_displacement", "displacement"].map(str::to_owned));
     let all = model.supports.iter().flat_map(|support| reactions(&support.name));
     let all = against.varying(all);
@@ -64,12 +64,14 @@ pub(in crate::report) fn curves(
 struct Against<'a> {
     table: &'a Table,
     x: &'a str,
+    /// Minus one if the axis shows the opposite of the column, so that curves run from left to right.
+    sense: f64,
 }
 
 impl Against<'_> {
     /// The curve of a column with a name in the legend.
     fn curve(&self, [key, name]: [String; 2]) -> Series {
-        let points = self.table.numbers(self.x).into_iter().zip(self.table.numbers(&key));
+        let points = self.steps().into_iter().zip(self.table.numbers(&key));
         let points = points.map(|(x, y)| [x, y]).collect();
         Series { name, style: 0, look: Look::Full, points }
     }
@@ -88,40 +90,49 @@ impl Against<'_> {
     }
 
     fn chart(&self, axes: [&str; 2], series: Vec<Series>) -> Chart {
-        Chart { steps: self.table.numbers(self.x), ..Chart::of(axes.map(str::to_owned), series) }
+        Chart { steps: self.steps(), ..Chart::of(axes.map(str::to_owned), series) }
+    }
+
+    /// Where the steps are on the axis.
+    fn steps(&self) -> Vec<f64> {
+        self.table.numbers(self.x).into_iter().map(|it| self.sense * it).collect()
     }
 }
 
 /// How a support moves.
 struct Moved<'a> {
     support: &'a str,
-    /// The column, and what an axis calls it.
+    /// The column, its sign at the largest movement, and what an axis calls the movement.
     x: String,
+    sense: f64,
     axis: String,
 }
 
-/// The support that moves furthest, and how: to the right, up, or by turning alone.
+/// The support that moves furthest, and how: up or down, to a side, or by turning alone.
 fn most_moved<'a>(model: &'a Model, table: &Table) -> Option<Moved<'a>> {
-    let furthest = |part: &str| {
+    let furthest = |part: &'static str| {
         let names = model.supports.iter().map(|it| it.name.as_str());
         let largest = |name| {
             let places = table.numbers(&format!("{name} {part}")).into_iter();
-            (name, places.fold(0.0, |largest: f64, it| largest.max(it.abs())))
+            (name, places.fold(0.0, |most: f64, it| if it.abs() > most.abs() { it } else { most }))
         };
-        names.map(largest).max_by(|a, b| a.1.total_cmp(&b.1))
+        names.map(largest).max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()))
     };
     let (right, up, turned) = (furthest("x")?, furthest("y")?, furthest("turn")?);
     let length = model.units.length_name();
-    let (support, part, how) = if up.1 > 0.0 && up.1 >= right.1 {
-        (up.0, "y", format!("moves up by [{length}]"))
-    } else if right.1 > 0.0 {
-        (right.0, "x", format!("moves to the right by [{length}]"))
-    } else if turned.1 > 0.0 {
-        (turned.0, "turn", "turns by [rad]".to_owned())
-    } else {
-        return None;
-    };
-    Some(Moved { support, x: format!("{support} {part}"), axis: format!("\"{support}\" {how}") })
+    let ((support, most), part, [backwards, forwards], unit) =
+        if up.1 != 0.0 && up.1.abs() >= right.1.abs() {
+            (up, "y", ["moves down", "moves up"], length)
+        } else if right.1 != 0.0 {
+            (right, "x", ["moves to the left", "moves to the right"], length)
+        } else if turned.1 != 0.0 {
+            (turned, "turn", ["turns clockwise", "turns counter-clockwise"], "rad")
+        } else {
+            return None;
+        };
+    let how = if most < 0.0 { backwards } else { forwards };
+    let axis = format!("\"{support}\" {how} by [{unit}]");
+    Some(Moved { support, x: format!("{support} {part}"), sense: most.signum(), axis })
 }
 
 /// The first step of every stage, and its name.
