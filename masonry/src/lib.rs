@@ -37,7 +37,7 @@
 //! | [`forms`] | the forms of the problem (3.27) and its reduction (3.18), (3.23) |
 //! | [`recover`] | from contact forces to displacements, stresses, reactions |
 //! | [`method`] | one file per method, the choice among them (`auto`), admissible forces |
-//! | [`paper`] | parts of the paper's own program: augmented Lagrangian method, films with nodes |
+//! | `paper` | with the feature of this name: augmented Lagrangian method, films with nodes, for comparison |
 //! | [`history`] | loads and support positions of every step |
 //! | [`verify`] | checks of a state: balances and contact law; the verdict: stands, falls or undecided |
 //! | [`plan`] | the effects that the scene uses, and why |
@@ -61,6 +61,7 @@ pub mod law;
 pub mod material;
 pub mod method;
 pub mod model;
+#[cfg(feature = "paper")]
 pub mod paper;
 pub mod plan;
 pub mod recover;

@@ -7,7 +7,7 @@
 //! | [`interior`] | [`Sparse`](crate::forms::Sparse) | interior-point method, with evidence if there is no equilibrium |
 //! | [`qp`] | [`Sparse`](crate::forms::Sparse) | convex quadratic programs, with proofs if there is no equilibrium |
 //! | [`pgs`] | [`Sparse`](crate::forms::Sparse) | projected Gauss-Seidel on the contacts of blocks on springs |
-//! | [`alm`](crate::paper::alm) | [`Sparse`](crate::forms::Sparse), or whole films | the augmented Lagrangian method of the paper |
+//! | `paper::alm` | [`Sparse`](crate::forms::Sparse), or whole films | the augmented Lagrangian method of the paper |
 //!
 //! All of them give an [`Answer`] to a [`Request`]. The [`Plan`](crate::plan::Plan) says which ones a scene uses.
 

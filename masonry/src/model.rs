@@ -68,6 +68,11 @@ pub struct Model {
 }
 
 impl Model {
+    /// Whether mortar films are strips, which have stresses along the joints.
+    pub fn has_strips(&self) -> bool {
+        self.contacts.iter().any(|it| it.film.is_some_and(|film| film.stretch.is_some()))
+    }
+
     /// Takes cohesion and tensile strength from all joints, and leaves their friction.
     pub(crate) fn remove_strength(&mut self) {
         for contact in &mut self.contacts {

@@ -4,7 +4,6 @@ use super::choice::Choice;
 use crate::forms::FormKind;
 use crate::method::auto;
 use crate::model::{Anchor, Block, ContactPoint, Model};
-use crate::paper::alm::Strips;
 use crate::scene::{Form, Route};
 
 /// Numbers of a model that decide what routes take.
@@ -107,7 +106,7 @@ impl Sizes {
             in_stiff_joints: giving(false, true),
             in_both: giving(true, true),
             bars: stretching_points(model),
-            strips: Strips::are_in(model),
+            strips: model.has_strips(),
         }
     }
 

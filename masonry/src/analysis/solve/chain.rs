@@ -23,6 +23,7 @@ use crate::method::qp::Programs;
 use crate::method::statics::{self, Decision};
 use crate::method::{Answer, Method, Request, RouteProgress};
 use crate::model::Model;
+#[cfg(feature = "paper")]
 use crate::paper::alm::{Multipliers, Strips};
 use crate::plan::Choice;
 use crate::recover;
@@ -314,10 +315,18 @@ impl<'a> Chain<'a> {
         let answer = match route {
             Route::Qp => self.timed(&Programs { sparse: &sparse }),
             Route::Pgs => self.timed(&Sweeps { sparse: &sparse }),
-            Route::Alm if Strips::are_in(model) => {
+            #[cfg(feature = "paper")]
+            Route::Alm if model.has_strips() => {
                 self.timed(&Strips { model, system, sparse: &sparse })
             }
+            #[cfg(feature = "paper")]
             Route::Alm => self.timed(&Multipliers { sparse: &sparse }),
+            #[cfg(not(feature = "paper"))]
+            Route::Alm => {
+                let reason =
+                    "it is built with the feature `paper`: add this feature, or take another route";
+                return Err(SolveError::NotTreated { route, reason: reason.to_owned() });
+            }
             _ => {
                 let given = self.before.take();
                 let state = given.as_ref().map(|it| sparse.state(model, system, it.state));

@@ -27,11 +27,6 @@ pub struct Strips<'a> {
 }
 
 impl Strips<'_> {
-    /// Whether a model has strips.
-    pub fn are_in(model: &Model) -> bool {
-        model.contacts.iter().any(|it| it.film.is_some_and(|film| film.stretch.is_some()))
-    }
-
     /// Displacements and forces of the problem with contact points in the films.
     fn with_points(&self, wall: &MortaredWall, found: &ContactState) -> ContactState {
         let films = wall.films().iter().flat_map(|film| film.respond(&found.u).points);
