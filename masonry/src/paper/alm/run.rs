@@ -14,8 +14,6 @@ use crate::data::state::ContactStatus;
 const PENALTY: f64 = 0.3;
 /// The proximal term, relative to the stiffness.
 const PROXIMAL: f64 = 1e-2;
-/// Where unbalanced force or residual grow by this factor over their smallest, the iteration diverges.
-const DIVERGED: f64 = 1e3;
 /// So many iterations without a reduction of it by a tenth are no progress.
 const PATIENCE: usize = 300;
 /// After that penalty and proximal term change by this factor, so many times.
@@ -143,7 +141,7 @@ impl Iterations<'_> {
                     (*least, since) = (value, 0);
                 }
             }
-            if measure > DIVERGED * least[0] || !measure.is_finite() || since > PATIENCE {
+            if !measure.is_finite() || since > PATIENCE {
                 return Ok(Status::Stalled);
             }
         }
