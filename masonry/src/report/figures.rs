@@ -1,4 +1,4 @@
-//! What a user sees of a result, as one kind of value: figures and tables in the units of the scene, with their names,
+//! Figures and tables that a user sees of a result, as one kind of value in the units of the scene, with their names,
 //! quantities and digits.
 //!
 //! Text, pages, JSON and CSV only choose and write them, so that a figure is added here and nowhere else.
@@ -13,7 +13,7 @@ mod value;
 pub(super) use table::{Column, Columns, Digits, Table};
 pub(super) use value::{Value, members};
 
-/// A name and what is said of it.
+/// A name and the words beside it.
 pub(super) type Said = (&'static str, String);
 
 /// A number or a few, as files and readers see them.
@@ -47,12 +47,12 @@ impl Figure {
     }
 }
 
-/// What the report as text says.
+/// Names and words of the report as text.
 pub(super) fn on_text(figures: &[Figure]) -> Vec<Said> {
     figures.iter().filter_map(|it| it.text.clone()).collect()
 }
 
-/// What a page says.
+/// Names and words of a page.
 pub(super) fn on_page(figures: &[Figure]) -> Vec<Said> {
     figures.iter().filter_map(|it| it.page.clone()).collect()
 }

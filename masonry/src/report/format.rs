@@ -4,7 +4,7 @@ use crate::ids::BlockId;
 use crate::model::{Body, Model};
 use crate::units::Units;
 
-/// What a number measures.
+/// The kind of number that a unit belongs to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Quantity {
     /// A number without a unit.
@@ -16,7 +16,6 @@ pub(super) enum Quantity {
     /// Energy, or a moment.
     Energy,
     Radians,
-    Seconds,
     /// A length in millimetres, whatever the units of the scene.
     Millimetres,
     /// A part of one, in hundredths.
@@ -31,7 +30,7 @@ impl InUnits {
     /// An SI value in the unit of its quantity.
     pub(super) fn of(self, quantity: Quantity, value: f64) -> f64 {
         match quantity {
-            Quantity::Pure | Quantity::Radians | Quantity::Seconds => value,
+            Quantity::Pure | Quantity::Radians => value,
             Quantity::Length => self.length(value),
             Quantity::Area => value / (self.0.length_to_si() * self.0.length_to_si()),
             Quantity::Force => self.force(value),
@@ -52,7 +51,6 @@ impl InUnits {
             Quantity::Length => self.0.length_name(),
             Quantity::Force => self.0.force_name(),
             Quantity::Radians => "rad",
-            Quantity::Seconds => "s",
             Quantity::Millimetres => "mm",
             Quantity::Percent => "%",
         }

@@ -109,7 +109,7 @@ pub(super) fn times(times: &[PhaseTime]) -> Value {
     Value::Object(times.iter().map(|it| (it.phase.clone(), it.seconds.into())).collect())
 }
 
-/// Sums of reactions of which only the sum is unique.
+/// Sums of reactions that are not unique one by one.
 fn corners(outcome: &Outcome) -> Value {
     let units = InUnits(outcome.model.units);
     let of = |it: CornerSum| {
@@ -130,7 +130,7 @@ fn parts(units: InUnits, sum: Resultant) -> Vec<(String, Value)> {
     forces(units, [("", sum)]).without("support").objects().remove(0)
 }
 
-/// By group its sum and its loads, each with its factor, times that of the step, and its resultant.
+/// Groups with their sums and their loads, each with its factor, times that of the step, and its resultant.
 fn groups(model: &Model) -> Value {
     let units = InUnits(model.units);
     let of = |group: LoadGroup<'_>| {

@@ -8,7 +8,7 @@ use crate::model::Model;
 use crate::report::format::InUnits;
 use crate::report::format::Quantity::{Energy, Force, Length, Pure, Radians};
 
-/// In JSON before and after the factors and movements of a step.
+/// Keys of JSON before and after the factors and movements of a step.
 const ACTIONS: &str = "stage step of gravity";
 const FOUND: &str = "route way factorisations residual work dissipation friction_power energy_created dragged \
                      strain_energy balance max_displacement";
@@ -19,7 +19,7 @@ struct Row<'a> {
     it: &'a StepRecord,
     work: f64,
     dissipated: f64,
-    /// What is left of the work.
+    /// The work that friction has not taken.
     left: f64,
 }
 

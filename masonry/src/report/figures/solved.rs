@@ -139,7 +139,7 @@ fn stresses(model: &Model, state: &State) -> Vec<Figure> {
     ]
 }
 
-/// The stresses in mortar films, of which JSON has one object.
+/// The stresses in mortar films; JSON has one object of them.
 fn films(model: &Model, state: &State) -> Vec<Figure> {
     let Some(films) = extreme_film_stresses(state) else { return Vec::new() };
     let units = InUnits(model.units);

@@ -38,10 +38,10 @@ impl Column {
     }
 }
 
-/// What stands in a column for a record, in SI units.
+/// The value in a column for a record, in SI units.
 type Entry<'a, T> = Box<dyn Fn(&T) -> Value + 'a>;
 
-/// Columns, each with what stands in it for a record.
+/// Columns, each with its value for a record.
 pub(crate) struct Columns<'a, T>(Vec<(Column, Entry<'a, T>)>);
 
 impl<'a, T> Columns<'a, T> {

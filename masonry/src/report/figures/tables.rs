@@ -62,7 +62,7 @@ pub(crate) fn loads(units: InUnits, groups: &[LoadGroup<'_>], with_sums: bool) -
         .table(units, rows)
 }
 
-/// By block the rates of its corners.
+/// Rates of the corners of every block, by its name.
 pub(crate) fn rates_by_name(model: &Model, rates: &[Vec<Vector2<f64>>]) -> Value {
     let rate = |it: &Vector2<f64>| Value::List(vec![it.x.into(), it.y.into()]);
     let of_block = |rates: &Vec<Vector2<f64>>| Value::List(rates.iter().map(rate).collect());

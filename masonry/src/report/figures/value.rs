@@ -1,11 +1,11 @@
-//! What stands in a table or in a JSON object.
+//! Values in tables and in JSON objects.
 
 use serde::Serialize;
 
 /// A value of JSON; members of objects keep their order.
 #[derive(Debug, Clone)]
 pub(crate) enum Value {
-    /// What is not known, or does not exist.
+    /// A value that is not known, or does not exist.
     Nothing,
     Flag(bool),
     Count(usize),
@@ -27,7 +27,7 @@ macro_rules! members {
 pub(crate) use members;
 
 impl Value {
-    /// What knows by itself how it is written.
+    /// The value of something that knows by itself how it is written.
     pub(crate) fn of(it: &(impl Serialize + ?Sized)) -> Result<Self, serde_json::Error> {
         serde_json::to_string_pretty(it).map(Self::Json)
     }
@@ -66,7 +66,7 @@ fn enclosed(
     Ok(format!("{open}{lines}{close}"))
 }
 
-/// Conversions of what a value holds.
+/// Conversions into values.
 macro_rules! from {
     ($($type:ty => $value:expr),* $(,)?) => {
         $(impl From<$type> for Value {

@@ -3,7 +3,7 @@
 use crate::analysis::study::{Mesh, Record, Study};
 use crate::report::figures::Digits::{Power, Significant};
 use crate::report::figures::{Columns, Table};
-use crate::report::format::Quantity::{Energy, Force, Length, Pure, Seconds};
+use crate::report::format::Quantity::{Energy, Force, Length, Pure};
 use crate::report::format::{InUnits, significant};
 
 /// A row for each mesh, route and tolerance; text has its own columns of tolerances and times.
@@ -17,7 +17,7 @@ pub(super) fn records<'a>(study: &Study, list: impl Iterator<Item = &'a Record>)
         .named("tolerance")
         .words("status", |it| it.end.name())
         .number("residual", Pure, Power, |it| it.residual)
-        .number("time", Seconds, Power, |it| it.seconds)
+        .number("time_s", Pure, Power, |it| it.seconds)
         .count("took", move |it| took(it) + if it.overrun { " !" } else { "" })
         .named("time [s]")
         .words("overrun", |it| it.overrun)

@@ -4,8 +4,9 @@ use crate::data::state::State;
 use nalgebra::{Point2, Vector2};
 
 use super::canvas::{Pixel, before, fixed};
-use super::marks::{self, OUTLINE};
+use super::marks;
 use super::sheet::{BLOCK, Bounds, Margins, Sheet};
+use super::style::OUTLINE;
 use crate::model::{Block, Model};
 use crate::report::format::{InUnits, round_down, significant};
 use crate::report::summary::{largest_displacement, nodes};

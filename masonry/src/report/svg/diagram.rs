@@ -192,7 +192,7 @@ pub(in crate::report) struct Chart {
 }
 
 impl Chart {
-    /// A chart of full lines in colours of their own; of bounds the style stays.
+    /// A chart of full lines in colours of their own; bounds keep their style.
     pub(in crate::report) fn of(axes: [String; 2], mut series: Vec<Series>) -> Self {
         let full = series.iter_mut().filter(|it| it.look == Look::Full);
         full.enumerate().for_each(|(style, it)| it.style = style);

@@ -32,8 +32,8 @@ pub(super) struct Loads {
 struct Push {
     on: On,
     value: Vector2<f64>,
-    /// Out of the loaded blocks. Of a force it is where the arrow lies seen from the place: one that pulls at an edge
-    /// begins there, all others end there.
+    /// Out of the loaded blocks; seen from the place of a force, to where its arrow lies: one that pulls at an edge begins
+    /// there, all others end there.
     outwards: Vector2<f64>,
     /// Size relative to the largest one of its kind in the model.
     part: f64,

@@ -5,8 +5,8 @@ use nalgebra::{Point2, Vector2};
 use super::canvas::{Canvas, Pixel, before, fixed};
 use super::labels::Labels;
 use super::sheet::{Bounds, Frame, Sheet};
+use super::style::OUTLINE;
 use crate::data::state::{ContactState, ContactStatus};
-use crate::geometry;
 use crate::ids::SupportId;
 use crate::model::{Block, Body, ContactPoint, Model, Support};
 
@@ -16,8 +16,6 @@ pub(super) const COMPRESSION: &str = "#0072b2";
 pub(super) const TENSION: &str = "#d55e00";
 /// Fill of a brick.
 pub(super) const BRICK: &str = "#f5efe6";
-/// Outline of a brick.
-pub(super) const OUTLINE: &str = "#857868";
 /// Ground and walls.
 const GROUND: &str = "#444444";
 /// Rim of an open contact point.
@@ -34,14 +32,6 @@ pub(super) fn bounds(model: &Model) -> Bounds {
     let corners = model.blocks.iter().flat_map(|block| block.corners.iter().copied());
     let ends = model.supports.iter().flat_map(|support| [support.from, support.to]);
     Bounds::of(corners.chain(ends))
-}
-
-/// Size of a middling brick in pixels, from which widths of strokes and marks follow.
-pub(super) fn brick_size(model: &Model, frame: &Frame) -> f64 {
-    let mut areas: Vec<f64> =
-        model.blocks.iter().map(|block| geometry::area(&block.corners)).collect();
-    areas.sort_by(f64::total_cmp);
-    areas.get(areas.len() / 2).copied().unwrap_or(0.0).max(0.0).sqrt() * frame.scale
 }
 
 /// Width of a brick's outline.

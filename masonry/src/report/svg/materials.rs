@@ -8,14 +8,18 @@ use crate::report::format::{InUnits, significant, stress_text};
 /// Fills of materials, so light that marks stay readable; the first is that of every other picture.
 const FILLS: [&str; 5] = [BRICK, "#dfe6ea", "#e6ead7", "#ecdfe6", "#e3dcc9"];
 
-/// The constants of a material: those of elastic blocks, and the density.
-type Constants = (Option<Elasticity>, Option<f64>);
+/// The constants of a material.
+#[derive(Clone, Copy, PartialEq)]
+struct Constants {
+    elasticity: Option<Elasticity>,
+    density: Option<f64>,
+}
 
 /// Draws all blocks, and a legend entry for every material; the thickness of the structure is that of all.
 pub(super) fn draw(sheet: &mut Sheet, model: &Model) {
     let mut materials: Vec<(Constants, Vec<&Block>)> = Vec::new();
     for block in &model.blocks {
-        let constants = (block.elasticity, block.density);
+        let constants = Constants { elasticity: block.elasticity, density: block.density };
         match materials.iter_mut().find(|(known, _)| *known == constants) {
             Some((_, blocks)) => blocks.push(block),
             None => materials.push((constants, vec![block])),
@@ -32,7 +36,7 @@ pub(super) fn draw(sheet: &mut Sheet, model: &Model) {
 }
 
 fn described(constants: Constants) -> String {
-    let (elasticity, density) = constants;
+    let Constants { elasticity, density } = constants;
     let mut text = match elasticity {
         Some(Elasticity { young, poisson }) => {
             format!(

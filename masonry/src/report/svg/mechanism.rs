@@ -5,8 +5,9 @@ use nalgebra::{Point2, Vector2};
 use super::canvas::{Canvas, Pixel, before, fixed};
 use super::deformed::{PAGE, magnification};
 use super::labels::Labels;
-use super::marks::{self, BRICK, OUTLINE, counted};
+use super::marks::{self, BRICK, counted};
 use super::sheet::{Bounds, Margins, Sheet};
+use super::style::OUTLINE;
 use crate::model::{Anchor, Model};
 use crate::report::hinges::{Yield, YieldingJoint, yielding};
 use crate::verify::moving::{SLOW, speed};
@@ -104,7 +105,7 @@ fn drawn(title: &str, model: &Model, rates: &[Vec<Vector2<f64>>], for_page: bool
     sheet.finish()
 }
 
-/// How far all has moved, and whether a page changes that.
+/// The factor of all rates, and whether a page changes it.
 #[derive(Clone, Copy)]
 struct Amplitude {
     factor: f64,

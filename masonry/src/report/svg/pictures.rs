@@ -3,18 +3,11 @@
 use super::cracks::{self, widest};
 use super::deformed::{self, Magnified};
 use super::forces::{self, Shared};
+pub(in crate::report) use super::sheet::Shown;
 use super::stresses::{self, ReferenceLines, large};
 use crate::data::state::{ContactState, State};
 use crate::model::Model;
 use crate::report::joints;
-
-/// A structure in a state, and the title of its pictures.
-#[derive(Debug, Clone, Copy)]
-pub(in crate::report) struct Shown<'a> {
-    pub(in crate::report) title: &'a str,
-    pub(in crate::report) model: &'a Model,
-    pub(in crate::report) state: &'a State,
-}
 
 /// One kind of picture of all states.
 #[derive(Debug, Clone)]

@@ -3,8 +3,9 @@
 use nalgebra::{Point2, Vector2};
 
 use super::canvas::{Anchor, Canvas, Pixel, escape, fixed, text_width, wrapped};
-use super::marks::{self, OUTLINE};
-use super::style::{self, DARK, EDGE, TEXT, TEXT_LINE, TITLE_LINE, WIDTH};
+use super::style::{self, DARK, EDGE, OUTLINE, TEXT, TEXT_LINE, TITLE_LINE, WIDTH};
+use crate::data::state::State;
+use crate::geometry;
 use crate::model::Model;
 use crate::report::format::{InUnits, round_down};
 
@@ -82,6 +83,14 @@ impl Frame {
     }
 }
 
+/// A structure in a state, and the title of its pictures.
+#[derive(Debug, Clone, Copy)]
+pub(in crate::report) struct Shown<'a> {
+    pub(in crate::report) title: &'a str,
+    pub(in crate::report) model: &'a Model,
+    pub(in crate::report) state: &'a State,
+}
+
 /// One line of the legend: a symbol drawn about the origin, and its text.
 #[derive(Debug)]
 struct Entry {
@@ -135,7 +144,7 @@ impl Sheet {
         Self {
             frame,
             canvas: Canvas::default(),
-            brick: marks::brick_size(model, &frame),
+            brick: brick_size(model, &frame),
             units: InUnits(model.units),
             title: title.to_owned(),
             title_lines,
@@ -254,6 +263,14 @@ impl Sheet {
         }
         y
     }
+}
+
+/// Size of a middling brick in pixels, from which widths of strokes and marks follow.
+fn brick_size(model: &Model, frame: &Frame) -> f64 {
+    let mut areas: Vec<f64> =
+        model.blocks.iter().map(|block| geometry::area(&block.corners)).collect();
+    areas.sort_by(f64::total_cmp);
+    areas.get(areas.len() / 2).copied().unwrap_or(0.0).max(0.0).sqrt() * frame.scale
 }
 
 /// A horizontal bar with end ticks about the origin.

@@ -4,8 +4,7 @@ use nalgebra::Point2;
 
 use super::canvas::{Canvas, Pixel, fixed};
 use super::marks::{self, BRICK, COMPRESSION, TENSION};
-use super::pictures::Shown;
-use super::sheet::{Frame, Margins, SYMBOL, Sheet, draw_bar};
+use super::sheet::{Frame, Margins, SYMBOL, Sheet, Shown, draw_bar};
 use super::style::DARK;
 use crate::data::state::{ElementStress, State};
 use crate::geometry;

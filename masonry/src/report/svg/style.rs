@@ -11,6 +11,8 @@ pub(super) const TITLE_LINE: f64 = 22.0;
 pub(super) const TEXT: f64 = 13.0;
 pub(super) const TEXT_LINE: f64 = 17.0;
 pub(super) const FONT: &str = "DejaVu Sans, Helvetica, Arial, sans-serif";
+/// Outline of a brick.
+pub(super) const OUTLINE: &str = "#857868";
 pub(super) const DARK: &str = "#222222";
 /// Colours of curves, which differ also for those who see few of them (Okabe and Ito).
 pub(super) const COLOURS: [&str; 7] =

@@ -14,7 +14,7 @@ const TICKS: f64 = 7.0;
 /// Labels of a linear axis have no more decimals, but an exponent.
 const DECIMALS: f64 = 5.0;
 
-/// What equal lengths of an axis are: equal differences, or equal ratios.
+/// Meaning of equal lengths on an axis: equal differences, or equal ratios.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Scale {
     Linear,
@@ -62,7 +62,7 @@ impl Axis {
     }
 }
 
-/// Ends with room, and round values; of what is counted, whole ones.
+/// Ends with room, and round values, whole ones if all values are counted.
 fn linear([low, high]: [f64; 2], is_count: bool) -> ([f64; 2], Vec<(f64, String)>) {
     // Zero belongs to an axis that would begin or end near it.
     let [low, high] = match [low, high] {
