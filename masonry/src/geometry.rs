@@ -133,7 +133,7 @@ pub fn on_edge(polygon: &[Point2<f64>], k: usize, at: f64) -> Point2<f64> {
     p + (q - p) * at
 }
 
-/// A fraction of an edge, 0 or 1 exactly where rounding misses these.
+/// A fraction of an edge, set to 0 or 1 if only rounding separates them.
 pub(crate) fn snap(fraction: f64) -> f64 {
     if fraction < SAME_PLACE {
         0.0
@@ -153,7 +153,7 @@ pub fn reference(quad: &Quad, point: Point2<f64>) -> [f64; 2] {
     let g = (quad[2] - quad[3]) - e;
     let (square, linear, constant) = (cross(g, f), cross(e, f) + cross(h, g), cross(h, e));
     let root = (linear * linear - 4.0 * constant * square).max(0.0).sqrt();
-    // Of two forms of the root the one without a difference of like numbers.
+    // The form of the root without a difference of like numbers.
     let s = if linear >= 0.0 {
         -2.0 * constant / (linear + root)
     } else {

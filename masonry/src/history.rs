@@ -30,7 +30,7 @@ pub(crate) mod spread;
 
 pub use spread::{SecondLoading, Spread};
 
-/// What acts on a model.
+/// The actions on a model.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Actions {
     /// Factor of gravity \[-\].
@@ -51,7 +51,7 @@ impl Actions {
         }
     }
 
-    /// What acts before the first stage: all that no stage names.
+    /// The actions before the first stage: all that no stage names.
     fn before(scene: &Scene) -> Self {
         let mut actions = Self::full(scene);
         let named = |is_named: &dyn Fn(&Stage) -> bool| scene.stages.iter().any(is_named);
@@ -66,7 +66,7 @@ impl Actions {
         actions
     }
 
-    /// What acts at the end of a stage that begins with these actions.
+    /// The actions at the end of a stage that begins with these.
     fn after(&self, stage: &Stage, scene: &Scene) -> Self {
         let mut actions = self.clone();
         actions.gravity = stage.gravity.unwrap_or(self.gravity);
@@ -91,7 +91,7 @@ impl Actions {
     }
 }
 
-/// What a stage takes a load to; `None` where it names neither the load nor its group.
+/// The final factor of a load in a stage; `None` if the stage names neither it nor its group.
 fn factor_of(stage: &Stage, load: &Load) -> Option<f64> {
     stage.loads.iter().find(|(name, _)| load.is_called(name)).map(|(_, factor)| *factor)
 }
@@ -105,7 +105,7 @@ pub struct Step {
     pub number: usize,
     /// The steps of the stage.
     pub of: usize,
-    /// What acts at the end of the step.
+    /// The actions at the end of the step.
     pub actions: Actions,
 }
 
@@ -211,10 +211,10 @@ pub struct StepRecord {
     /// Energy dissipated by sliding in this step \[J\], `-t_t . (increment of y_t)`; plus the energy
     /// of opening joints with tensile strength, which is recovered when they close.
     pub dissipation: f64,
-    /// What friction took by what it could take of these slips at most, the sum of `-t_t ds` by that of `(mu t_n + C) |ds|`:
-    /// one by Coulomb's law. `None` where nothing slid.
+    /// Work of friction relative to its largest possible value on these slips, the sum of `-t_t ds` by that of
+    /// `(mu t_n + C) |ds|`: one by Coulomb's law. `None` if nothing slid.
     pub friction_power: Option<f64>,
-    /// Energy that friction gave in this step \[J\]: none by Coulomb's law.
+    /// Energy that friction released in this step \[J\]: zero by Coulomb's law.
     pub energy_created: f64,
     /// Energy that the drag of slow motions took in this step \[J\].
     pub dragged: f64,
@@ -240,12 +240,12 @@ pub struct History {
     pub steps: usize,
     /// Names of the loads, in the order of the factors.
     pub loads: Vec<String>,
-    /// What another loading has come to, if that was [asked](crate::analysis::solve::Run::compare).
+    /// The outcome of another loading, if [requested](crate::analysis::solve::Run::compare).
     pub second_loading: Option<SecondLoading>,
 }
 
 impl StepRecord {
-    /// Whether friction has taken what it could of every slip, but for a hundredth.
+    /// Whether the work of friction in the step is at least 0.99 of its largest value.
     pub fn keeps_law(&self) -> bool {
         self.friction_power.is_none_or(|power| power >= KEPT)
     }
@@ -272,7 +272,7 @@ impl History {
     }
 }
 
-/// What moves in a scene at all: the names of supports that some stage moves.
+/// The names of the supports that some stage of a scene moves.
 pub(crate) fn moving_supports(scene: &Scene) -> Vec<&str> {
     let moved: BTreeSet<&str> = scene
         .stages

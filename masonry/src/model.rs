@@ -61,7 +61,7 @@ pub struct Model {
     pub accelerations: Vec<Acceleration>,
     /// Names and factors of the loads, in the order of the scene.
     pub loads: Vec<Load>,
-    /// What was moved of single blocks that nearly touch; `None` if nothing was.
+    /// The corners of single blocks that were moved; `None` if none were.
     pub healed: Option<Healed>,
     /// The units of the scene, in which results are reported.
     pub units: Units,
@@ -305,7 +305,7 @@ pub struct FilmPoint {
     pub length: f64,
     /// Start and end of this length along the tangent, on side `a`; `None` when that side is a support.
     pub a: Option<[Anchor; 2]>,
-    /// The same on side `b`.
+    /// Start and end of this length on side `b`.
     pub b: [Anchor; 2],
     /// Compression and shear of this part of the film under a unit of force \[m/N\].
     pub compliance: [f64; 2],

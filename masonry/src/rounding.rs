@@ -1,9 +1,9 @@
-//! What of a number is a rounding error: to who sees no more than the equations it is a coupling or a load.
+//! Rounding errors of numbers, which in the equations alone would be couplings or loads.
 
 /// Sums and products of the data are wrong by this part of their largest term.
 const ROUNDING: f64 = 1.0 / (1_u64 << 48) as f64;
 
-/// The value, or zero where it is a rounding error beside numbers of this size.
+/// The value, or zero if it is a rounding error beside numbers of this size.
 pub(crate) fn cleared(value: f64, size: f64) -> f64 {
     if value.abs() <= ROUNDING * size { 0.0 } else { value }
 }

@@ -56,8 +56,8 @@ use crate::scene::{Load, Route, Scene};
 use crate::system::{self, System};
 use watch::Watch;
 
-/// Factors below this part of the one under which what grows is as large as what stays are none. Chosen: between what the
-/// bound of associated flow leaves open, and what means something.
+/// Factors below this part of the one under which growing loads equal the others are zero. Chosen: between the gap of
+/// associated flow and a factor that matters.
 const NOTHING: f64 = 1e-6;
 
 /// The laws of friction of a limit load.
@@ -143,7 +143,7 @@ pub fn limit_by(scene: &Scene, laws: Laws) -> Result<Limit, LimitError> {
     limit_observed(scene, laws, &mut |_| ControlFlow::Continue(()))
 }
 
-/// The same, which an observer follows: `Break` ends it with what is known.
+/// The limit load, with an observer that may end the search by `Break`.
 ///
 /// # Errors
 /// As [`limit`].
@@ -249,7 +249,7 @@ fn group(scene: &Scene) -> Result<String, LimitError> {
 #[derive(Clone, Copy)]
 struct LoadedStructure<'a> {
     model: &'a Model,
-    /// In the order of the scene.
+    /// Whether each load grows.
     grows: &'a [bool],
     /// Whether the weight of the blocks grows too.
     weight: bool,

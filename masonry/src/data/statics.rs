@@ -18,7 +18,7 @@ pub enum Statics {
 pub struct Proof {
     /// Displacement rates of the corners of every block, scaled to a largest component of one.
     pub rates: Vec<Vec<Vector2<f64>>>,
-    /// Work of the loads on them, less what cohesion and tensile strength take, relative to the sum of all of these
+    /// Work of the loads on the motion, less that of cohesion and tensile strength, relative to the sum of all these
     /// forces \[-\].
     pub work: f64,
     /// The largest work that a contact force of one could do against it, relative to the force \[-\]: rounding errors.
@@ -28,11 +28,11 @@ pub struct Proof {
 /// The largest value of a linear function of admissible forces.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Extreme {
-    /// What forces reach, and what by a motion no forces exceed \[N\].
+    /// Bounds of the largest value \[N\].
     Value {
-        /// The first.
+        /// The value that forces reach.
         value: f64,
-        /// The second.
+        /// The bound by a motion.
         bound: f64,
     },
     /// Forces that balance one another make it as large as one likes.

@@ -242,7 +242,7 @@ impl FormKind {
     }
 }
 
-/// Where the variables of points and rows are among the pairs.
+/// Positions of the variables of points and rows among the pairs.
 #[derive(Debug, Clone)]
 struct Layout {
     /// Number of contact points.
@@ -263,7 +263,7 @@ impl Layout {
         Self { points: system.points(), friction, bars: system.stretches.len() }
     }
 
-    /// The pair of frictional point `k` in a group, counted from 1 after the normal pairs.
+    /// The pair of frictional point `k` in a group; group 1 follows the normal pairs.
     fn pair(&self, group: usize, k: usize) -> usize {
         self.points + (group - 1) * self.friction.len() + k
     }

@@ -102,8 +102,8 @@ impl Reduction {
         relative_displacements(system, &self.compliances, self.bars.as_ref(), t)
     }
 
-    /// The same as if no strip of mortar had a bar: with the forces of the [`bars`](Self::bars) as
-    /// unknowns of their own, as the mixed form has them.
+    /// The [`elastic_gaps`](Self::elastic_gaps) without the [`bars`](Self::bars) of mortar strips, whose
+    /// forces are unknowns of the mixed form.
     pub fn block_gaps(&self, system: &System, t: &[f64]) -> Vec<f64> {
         relative_displacements(system, &self.compliances, None, t)
     }

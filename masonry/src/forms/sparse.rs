@@ -63,7 +63,7 @@ impl Sparse {
         Self::of(system, Carriers::are_two)
     }
 
-    /// The same problem for methods without compliances of contacts: the deformations of all rows that have one are
+    /// Sets up the problem for methods without compliances of contacts: the deformations of all compliant rows are
     /// displacements.
     ///
     /// # Errors

@@ -2,9 +2,9 @@
 //!
 //! The blocks store strain energy `U`, sliding dissipates `D`, and both come from the work `W` of loads and of
 //! supports that move. `D` is a sum over contact points of `-t_t` at the end of the step times the slip in it; no
-//! single term is negative, for friction opposes slip. `W` is a trapezoidal sum, exact where forces
+//! single term is negative, for friction opposes slip. `W` is a trapezoidal sum, exact if forces
 //! change linearly with displacements. So `W - U - D` tends to zero as steps become shorter,
-//! and is zero where no point slides with a force that changes.
+//! and is zero if no point slides with a force that changes.
 //!
 //! Several steps of blocks that move lead from one state to the next. `D` is the sum over all of them, and the drag takes
 //! a small part of the work, too.
@@ -17,7 +17,7 @@ use crate::model::{Body, Model};
 use crate::recover;
 use crate::system::{System, displaced_nodes};
 
-/// What loads and supports need to have their work told.
+/// The data for the work of loads and supports.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Snapshot {
     /// Loads \[N\] in the order of all displacements.
@@ -59,7 +59,7 @@ impl Snapshot {
         Self { loads, displacements, pushes, movements }
     }
 
-    /// The same structure without loads, at rest.
+    /// The structure without loads, at rest.
     #[must_use]
     pub(crate) fn at_rest(&self) -> Self {
         Self {
@@ -92,14 +92,14 @@ impl Snapshot {
     }
 }
 
-/// What friction did in a step, or on a way of several.
+/// The work of friction in one step or in several.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) struct FrictionWork {
     /// Energy \[J\] that it took, `-t_t . (increment of y_t)`.
     pub(crate) dissipation: f64,
-    /// What it took of what it could; `None` where nothing slid.
+    /// The work relative to its largest value; `None` if nothing slid.
     power: Option<f64>,
-    /// Energy \[J\] that it gave: the part of the dissipation that is negative.
+    /// Energy \[J\] that friction released: the negative part of the dissipation.
     pub(crate) created: f64,
     /// Energy \[J\] that the drag of slow motions took.
     pub(crate) dragged: f64,
@@ -128,7 +128,7 @@ impl FrictionWork {
         Self { dissipation, power: account.friction_power(), created, dragged }
     }
 
-    /// What it took of what it could; `None` where nothing slid.
+    /// The work relative to its largest value; `None` if nothing slid.
     pub(crate) fn power(&self) -> Option<f64> {
         self.power
     }

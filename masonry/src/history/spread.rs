@@ -9,7 +9,7 @@ use crate::model::Model;
 /// a few per cent.
 const UNIQUE: f64 = 0.05;
 
-/// What another loading of the same history has come to.
+/// The outcome of another loading of the same history.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[serde(rename_all = "snake_case")]
 #[non_exhaustive]
@@ -28,8 +28,8 @@ pub enum SecondLoading {
 /// The differences between the state after a load history and that after another loading, relative to the first: root mean
 /// squares over all nodes, contacts and supports \[-\].
 ///
-/// The other loading has a quarter of the steps in every stage, at least two, and is ten times as fast. With friction
-/// there may be several answers, and these differences say how far they are apart.
+/// The other loading has a quarter of the steps in every stage, at least two, and is ten times as fast. Friction may
+/// admit several equilibria, and these differences are the distance of two.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct Spread {
@@ -79,7 +79,7 @@ impl Spread {
         self.displacements.max(self.openings).max(self.reactions)
     }
 
-    /// Whether the answer is one, but for a few per cent.
+    /// Whether both answers agree within five per cent.
     pub fn is_unique(&self) -> bool {
         self.largest() <= UNIQUE
     }

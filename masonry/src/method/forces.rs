@@ -1,7 +1,7 @@
 //! The route by statically admissible forces: one convex program, which knows neither stiffness nor gaps.
 //!
-//! Rigid blocks without gaps, in joints that do not give way, are at rest under any such forces, which are the answer. Of
-//! all other scenes it says no more than whether there are such forces; if there are none, that is proved.
+//! Rigid blocks without gaps, in joints that do not give way, are at rest under any such forces, which are the answer.
+//! All other scenes get no more than the decision whether such forces exist, with a proof if they do not.
 
 use lcp::{ContactState, Residuals, Status};
 

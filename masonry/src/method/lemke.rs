@@ -64,7 +64,7 @@ impl Method for Pivots<'_> {
     }
 }
 
-/// What the forms tried so far have left.
+/// Cost and data of the forms tried so far.
 struct Pivoting<'a> {
     request: &'a Request,
     start: Option<&'a Start>,
@@ -158,8 +158,8 @@ fn basis(start: &Start) -> Basis {
 }
 
 /// A covering vector with a meaning: the artificial variable prestresses the isostatic contacts,
-/// opens the others, and, much more, gives cohesion, which opens the friction cone. With ones the
-/// paper's form nearly always ends on a ray after a few pivots when `mu` is large.
+/// opens the others, and, much more, gives cohesion, which opens the friction cone. The paper's form
+/// with ones nearly always ends on a ray after a few pivots if `mu` is large.
 fn covering(form: &Form, start: &Start) -> Vec<f64> {
     let cone = |pair: usize| start.t_basic[pair] && pair >= form.points();
     (0..form.order()).map(|pair| if cone(pair) { COHESION } else { 1.0 }).collect()

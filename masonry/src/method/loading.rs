@@ -1,4 +1,4 @@
-//! What a loading leads to: rest, or a fall. The one function that solve, histories and limit loads ask.
+//! The outcome of a loading: rest, or a fall. The one function that solve, histories and limit loads call.
 
 use std::ops::ControlFlow;
 
@@ -17,8 +17,8 @@ pub(crate) const SLOWNESS: f64 = 1e-2;
 /// The first drag of blocks that start from nothing, relative to the stiffness of what they rest on; without any they move by
 /// this part of their reach. Chosen: drag decreases by itself.
 const FIRST_DRAG: f64 = 1e-2;
-/// Blocks that have moved further than this part of the size of most of them, beyond twice what supports have, are no
-/// longer where the contacts of the scene are. Theory: bricks in a running bond have lost half of what they lie on then.
+/// Displacements above this part of the median size of blocks, plus twice the movement of supports, invalidate the
+/// contacts of the scene. Theory: a brick in running bond has then lost half of its bed.
 const REACH: f64 = 0.25;
 /// Steps of the path before blocks move. Measured on walls of 1000 bricks: what its first start solves it solves in up to 60.
 const STEPS_BEFORE_MOTION: usize = 60;
@@ -60,8 +60,8 @@ pub(crate) struct Led {
     pub(crate) iterations: usize,
 }
 
-/// What is tried before blocks move, if nothing has acted on them yet: the path of interior points from its first start, in
-/// no more than so many steps.
+/// The method before blocks move, if nothing has acted on them yet: the path of interior points from its first start,
+/// in at most so many steps.
 pub(crate) fn path(tolerance: f64, max_steps: Option<usize>) -> InteriorPoint {
     let mut settings =
         InteriorPointSettings { tolerance, prove_infeasible: false, ..Default::default() };
@@ -104,7 +104,7 @@ impl Loading<'_> {
         };
         let h = self.pace();
         let mut evolution = if let Some((before, state)) = before {
-            // With the gaps that it has under the loads and supports before.
+            // The gaps are those under the loads and supports before.
             let state = before.state(state.u.clone(), state.t_n.clone(), state.t_t.clone());
             Evolution::new(before, matrix, settings)?.at(state, vec![0.0; problem.points()])?
         } else {

@@ -1,4 +1,4 @@
-//! What the routes on the sparse problem have in common: answers in the shape of all routes.
+//! Common code of the routes on the sparse problem: answers in the shape of all routes.
 
 use lcp::{Contact2d, ContactState, Residuals, Solution, Status};
 
@@ -20,7 +20,7 @@ pub(crate) const UNKNOWN: Residuals = Residuals {
     loads: f64::INFINITY,
 };
 
-/// What a method found on the sparse problem.
+/// The result of a method on the sparse problem.
 pub(crate) struct Found {
     pub(crate) status: Status,
     pub(crate) state: ContactState,

@@ -8,14 +8,14 @@ use crate::material::FilmMaterial;
 use crate::scene::bond::{self, JointThickness};
 use crate::scene::{self, BED, Fault, HEAD, KeyPath, Known, Scene, SceneErrorKind};
 
-/// Which class a joint belongs to.
+/// The classes of all joints.
 pub(super) struct Classes {
     /// Those of the scene, and after them those that are named and not given, which are refused when a joint needs them.
     list: Vec<JointClass>,
     given: usize,
     /// Classes of beds and heads.
     usual: [usize; 2],
-    /// The same of the walls, then of the arches.
+    /// Classes of the walls, then of the arches.
     of_walls: Vec<[usize; 2]>,
     of_supports: Vec<usize>,
     of_pairs: Vec<([Members; 2], usize)>,

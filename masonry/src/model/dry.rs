@@ -27,7 +27,7 @@ impl Model {
         joints.len()
     }
 
-    /// What a reader has to know of these joints.
+    /// The warning about these joints.
     pub(crate) fn of_dry_joints(&self) -> Option<String> {
         let [across, along] = DRY_JOINT;
         (self.dry_joints() > 0).then(|| {
@@ -38,7 +38,7 @@ impl Model {
         })
     }
 
-    /// What helps to find what loading leads to, if no joint gives way.
+    /// The advice to give joints a stiffness, if none has one.
     pub(crate) fn of_hard_joints(&self) -> Option<String> {
         let [across, along] = DRY_JOINT;
         let is_hard = |point: &ContactPoint| point.gives().iter().all(|c| *c <= 0.0);

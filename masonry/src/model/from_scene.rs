@@ -21,9 +21,9 @@ impl Model {
     /// scene. Only blocks of elastic materials are meshed.
     ///
     /// # Errors
-    /// What [`Scene::check`] finds, and what only the whole shows: overlapping blocks, a support
-    /// that runs through a block or meets none, a load on no free edge or outside of its block, a block that meets nothing,
-    /// a joint whose class is not given. With line and column when the scene was read from text.
+    /// The mistakes that [`Scene::check`] finds, and those of the whole: overlapping blocks, a support that runs
+    /// through a block or meets none, a load on no free edge or outside of its block, a block that meets nothing, a
+    /// joint whose class is not given. Each has its line and column if the scene was read from text.
     pub fn from_scene(scene: &Scene) -> Result<Self, SceneError> {
         scene.check()?;
         build(scene).map_err(|fault| fault.locate(scene))

@@ -19,7 +19,7 @@ const LARGEST: f64 = 0.25;
 /// Corners are moved by so many tolerances at most. Chosen: those of three blocks that meet move by less than two.
 const FARTHEST: f64 = 4.0;
 
-/// What was moved.
+/// The corners that were moved.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Healed {
     /// Corners that were moved.

@@ -25,7 +25,7 @@ pub use crate::scene::{ContactError, Films, PointRule};
 mod points;
 mod search;
 
-/// What kind of joint two sides make; it decides the joint's class.
+/// The kind of joint that two sides make, which decides its class.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum JointKind {
     /// Between two blocks, the normal within 45 degrees of the vertical.
@@ -45,7 +45,7 @@ pub struct Options {
     pub gap_limit: f64,
     /// Distances below this fraction of the size of the smaller block count as zero.
     pub tolerance: f64,
-    /// Which terms of mortar films are kept; strips ask for [`PointRule::Gauss`].
+    /// The terms of mortar films that are kept; strips need [`PointRule::Gauss`].
     pub films: Films,
 }
 

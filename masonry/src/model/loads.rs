@@ -25,9 +25,9 @@ pub struct Load {
 /// A load on one block.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum BlockLoad {
-    /// On a part of an edge.
+    /// A traction on a part of an edge.
     Edge(EdgeLoad),
-    /// At one place.
+    /// A force at one place.
     Point(PointLoad),
 }
 
@@ -83,7 +83,7 @@ impl BlockLoad {
         }
     }
 
-    /// The same in place and extent, with another force or traction, as a part of another load.
+    /// A part of another load in this place, with another force or traction.
     pub(super) fn instead(&self, load: LoadId, of: impl Fn(Vector2<f64>) -> Vector2<f64>) -> Self {
         match *self {
             Self::Edge(it) => Self::Edge(EdgeLoad { traction: of(it.traction), load, ..it }),

@@ -11,7 +11,7 @@ use crate::rounding::rounded;
 use crate::scene::{self, EdgeStress, Fault, KeyPath, LoadError, LoadKind, Scene, SceneErrorKind};
 use crate::units::Units;
 
-/// Names that a message tells where one is not there.
+/// Names in a message about one that does not exist.
 const NAMES: usize = 3;
 
 /// A part of an edge, as fractions of it.
@@ -205,7 +205,7 @@ fn covered_part(
     Some([low, high].map(|s| geometry::snap(s / length)))
 }
 
-/// What is left of a part when the joined parts are taken out.
+/// The parts of `covered` without the joined parts.
 fn free_parts(covered: EdgePart, joined: &[EdgePart]) -> Vec<EdgePart> {
     let mut free = vec![covered];
     for [from, to] in joined {

@@ -8,18 +8,18 @@ use super::{Acceleration, Healed, Load, Model};
 
 /// Elastic moduli of stone, brick, and mortar from fresh to hard \[Pa\].
 const YOUNG: RangeInclusive<f64> = 1e6..=1e12;
-/// From pads of rubber to polished stone \[Pa/m\].
+/// Stiffnesses from pads of rubber to polished stone \[Pa/m\].
 const STIFFNESS: RangeInclusive<f64> = 1e6..=1e14;
-/// From light concrete to lead \[kg/m^3\].
+/// Densities from light concrete to lead \[kg/m^3\].
 const DENSITY: RangeInclusive<f64> = 100.0..=20_000.0;
-/// Up to several times that of the earth \[m/s^2\].
+/// Gravity, up to several times that of the earth \[m/s^2\].
 const GRAVITY: RangeInclusive<f64> = 0.1..=100.0;
 /// Loads of less than this \[N\] on a structure that is larger than this \[m\].
 const LITTLE: f64 = 10.0;
 const LARGE: f64 = 0.5;
 
 impl Model {
-    /// What is unusual about the magnitudes of a scene, in sentences; empty where nothing is.
+    /// Unusual magnitudes of a scene, in sentences; empty if there are none.
     pub fn unusual(&self) -> Vec<String> {
         let lists = [
             self.elasticities(),
@@ -32,7 +32,7 @@ impl Model {
         lists.concat()
     }
 
-    /// What was moved so that blocks touch.
+    /// Corners that were moved so that blocks touch.
     fn moved_corners(&self) -> Vec<String> {
         let in_scene = |metres: f64| format!("{:.1e}", metres / self.units.length_to_si());
         let sentence = |it: &Healed| {
@@ -48,7 +48,7 @@ impl Model {
         self.healed.iter().map(sentence).collect()
     }
 
-    /// Loads that press down beside an acceleration, and do not say whether that acts on them.
+    /// Loads that press down beside an acceleration, without a `mass`.
     fn massless(&self) -> Vec<String> {
         let aside = |it: &&Acceleration| it.value.perp(&self.gravity).abs() > 0.0;
         let Some(quake) = self.accelerations.iter().find(aside) else { return Vec::new() };

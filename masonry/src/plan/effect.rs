@@ -9,12 +9,12 @@ pub struct Effect {
     pub name: &'static str,
     /// Whether it is built.
     pub on: bool,
-    /// What in the scene calls for it, or what is missing.
+    /// The reason in the scene why the effect is on or off.
     pub because: String,
     /// What the effect adds to the [`order`](super::Plan::order) of the plan, contact points being the same: on the pivoting
     /// route displacements are eliminated, and add nothing.
     pub unknowns: usize,
-    /// What it is expected to cost on the first route, in words: `none` where it is off.
+    /// The expected cost on the first route, in words: `none` if the effect is off.
     pub cost: String,
 }
 

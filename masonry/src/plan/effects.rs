@@ -157,8 +157,8 @@ fn classes_in_use(model: &Model, has: impl Fn(&JointLaw) -> bool) -> BTreeSet<&s
 }
 
 /// Each point of a film has a compliance across and, with friction, one along the joint: numbers on the diagonal of its
-/// contact rows. On the sparse routes what friction and cohesion share is a displacement, except where the augmented
-/// Lagrangian method has whole strips.
+/// contact rows. The deformation shared by friction and cohesion is a displacement on the sparse routes, except
+/// with whole strips of the augmented Lagrangian method.
 fn mortar_films(scene: &Scene, model: &Model, sizes: &Sizes, route: &FirstRoute) -> Effect {
     let name = "mortar films";
     let films = model.joints.iter().filter(|joint| joint.film.is_some()).count();
@@ -185,7 +185,7 @@ fn mortar_films(scene: &Scene, model: &Model, sizes: &Sizes, route: &FirstRoute)
 }
 
 /// Each point of a strip at an elastic block has the stiffness of a bar along the joint, and its gap a term
-/// by the strain there. Neither is an unknown, but for the forces of the bars in the mixed form.
+/// by the strain there. Neither is an unknown, except the forces of the bars in the mixed form.
 fn longitudinal_terms(scene: &Scene, model: &Model, sizes: &Sizes, route: &FirstRoute) -> Effect {
     let name = "longitudinal film terms";
     let has_films = model.joints.iter().any(|joint| joint.film.is_some());

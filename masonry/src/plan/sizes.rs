@@ -110,7 +110,7 @@ impl Sizes {
         }
     }
 
-    /// No block is elastic, and no joint gives way.
+    /// Whether no block is elastic and no joint gives way.
     pub(super) fn is_rigid(&self) -> bool {
         self.rigid_blocks == self.blocks && self.giving().rows() == 0
     }
@@ -128,12 +128,12 @@ impl Sizes {
         self.in_films.and(self.in_both).rows()
     }
 
-    /// Rows of the system in which the joints themselves do.
+    /// Rows of the system in which joints themselves give way.
     pub(super) fn of_stiff_joints(&self) -> usize {
         self.in_stiff_joints.and(self.in_both).rows()
     }
 
-    /// Without the normal forces: what friction, joints and films add to each point is theirs.
+    /// Sizes without the normal forces: terms of friction, joints and films at the points remain.
     pub(super) fn without_contact(self) -> Self {
         Self { points: 0, ..self }
     }
@@ -150,7 +150,7 @@ impl Sizes {
         }
     }
 
-    /// The same without cohesion, and still with what gives way at points that only cohesion keeps from sliding.
+    /// Sizes without cohesion, but with the compliances of points that only cohesion keeps from sliding.
     pub(super) fn without_cohesion(self) -> Self {
         Self {
             frictional: self.coulomb,
@@ -177,7 +177,7 @@ impl Sizes {
         Self { bars: 0, strips: false, ..self }
     }
 
-    /// The same of rigid blocks, with the same points, although a mesh may have brought some of them.
+    /// Sizes for rigid blocks with these points, although a mesh may have brought some of them.
     pub(super) fn without_deformation(self) -> Self {
         Self { rigid_blocks: self.blocks, nodal: 0, largest_block: 0, bars: 0, ..self }
     }
@@ -260,7 +260,7 @@ impl Sizes {
         factors.saturating_add(self.points.saturating_mul(PER_POINT))
     }
 
-    /// What the sweeps keep: the displacements of two blocks for every force, of all where blocks are coupled.
+    /// Memory of the sweeps: displacements of two blocks for every force, of all blocks if these are coupled.
     fn columns(&self) -> usize {
         const PER_NUMBER: usize = 12;
         let forces = self.points + self.frictional;

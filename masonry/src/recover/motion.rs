@@ -13,10 +13,10 @@ use crate::system::{System, displaced_nodes};
 const LARGEST_DEFORMATION: f64 = 1e-2;
 
 /// The mechanism of a motion: rates of the corners of every block, scaled to a largest component
-/// of one. Of displacements the rigid part of every block counts; `sparse` is the problem that they
-/// belong to.
+/// of one. The rigid part of the displacements of every block counts; `sparse` is the problem of the
+/// displacements.
 ///
-/// `None` unless it is one: no closed contact may close further, and the loads must do work on it.
+/// `None` if a closed contact closes further, or the loads do no work on the motion.
 pub fn mechanism(
     model: &Model,
     system: &System,
@@ -34,9 +34,9 @@ pub fn mechanism(
     }
 }
 
-/// How bodies flow: rates of the corners of every block, scaled to a largest component of one, by the rigid part of
-/// velocities of the sparse problem; `None` where nothing moves. Unlike [`mechanism`] it is not tested: velocities are as
-/// accurate as the motion from which they are taken.
+/// The flow of bodies: rates of the corners of every block, scaled to a largest component of one, by the rigid part of
+/// velocities of the sparse problem; `None` if nothing moves. The flow is not tested as a [`mechanism`] is: velocities
+/// are as accurate as their motion.
 pub(crate) fn flow(
     model: &Model,
     system: &System,

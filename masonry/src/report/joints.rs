@@ -129,7 +129,7 @@ pub fn openings(model: &Model, contacts: &[ContactState]) -> Vec<Opening> {
         let joint = &model.joints[contact.joint.index()];
         let opening = &mut openings[contact.joint.index()];
         let along = (contact.position - joint.from).dot(&(joint.to - joint.from).normalize());
-        // What is zero but for rounding is zero.
+        // Rounding errors are set to zero.
         let [width, slip] = [state.y_n, state.y_t.abs()].map(|it| if it > none { it } else { 0.0 });
         opening.widths.push([along, width]);
         opening.widest = opening.widest.max(width);

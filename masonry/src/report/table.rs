@@ -119,8 +119,8 @@ fn residuals(it: &lcp::Residuals) -> String {
     ])
 }
 
-/// What the first route needs, and the one that needs most, if it is asked at all. In units of 10^6 bytes, which are few for the
-/// smallest scenes.
+/// Memory of the first route, and of the one that needs most if it is run, in units of 10^6 bytes, which are few for
+/// the smallest scenes.
 fn memory(routes: &[Choice]) -> String {
     let megabytes = |it: &Choice| format!("{} MB", significant(it.memory_bytes as f64 / 1e6, 2));
     let most = routes.iter().max_by_key(|it| it.memory_bytes);

@@ -134,7 +134,7 @@ fn left_of(stretch: f64, wall: &Wall, joints: JointThickness) -> f64 {
     stretch + joints.head / wall.brick.length * (stretch - 1.0)
 }
 
-/// A number of half bricks where it is one but for rounding.
+/// Rounds a length in bricks to half bricks if within [`SLIVER`].
 fn snap(bricks: f64) -> f64 {
     let halves = 0.5 * (2.0 * bricks).round();
     if (bricks - halves).abs() < SAME_PLACE { halves } else { bricks }

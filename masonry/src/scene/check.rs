@@ -32,8 +32,8 @@ const MOST_ELEMENTS: u32 = 1_000;
 impl Scene {
     /// Checks all data: names that refer to nothing, numbers out of their range, missing keys.
     ///
-    /// What needs the geometry of the whole (overlaps, idle supports and loads, loose blocks) is
-    /// checked by [`Model::from_scene`](crate::model::Model::from_scene).
+    /// Mistakes of the whole geometry (overlaps, idle supports and loads, loose blocks) are found
+    /// by [`Model::from_scene`](crate::model::Model::from_scene).
     ///
     /// # Errors
     /// The first mistake, with line and column when the scene was read from text.
@@ -231,7 +231,7 @@ impl Scene {
         self.check_route(&solver)
     }
 
-    /// Keys of the solver that the route has no use for.
+    /// Rejects keys of the solver that the route does not use.
     fn check_route(&self, at: &KeyPath) -> Check {
         let Solver { route, form, max_pivots, max_steps, soft, .. } = self.solver;
         let pivots = route.allows(Route::Lemke);

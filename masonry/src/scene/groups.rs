@@ -20,7 +20,7 @@ impl Scene {
         self.loads.iter().any(|load| load.is_called(group) && load.is_earthquake())
     }
 
-    /// The same scene with the loads of a name or group in the opposite direction.
+    /// The scene with the loads of a name or group in the opposite direction.
     #[must_use]
     pub fn reversed(&self, group: &str) -> Self {
         let mut scene = self.clone();

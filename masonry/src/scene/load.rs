@@ -190,8 +190,8 @@ impl Load {
         self.name == name || self.group_name() == name
     }
 
-    /// What it is; `None` where its keys are not those of exactly one kind, which [`Scene::check`](super::Scene::check)
-    /// refuses.
+    /// The kind of the load; `None` if its keys are not those of exactly one kind, which
+    /// [`Scene::check`](super::Scene::check) refuses.
     pub fn kind(&self) -> Option<LoadKind<'_>> {
         let stress = match (self.pressure, self.traction) {
             (Some(pressure), None) => Some(EdgeStress::Pressure(pressure)),
@@ -262,7 +262,7 @@ pub(super) const MASS: &str = "on all mass";
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum LoadError {
-    /// No key says what acts.
+    /// A load of no kind.
     #[error(
         "load \"{load}\" does not say what acts: add `from`, `to` and `pressure` or `traction` (on edges), or \
          `block`, `at` and `force` (at a place of a block), or `acceleration` (on all mass)"
@@ -323,7 +323,7 @@ pub enum LoadError {
         /// Unit of length.
         unit: &'static str,
     },
-    /// An acceleration where nothing has mass.
+    /// An acceleration without any mass.
     #[error(
         "load \"{load}\" accelerates nothing, for no material of a block has a density: add `density` to a \
          material, or remove the load"

@@ -32,7 +32,7 @@ pub struct Opening {
     pub x: f64,
     /// Its width \[length\].
     pub width: f64,
-    /// Its lowest course, counted from 1; by default 1, as of a door.
+    /// The lowest course of the opening, from 1; by default 1, as of a door.
     #[serde(default = "first")]
     pub course: u32,
     /// Its height in courses.
@@ -64,13 +64,13 @@ pub enum OpeningError {
         "an opening of {width} at x = {x} reaches beyond the wall, which is {wall} wide: give a width of at most {room}"
     )]
     TooWide {
-        /// Its width.
+        /// Width of the opening.
         width: f64,
-        /// Where it begins.
+        /// Left end of the opening.
         x: f64,
         /// Width of the wall.
         wall: f64,
-        /// What is left of it there.
+        /// Length of wall to the right of `x`.
         room: f64,
     },
     /// It reaches beyond the top of the wall.
@@ -95,9 +95,9 @@ pub enum OpeningError {
     NoBearing {
         /// `left` or `right`.
         side: &'static str,
-        /// What it is to rest on.
+        /// The bearing of the lintel.
         bearing: f64,
-        /// What there is.
+        /// The length of wall there.
         room: f64,
     },
     /// Two openings, or an opening and a lintel, take the same place.
@@ -112,7 +112,7 @@ pub enum OpeningError {
     },
 }
 
-/// Another remedy, where there is some wall.
+/// Another remedy, if there is some wall.
 fn shorter(room: f64) -> String {
     if room > 0.0 { format!(", or give a `bearing` of at most {room}") } else { String::new() }
 }

@@ -57,7 +57,7 @@ impl Scene {
         Ok(scene)
     }
 
-    /// What a source says, with the blocks of its list.
+    /// The scene of a source, with the blocks of its list.
     pub(super) fn of(source: &Source) -> Result<Self, SceneError> {
         let mut scene: Self =
             toml::from_str(source.as_str()).map_err(|error| SceneError::syntax(source, &error))?;

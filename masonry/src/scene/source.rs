@@ -45,10 +45,10 @@ impl Source {
         Self(Some(Arc::new(Text { file, scene: text.to_owned(), list: None })))
     }
 
-    /// The same with the list of blocks in a file, whose path is relative to that of the scene.
+    /// The source with the list of blocks in a file, whose path is relative to that of the scene.
     ///
     /// # Errors
-    /// What the system says of the file.
+    /// The error of reading the file.
     pub(super) fn with_list(&self, list: &Path) -> std::io::Result<Self> {
         let path = self.path().and_then(Path::parent).map_or(list.to_owned(), |it| it.join(list));
         let text = std::fs::read_to_string(&path)?;

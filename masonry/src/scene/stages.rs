@@ -6,12 +6,12 @@ use serde::{Deserialize, Serialize};
 
 use super::strict;
 
-/// A stage of the load history. Stages follow one another; in each, loads and supports go in equal
-/// steps from where they are to where the stage takes them.
+/// A stage of the load history. Stages follow one another; in each, loads and supports change in equal
+/// steps from their present values to those of the stage.
 ///
-/// Loads are factors of what the scene gives. What no stage names acts in full from the first stage on;
-/// what some stage names is zero before its first stage, and stays where a stage has taken it.
-/// The slip of every step is where the next one starts, if there is friction.
+/// Values of loads are factors of those of the scene. A load that no stage names acts in full from the first
+/// stage on; any other is zero before the first stage that names it, and keeps its value until the next.
+/// Every step starts from the slip of the one before, if there is friction.
 ///
 /// ```
 /// use masonry::scene::{Movement, Stage};

@@ -40,7 +40,7 @@ pub(super) fn some_segments<'de, D: Deserializer<'de>>(
     Ok(Some(segments.into_iter().map(segment).collect()))
 }
 
-/// A part of one: `true` is all of it and `false` nothing.
+/// A fraction from 0 to 1: `true` is 1 and `false` 0.
 pub(super) fn some_part<'de, D: Deserializer<'de>>(
     deserializer: D,
 ) -> Result<Option<f64>, D::Error> {

@@ -34,8 +34,8 @@ pub fn nodal_loads(model: &Model, block: &Block, mesh: &BlockMesh) -> Vec<f64> {
 
 /// Work of weight and loads in the three rigid motions of a block, `N^T f` \[N\].
 ///
-/// What rounding leaves of loads that cancel, or of the arm of a load through the centroid, is zero:
-/// no contact might be able to balance it.
+/// Rounding errors of loads that cancel, or of the arm of a load through the centroid, are set to zero:
+/// contacts may be unable to balance them.
 pub fn resultant(model: &Model, block: &Block) -> [f64; 3] {
     let modes = Modes::of(&block.corners);
     let (mut sum, mut size) = ([0.0; 3], 0.0);

@@ -11,7 +11,7 @@ use nalgebra::Vector2;
 /// mass are in proportion.
 const UNIT: f64 = 1.0;
 
-/// What a reader has to know of blocks that move without a density.
+/// The warning about blocks that move without a density.
 pub(crate) fn of_unit_density(model: &Model) -> Option<String> {
     let mut without = model.blocks.iter().filter(|block| block.density.is_none());
     let first = &without.next()?.name;

@@ -26,7 +26,7 @@ pub struct Stiffness {
     factor: Option<Llt<f64>>,
 }
 
-/// What is built of a stiffness.
+/// The parts of a stiffness to build.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Built {
     /// The sparse matrix.

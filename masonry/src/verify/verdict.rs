@@ -47,7 +47,7 @@ pub(crate) struct Findings<'a> {
     pub(crate) led: Option<LoadingEnd>,
     /// The load history, of several steps only.
     pub(crate) history: Option<&'a History>,
-    /// What is unusual about the magnitudes of the scene.
+    /// Unusual magnitudes of the scene.
     pub(crate) unusual: &'a [String],
     /// The blocks are at rest whatever the forces are.
     pub(crate) at_rest: bool,
@@ -70,7 +70,7 @@ impl Judgement {
                     if known.at_rest { Evidence::AdmissibleForces } else { Evidence::Equilibrium };
                 (Verdict::Stands, evidence)
             }
-            // Of blocks at rest such forces say more than a motion, even where they are not exact enough for an answer.
+            // Admissible forces of blocks at rest outweigh a motion, even if they are too inexact for an answer.
             Some(Statics::Admissible(_)) if known.at_rest => {
                 (Verdict::Undecided, Evidence::AdmissibleForces)
             }
@@ -157,12 +157,12 @@ impl Drift {
         movement
     }
 
-    /// Beyond small displacements.
+    /// Whether displacements are large.
     pub(crate) fn is_large(self) -> bool {
         self.share > LARGE || self.turned > LARGE
     }
 
-    /// So far that the answer says nothing.
+    /// Whether the answer has no meaning.
     pub(crate) fn is_too_large(self) -> bool {
         self.share > TOO_LARGE[0] || self.turned > TOO_LARGE[1]
     }

@@ -45,14 +45,14 @@ pub struct Associative {
     pub proved: bool,
     /// The forces under [`load_factor`](Self::load_factor), point by point; gaps and slips are zero.
     pub forces: Option<Vec<ContactState>>,
-    /// The reactions to them.
+    /// The reactions to these forces.
     pub reactions: Vec<Reaction>,
-    /// The factor \[-\] under which what grows is as large as what stays, or the largest, if that is larger.
+    /// The factor \[-\] under which growing loads equal the others, or the largest factor, if that is larger.
     pub(super) size: f64,
-    /// The motion that proves it: displacement rates of the corners of every block, scaled to a largest component of one.
+    /// The motion that proves the bound: displacement rates of the corners of every block, the largest component one.
     pub mechanism: Option<Vec<Vec<Vector2<f64>>>>,
-    /// What the rest carries if a single block or a tenth of them at most move in the mechanism and are held where they are, and if
-    /// the group acts on others.
+    /// The factors of the other blocks while those that move in the mechanism are held: if one block or at most a tenth
+    /// of them move, and the group acts on others.
     pub rest: Option<Rest>,
 }
 

@@ -22,21 +22,21 @@ use crate::system::{System, mass};
 /// Steps up to the bound of associated flow. Measured on the walls of Ferris and Tin-Loi, whose published limits are met to
 /// 2e-3.
 const STEPS: f64 = 16.0;
-/// Where the factors that stand and fall differ by less than this part, the search ends.
+/// Relative difference of the factors that stand and fall at which the search ends.
 const NEAR: f64 = 5e-5;
-/// It ends at this part if blocks take long to fall, and so does that for events. Chosen: three digits.
+/// The same difference if blocks take long to fall, and for events. Chosen: three digits.
 const NEAR_ENOUGH: f64 = 1e-3;
 /// Steps of the solver in a long fall. Measured on walls: a few blocks fall within 100, a hundred within some hundred.
 const LONG: usize = 200;
-/// Where they differ by less than this part, they are one number. Chosen: far below what another path may change.
+/// Relative difference up to which both factors are one number. Chosen: far below what another path may change.
 const ONE_NUMBER: f64 = 5e-3;
 /// Steps of a structure that never falls; each is twice as long as the one before. Chosen.
 const DOUBLED: usize = 10;
 
 /// The limit load of Coulomb's friction, in which joints do not open when they slide.
 ///
-/// The factor grows from zero in steps. In each the blocks come to rest, or flow; the limit is found by bisection. With
-/// friction other paths may end elsewhere. Joints between rigid blocks have the [stiffness of dry
+/// The factor grows from zero in steps. In each the blocks come to rest, or flow; the limit is found by bisection.
+/// Other paths may end elsewhere if there is friction. Joints between rigid blocks have the [stiffness of dry
 /// ones](crate::model::DRY_JOINT), unless their class has another.
 #[derive(Debug, Clone)]
 #[non_exhaustive]

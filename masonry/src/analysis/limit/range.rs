@@ -56,7 +56,7 @@ pub fn ranges(scene: &Scene) -> Result<Range, LimitError> {
     let mut supports = Vec::with_capacity(model.supports.len());
     for (k, support) in model.supports.iter().enumerate() {
         let mut extremes = |along: Vector2<f64>| -> Result<[Extreme; 2], LimitError> {
-            // Of the unknowns of the system, which are larger than the forces by the tensile strength.
+            // The unknowns of the system are larger than the forces by the tensile strength.
             let (rows, beyond) = component(&model, &system, k, along);
             let opposite: Vec<f64> = rows.iter().map(|row| -row).collect();
             let least = negated(extreme(&system, &opposite, on)?);

@@ -13,7 +13,7 @@ pub(super) fn of(group: &str, associative: Option<&Associative>, path: Option<&P
     }
 }
 
-/// What is known where the search was ended before its end.
+/// The sentence on the bounds of a search that was interrupted.
 pub(super) fn of_interrupted(
     group: &str,
     associative: Option<&Associative>,

@@ -15,7 +15,7 @@ use crate::rounding::{Side, outwards};
 use crate::scene::{Known, Scene};
 use crate::system::System;
 
-/// Where the thicknesses on both sides of the least one differ by less than this part of them, the search ends.
+/// Relative difference of the thicknesses on both sides of the least one at which the search ends.
 const NEAR: f64 = 1e-6;
 /// Times that a thickness is doubled or halved to find one that falls and one that stands.
 const DOUBLED: u32 = 10;
@@ -57,7 +57,7 @@ pub fn least_thickness(scene: &Scene, arch: &str) -> Result<Thickness, LimitErro
     least_thickness_observed(scene, arch, &mut |_| ControlFlow::Continue(()))
 }
 
-/// The same, which an observer follows: `Break` ends it with what is known.
+/// The least thickness, with an observer that may end the search by `Break`.
 ///
 /// # Errors
 /// As [`least_thickness`].

@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 
 use lcp::Iteration;
 
-/// What is known of a limit while it is looked for.
+/// The bounds of a limit during its search.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Bracket {
     /// The largest load factor \[-\], or the smallest thickness \[m\], that was found to stand.
@@ -13,7 +13,7 @@ pub struct Bracket {
     pub falls: Option<f64>,
 }
 
-/// Hears what is known, many times on the way; after `Break` the search ends with that.
+/// Called with the bounds many times during the search, which ends with them after `Break`.
 pub type Observer<'a> = dyn FnMut(Bracket) -> ControlFlow<()> + 'a;
 
 /// An observer, what it is told, and whether it has ended the search.
@@ -34,7 +34,7 @@ impl<'a> Watch<'a> {
         if self.is_ended { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     }
 
-    /// The same for the steps of a solver.
+    /// Asks the observer at the steps of a solver.
     pub(super) fn steps(&mut self) -> impl FnMut(&Iteration) -> ControlFlow<()> {
         |_| self.ask()
     }

@@ -32,14 +32,14 @@ use crate::system::{System, mass};
 use crate::verify::checks::Checks;
 use crate::verify::verdict::{Drift, LoadingEnd};
 
-/// What a route came to.
+/// The outcome of a route.
 pub(super) struct Tried {
     pub(super) info: SolveInfo,
     pub(super) state: Option<State>,
     pub(super) checks: Option<Checks>,
     pub(super) mechanism: Option<Vec<Vec<Vector2<f64>>>>,
     pub(super) basis: Option<Start>,
-    /// What is known of admissible forces, where it was asked.
+    /// The decision on admissible forces, if it was made.
     pub(super) statics: Option<Statics>,
     /// Where loading leads rigid blocks at rest, if that was asked.
     pub(super) led: Option<LoadingEnd>,
@@ -272,7 +272,7 @@ impl<'a> Chain<'a> {
     }
 
     /// The answer on the states of its contacts, solved anew with all displacements as unknowns: the reduced
-    /// forms lose digits of flat bricks, and of huge friction. As it was, where that is no better.
+    /// forms lose digits of flat bricks, and of huge friction. The given answer if that is not better.
     fn refined(&mut self, mut attempt: Tried) -> Result<Tried, SolveError> {
         let Self { model, system, .. } = *self;
         let Some(state) = &attempt.state else { return Ok(attempt) };
@@ -376,7 +376,7 @@ impl<'a> Chain<'a> {
             return rough;
         }
         self.request.step_tolerance = 0.5 * loading::STEP_TOLERANCE / excess;
-        // What is known already stays if finer steps cannot be taken.
+        // The rough answer stays if finer steps cannot be taken.
         let Ok(finer) = self.on_sparse(route) else { return rough };
         let tolerance = self.request.tolerance;
         let is_nearer = finer.checks.as_ref().is_some_and(|it| it.excess(tolerance) < excess);

@@ -58,22 +58,22 @@ use crate::verify::verdict::{self, Findings, LoadingEnd};
 #[derive(Debug)]
 pub struct Run {
     title: String,
-    /// The model under the only step; where there are several, with all loads in full and all supports in
+    /// The model under the only step; if there are several, with all loads in full and all supports in
     /// their places.
     model: Model,
     plan: Plan,
     system: System,
     steps: Vec<Step>,
     loads: Vec<String>,
-    /// What is unusual about the scene.
+    /// Unusual magnitudes of the scene.
     unusual: Vec<String>,
-    /// What a checkpoint must have been made of; empty for one step, which has none.
+    /// The scene that a checkpoint must match; empty for one step, without checkpoint.
     origin: String,
     pub(super) request: Request,
     with_stresses: bool,
     /// How many steps were solved.
     solved: usize,
-    /// What they came to; empty for one step.
+    /// Records of these steps; empty for one step.
     records: Vec<StepRecord>,
     /// What another loading has come to.
     pub(super) second_loading: Option<SecondLoading>,
@@ -275,7 +275,7 @@ impl Run {
         }
     }
 
-    /// Keeps a step that was solved; of one that was not, its state only where there is none before.
+    /// Keeps a solved step, or the state of an unsolved one if there is no earlier state.
     /// An only step has nothing to remember except its state.
     fn take(&mut self, step: Step, stepped: Option<(Model, Vec<f64>)>, found: Tried) {
         let Tried { info, state, checks, mechanism, basis, statics, led, moved, account, sparse } =

@@ -1,4 +1,4 @@
-//! What of an answer is unique and can be compared: forces at nodes, stresses, energy.
+//! Parts of an answer that are unique and can be compared: forces at nodes, stresses, energy.
 
 use nalgebra::Vector2;
 use serde::Serialize;

@@ -33,7 +33,7 @@ pub struct Mesh {
     /// Errors of the mesh: distances of its values from those of the finest mesh with a reference, which itself has
     /// none.
     pub errors: Option<MeshErrors>,
-    /// Where the corners of blocks have gone, of those that carry load.
+    /// Displacements of the corners of blocks that carry load.
     #[serde(skip)]
     corners: Vec<Option<Vec<Vector2<f64>>>>,
 }

@@ -23,11 +23,11 @@ const CONVERGED: [f64; 1] = [1e-10];
 pub struct Reference {
     /// The route.
     pub route: Route,
-    /// The tightest tolerance that it reached \[-\].
+    /// The tightest tolerance that the route reached \[-\].
     pub tolerance: f64,
     /// The residual, recomputed from the original data \[-\].
     pub residual: f64,
-    /// The worst of the [checks](Checks) \[-\], which use nothing of the method.
+    /// The worst of the [checks](Checks) \[-\], which do not depend on the method.
     pub balance: f64,
     /// Wall-clock time \[s\].
     pub seconds: f64,

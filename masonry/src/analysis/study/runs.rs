@@ -63,7 +63,7 @@ impl Ran {
     }
 }
 
-/// What was not enough.
+/// An exceeded limit.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Beyond {
     /// Nor will it be on finer meshes.
@@ -144,8 +144,8 @@ impl<'a> Runner<'a> {
             .then(|| Record { tolerance, ..last.clone() })
     }
 
-    /// Solves a scene, several times if that is quick. Where the time ran out to a looser tolerance, or on
-    /// a coarser mesh, it is not tried; nor where iterations did to a looser tolerance.
+    /// Solves a scene, several times if that is quick. Skips it if the time ran out at a looser tolerance or
+    /// on a coarser mesh, or if the iterations ran out at a looser tolerance.
     pub(super) fn run(&mut self, scene: &Scene, at: Progress) -> Ran {
         let is_easier = |(beyond, other): &&(Beyond, Progress)| {
             let on_mesh = other.mesh == at.mesh || *beyond == Beyond::Time && other.mesh <= at.mesh;

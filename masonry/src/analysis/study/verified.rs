@@ -51,7 +51,7 @@ impl Verified {
 /// A solution refined in double-double arithmetic.
 #[derive(Debug, Clone)]
 pub struct Exact {
-    /// Its verification.
+    /// The verification.
     pub verified: Verified,
     /// The problem.
     pub sparse: Sparse,

@@ -8,7 +8,7 @@ const ENDED_BY_SIGNAL: i32 = 130;
 
 static ASKED: AtomicBool = AtomicBool::new(false);
 
-/// From now on Ctrl-C asks. Where the system has no such signals, it goes on ending the program.
+/// Makes Ctrl-C ask the run to end. A system without such signals goes on ending the program.
 pub(super) fn listen() {
     let _ = ctrlc::set_handler(|| {
         if ASKED.swap(true, Ordering::SeqCst) {

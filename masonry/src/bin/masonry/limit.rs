@@ -93,7 +93,7 @@ pub(super) fn run(args: &LimitArgs) -> Result<u8, Failure> {
         progress.clear();
         match opposite {
             Ok(opposite) => Found::Both(Box::new(Directions::of(given, opposite))),
-            // What is known of the given direction is told all the same.
+            // The bounds of the given direction are reported all the same.
             Err(error) => {
                 failed = Some(error);
                 Found::Given(Box::new(given))

@@ -32,7 +32,7 @@ pub(super) fn check(path: Option<&Path>, scene: &Scene, out: Option<&Path>) -> R
     Err(format!("cannot write the page {}: {why}; choose another --report", path.display()).into())
 }
 
-/// Writes the page, with `--report`, and adds it to the files that were written.
+/// Writes the page if `--report` is given, and adds it to the files that were written.
 pub(super) fn write(
     path: Option<&Path>,
     page: impl FnOnce() -> String,

@@ -1,4 +1,4 @@
-//! What the bars of mortar strips change in the flexibility: blocks that they couple.
+//! The flexibility of blocks that the bars of mortar strips couple.
 //!
 //! Equilibrium with the elongations `e = L u` and their stiffnesses `D` is
 //! `(K + L^T D L) u = f + C^T t`. No rigid motion stretches a strip, so the rows of `L` balance on every block, and

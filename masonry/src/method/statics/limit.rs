@@ -27,7 +27,7 @@ const ALWAYS: usize = 2;
 /// second does, and the third does not.
 const LINEAR: [Engine; 3] = [Engine::Inside, Engine::Interior, Engine::Clarabel];
 
-/// What is known of the largest factor.
+/// The bounds of the largest factor.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Bounds {
     /// A factor, and forces of all rows of the [`System`] \[N\] that balance the loads under it.

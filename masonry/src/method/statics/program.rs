@@ -11,7 +11,7 @@ use crate::system::System;
 
 mod linear;
 
-/// What is left of the balance of a block, relative to the largest load, in forces that are called admissible.
+/// Largest residual of the balance of a block, relative to the largest load, of admissible forces.
 const BALANCED: f64 = 1e-9;
 
 /// The forces that contacts may have, and the balance of the blocks.
@@ -74,7 +74,7 @@ impl<'a> Program<'a> {
         Self { system, cones, first, constant, e, loads, unit }
     }
 
-    /// The same with some blocks held by whatever forces that takes: their balance is left out.
+    /// The program with some blocks held by any forces: the balance of these blocks is left out.
     pub(super) fn holding(mut self, held: &[bool]) -> Self {
         let is_left = |row: usize| held.get(row / 3).is_none_or(|held| !held);
         let mut columns = ColumnMatrix::default();

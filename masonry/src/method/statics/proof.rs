@@ -13,7 +13,7 @@ use crate::ids::BlockId;
 use crate::model::{Anchor, Block, ContactPoint, Model};
 use crate::system::rigid::Modes;
 
-/// What rounding makes of a velocity, relative to the largest.
+/// Rounding errors of velocities, relative to the largest.
 const ROUNDING: f64 = 4.0 * f64::EPSILON;
 /// Forces that would balance the loads in spite of the rounding errors of the motion are this much larger than all
 /// loads together.
@@ -35,7 +35,7 @@ impl Proof {
         }
         let scaled: Vec<f64> = amplitudes.iter().map(|it| it / fastest).collect();
         [0.0, 1e-15, 1e-14, 1e-13, 1e-12].into_iter().find_map(|noise| {
-            // What hardly moves is at rest: rounding errors would contradict each other.
+            // Amplitudes this small are zero: rounding errors would contradict each other.
             let kept = scaled.iter().map(|it| if it.abs() <= noise { 0.0 } else { *it });
             Self::checked(model, &kept.collect::<Vec<f64>>())
         })

@@ -22,7 +22,7 @@ pub(super) struct PointPlace {
     pub(super) weight: f64,
     /// Start and end of this length as fractions of the edge of side `a`; zeros for a support.
     pub(super) span_on_a: [f64; 2],
-    /// The same on the edge of side `b`.
+    /// This length as fractions of the edge of side `b`.
     pub(super) span_on_b: [f64; 2],
 }
 

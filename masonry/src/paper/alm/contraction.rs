@@ -9,7 +9,7 @@ use super::ROUNDING;
 /// The last steps of a sequence of vectors.
 #[derive(Debug, Clone)]
 pub(super) struct Contraction {
-    /// What vectors are measured by that are smaller still.
+    /// The measure of vectors that are smaller.
     unit: f64,
     /// The sizes of the steps, relative to the vectors, the last one first.
     steps: Vec<f64>,

@@ -32,7 +32,7 @@ pub(crate) fn lines(arch: &Arch, at: &KeyPath) -> Result<Vec<Line>, Fault> {
     }
 }
 
-/// The joints as they are given, where they bound voussoirs.
+/// The given joints, checked to bound voussoirs.
 fn given(arch: &Arch, at: &KeyPath) -> Result<Vec<Line>, Fault> {
     let because = "for `shape = \"joints\"`";
     let remedy = "lines = [[[0.0, 0.0], [0.0, 0.2]], [[0.5, 0.0], [0.5, 0.2]]]";
@@ -77,7 +77,7 @@ fn refuse_others(arch: &Arch, at: &KeyPath) -> Result<(), Fault> {
     }
 }
 
-/// What all shapes but given joints have.
+/// The data of all shapes except given joints.
 struct Size {
     origin: [f64; 2],
     span: f64,

@@ -7,7 +7,7 @@ use crate::scene::{Opening, Wall};
 /// Pieces shorter than this part of a brick are laid as one with their neighbours.
 const SHORT: f64 = 0.25;
 
-/// What an opening takes from a course, in units of one brick and its head joint: the opening itself, or its lintel.
+/// The stretch of a course in the place of an opening or its lintel, in units of one brick and its head joint.
 pub(crate) fn taken(
     wall: &Wall,
     joints: JointThickness,

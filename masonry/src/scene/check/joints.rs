@@ -52,11 +52,11 @@ impl Scene {
         let filled = self.joints.values().filter(|joint| joint.mortar_thickness() > 0.0);
         let mut rules = filled.map(|joint| joint.points.unwrap_or(self.contact.points));
         if self.contact.points != PointRule::Gauss || rules.any(|rule| rule != PointRule::Gauss) {
-            let because = "asks for strips, which are integrated at Gauss points only";
+            let because = "has strips, which are integrated at Gauss points only";
             return Err(unwanted(at, "films", because, ", or set points = \"gauss\""));
         }
         if self.joints.values().all(|joint| joint.thickness.is_none()) {
-            let because = "asks for strips of mortar, but no joint class has a thickness";
+            let because = "needs mortar for its strips, but no joint class has a thickness";
             let otherwise = ", or give a joint class `thickness` and `material`";
             return Err(unwanted(at, "films", because, otherwise));
         }

@@ -137,7 +137,7 @@ fn check_edge(at: &KeyPath, load: &Load) -> Check {
     }
 }
 
-/// That the block exists and has the place in it is checked where blocks are laid.
+/// Checks the keys of a force; block and place are checked once blocks are laid.
 fn check_force(at: &KeyPath, load: &Load, given: &'static str) -> Check {
     let because = match given {
         "block" => "with `block`",

@@ -137,7 +137,7 @@ pub enum SceneErrorKind {
     /// More items than can be analysed.
     #[error("{count:.0} {what} are too many: at most {limit} are possible")]
     TooMany {
-        /// The things that are too many.
+        /// The kind of item.
         what: &'static str,
         /// How many.
         count: f64,
@@ -278,13 +278,13 @@ pub enum SceneErrorKind {
         /// Name of the other.
         second: String,
     },
-    /// What is impossible about an arch.
+    /// An impossible arch.
     #[error("{0}")]
     Arch(#[from] ArchError),
-    /// What is impossible about an opening.
+    /// An impossible opening.
     #[error("{0}")]
     Opening(#[from] OpeningError),
-    /// What is wrong with a load.
+    /// A mistake in a load.
     #[error("{0}")]
     Load(#[from] LoadError),
     /// Contact points could not be placed.

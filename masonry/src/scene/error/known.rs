@@ -7,12 +7,12 @@ use std::fmt;
 pub struct Known {
     /// All of them.
     pub names: Vec<String>,
-    /// The one that was probably meant.
+    /// The name that was probably meant.
     pub nearest: Option<String>,
 }
 
 impl Known {
-    /// The names that there are where another one was given.
+    /// The known names, and the nearest to a given one.
     pub(crate) fn near(given: &str, names: Vec<String>) -> Self {
         let nearest = nearest(given, names.iter().map(String::as_str)).map(str::to_owned);
         Self { names, nearest }

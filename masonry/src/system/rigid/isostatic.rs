@@ -47,7 +47,7 @@ impl std::fmt::Display for FreeMotion {
     }
 }
 
-/// Why the blocks are not held.
+/// The reason why blocks are not held.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum RigidError {
     /// Some blocks can move without any contact noticing.
@@ -65,8 +65,8 @@ pub enum RigidError {
 /// Chooses the isostatic rows of `g` (all rows by three columns per block).
 ///
 /// The first `normal` rows are preferred: a column-pivoted orthogonal factorisation of their transpose
-/// takes the best conditioned of them. Only where normals lack rank (no normal sees the horizontal
-/// motion of a column on a floor) tangential rows are taken, projected on what the normals leave free.
+/// takes the best conditioned of them. Tangential rows are taken only if normals lack rank (no normal resists
+/// the horizontal motion of a column on a floor), projected on the free motions.
 /// `weights`, one positive number per row, favour rows with large weights among equals; the state
 /// that is finally recovered does not depend on the choice.
 ///

@@ -19,11 +19,11 @@ struct BodyForces {
     moment: f64,
     /// The sum of the sizes of its loads \[N\].
     load: f64,
-    /// That of all forces on it and of the tensile strengths of its contact points \[N\].
+    /// The sum of the sizes of all its forces and the tensile strengths of its points \[N\].
     size: f64,
     /// How many these are.
     count: usize,
-    /// What errors of the forces around it may leave of those on it \[N\].
+    /// Error of the balance by errors of the forces around the block \[N\].
     rounding: f64,
 }
 
@@ -91,7 +91,7 @@ impl Bodies {
             let terms = nodes.as_ref().map_or(0.0, |nodes| nodes.inside);
             let own = nodes.as_ref().map_or(0, |nodes| nodes.count);
             body.rounding = f64::EPSILON * (count + own) as f64 * around.max(terms);
-            // What has no load of its own gets all its forces from those around it, with their errors.
+            // A block without a load has forces of its neighbours only, with their errors.
             if body.load <= 0.0 {
                 body.rounding = body.rounding.max(LARGEST_ERROR * around);
             }
@@ -99,7 +99,7 @@ impl Bodies {
         Self(list)
     }
 
-    /// What errors of the forces around them may leave of those on them \[N\].
+    /// Errors of the balances by errors of the forces around the blocks \[N\].
     pub(super) fn roundings(&self) -> impl Iterator<Item = f64> {
         self.0.iter().map(|body| body.rounding)
     }
@@ -119,7 +119,8 @@ impl Bodies {
         self.0.iter().map(|body| body.share(body.moment.abs())).fold(0.0, larger)
     }
 
-    /// The largest part of a load that nothing carries, where unbalanced forces below this part of all on a block are none.
+    /// The largest part of a load that is not carried; unbalanced forces below `none` of all forces on a block are
+    /// zero.
     pub(super) fn uncarried(&self, none: f64) -> f64 {
         let total: f64 = self.0.iter().map(|body| body.load).sum();
         let of_body = |body: &BodyForces| {

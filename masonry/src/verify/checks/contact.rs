@@ -7,11 +7,11 @@ use crate::data::state::{ContactState, State};
 use crate::law::PointLaw;
 use crate::model::{ContactPoint, Model};
 
-/// A contact point as displacements and forces have it, and what both are compared with.
+/// Gap, slip and forces of a contact point, with the data to which they are compared.
 pub(super) struct Pair {
-    /// From the displacements \[m\].
+    /// The gap by the displacements \[m\].
     pub(super) gap: f64,
-    /// In the step, from the displacements \[m\].
+    /// The slip in the step, by the displacements \[m\].
     pub(super) slip: f64,
     pub(super) t_n: f64,
     pub(super) t_t: f64,

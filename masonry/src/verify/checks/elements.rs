@@ -44,13 +44,13 @@ pub(super) struct NodeForces {
 }
 
 impl NodeForces {
-    /// What is left over relative to all terms.
+    /// The residual relative to all terms.
     pub(super) fn backward(&self) -> f64 {
         relative(self.left, self.inside.max(self.outside))
     }
 
-    /// What is left over at a node, relative to the forces from outside, where all of these on the block add up
-    /// to `size`. It has the rounding errors of the terms of the elements, and those of the forces around the block.
+    /// The residual at a node, relative to the forces from outside, all of which on the block add up to `size`.
+    /// It has the rounding errors of the terms of the elements, and those of the forces around the block.
     pub(super) fn error(&self, size: f64, around: f64) -> f64 {
         // Forces on a block that act elsewhere spread over its nodes.
         let outside = self.outside.max(size / self.count as f64);

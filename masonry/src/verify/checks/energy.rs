@@ -36,7 +36,7 @@ pub(super) fn error(model: &Model, state: &State, pairs: &[Pair]) -> f64 {
     larger(relative(rest.abs(), size), relative(-dissipated, size))
 }
 
-/// The loads of a block, and how far they move: at its nodes, or of a rigid one where they act.
+/// The loads of a block with their displacements, at its nodes or, on a rigid block, in their places.
 fn loads(model: &Model, block: &Block, u: &[Vector2<f64>]) -> Vec<[Vector2<f64>; 2]> {
     if let Some(mesh) = &block.mesh {
         let loads = nodal_loads(model, block, mesh);

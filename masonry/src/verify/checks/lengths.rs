@@ -14,8 +14,8 @@ pub(super) struct Lengths {
     /// may be at rest between joints and supports that are not. Rigid blocks have the largest of all: nothing but others
     /// tells how far they move, and many do not.
     blocks: Vec<f64>,
-    /// What rounding errors of the largest of all may be, and on elastic blocks what forces do that are rounding errors of
-    /// those around it: a block that carries nothing is deformed by these alone.
+    /// Rounding errors of the largest length of all, and on elastic blocks the deformations by rounding errors of the
+    /// forces around them: a block that carries nothing is deformed by these alone.
     roundings: Vec<f64>,
 }
 

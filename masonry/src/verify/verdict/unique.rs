@@ -13,14 +13,14 @@ use crate::model::{ContactPoint, Model};
 const NONE: f64 = 1e-9;
 /// The part of the stiffness of contacts that makes the matrix definite.
 const SHIFT: f64 = 1e-10;
-/// What circulates of forces of order one, above rounding.
+/// Circulating part of forces of order one, above rounding.
 const CIRCULATES: f64 = 1e-3;
 
 /// How many contact points have forces that are not unique.
 ///
-/// A force may change along both directions inside its cone, along the edge where it slides, and not where it is zero. Of
-/// a set of such changes `d` of order one, `d - B^T (B B^T)^-1 B d` is what the blocks do not feel, where `B` makes
-/// forces on the displacements of them.
+/// A force may change along both directions inside its cone, along the edge if it slides, and not at all if it is zero.
+/// The part `d - B^T (B B^T)^-1 B d` of such changes `d` of order one has no effect on the blocks; `B` maps changes to
+/// forces on displacements.
 pub(crate) fn circulating(model: &Model, problem: &Contact2d, state: &State) -> usize {
     let Some(Changes { points, effects }) = changes(model, problem, state) else { return 0 };
     let Some(unfelt) = unfelt(effects.as_ref()) else { return 0 };
@@ -33,7 +33,7 @@ pub(crate) fn circulating(model: &Model, problem: &Contact2d, state: &State) -> 
 /// Ways in which the forces at points may change, in the order of the points.
 struct Changes {
     points: Vec<usize>,
-    /// What the displacements feel of each.
+    /// The forces on displacements by each.
     effects: SparseColMat<usize, f64>,
 }
 

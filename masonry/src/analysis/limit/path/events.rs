@@ -57,7 +57,7 @@ pub(super) struct EventSearch<'a> {
     pub(super) model: &'a Model,
     pub(super) system: &'a System,
     pub(super) steps: &'a Steps<'a>,
-    /// Events are looked for until two states are nearer to each other than this factor \[-\].
+    /// Difference of the load factors \[-\] of two states to which an event is located.
     pub(super) near: f64,
 }
 

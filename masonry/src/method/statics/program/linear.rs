@@ -7,7 +7,7 @@ use super::Program;
 use crate::columns::{ColumnMatrix, column};
 
 impl Program<'_> {
-    /// What each force along a column adds to a linear function of the forces of all rows.
+    /// The coefficients of the forces along columns in a linear function of the forces of all rows.
     pub(in crate::method::statics) fn gain(&self, of_rows: &[f64]) -> Vec<(usize, f64)> {
         let (normals, tangents) = of_rows.split_at(self.system.points());
         let mut of_points: Vec<[f64; 2]> = normals.iter().map(|normal| [*normal, 0.0]).collect();
@@ -45,7 +45,7 @@ impl Program<'_> {
         MixedLcp::new(m, q, (0..order).map(|j| j < n).collect())
     }
 
-    /// What no forces can exceed of a gain, by a motion `x` with `E^T x >= gain` \[N\].
+    /// The bound of a gain over all forces, by a motion `x` with `E^T x >= gain` \[N\].
     pub(in crate::method::statics) fn bound(&self, motion: &[f64], gain: &[(usize, f64)]) -> f64 {
         let motion = &motion[..self.balances()];
         let work: f64 = self.loads.iter().zip(motion).map(|(r, x)| r * x).sum();
