@@ -24,19 +24,20 @@
 //! ```
 //!
 //! # Data flow
-//! Every stage is a module and can be used separately; each imports only modules above it.
+//! Every stage is a module; each imports only modules above it. Those without a link are internal: tests and benches see
+//! them, and they may change in any version.
 //!
 //! | module | what it holds |
 //! |---|---|
-//! | [`units`], [`ids`], [`geometry`], [`material`], [`element`] | used by all others |
+//! | [`units`], [`ids`], `geometry`, [`material`], `element` | used by all others |
 //! | [`data`] | what modules tell one another: states, routes, proofs, verdicts |
 //! | [`law`] | the law of a joint: friction, cohesion, tensile strength |
 //! | [`scene`] | the input in its own units: text, checks, builders, bonds of bricks |
 //! | [`model`] | blocks, joints, contact points and meshes, in SI units |
-//! | [`system`] | stiffness, loads, contact rows (3.2), rigid motions |
-//! | [`forms`] | the forms of the problem (3.27) and its reduction (3.18), (3.23) |
-//! | [`recover`] | from contact forces to displacements, stresses, reactions |
-//! | [`method`] | one file per method, the choice among them (`auto`), admissible forces |
+//! | `system` | stiffness, loads, contact rows (3.2), rigid motions |
+//! | `forms` | the forms of the problem (3.27) and its reduction (3.18), (3.23) |
+//! | `recover` | from contact forces to displacements, stresses, reactions |
+//! | `method` | one file per method, the choice among them (`auto`), admissible forces |
 //! | `paper` | with the feature of this name: augmented Lagrangian method, films with nodes, for comparison |
 //! | [`history`] | loads and support positions of every step |
 //! | [`verify`] | checks of a state: balances and contact law; the verdict: stands, falls or undecided |
@@ -50,36 +51,52 @@
 pub mod analysis;
 mod columns;
 pub mod data;
+#[doc(hidden)]
 pub mod element;
 #[doc(hidden)]
 pub mod files;
+#[doc(hidden)]
 pub mod forms;
+#[doc(hidden)]
 pub mod geometry;
 pub mod history;
 pub mod ids;
 pub mod law;
 pub mod material;
+#[doc(hidden)]
 pub mod method;
 pub mod model;
 #[cfg(feature = "paper")]
+#[doc(hidden)]
 pub mod paper;
 pub mod plan;
+#[doc(hidden)]
 pub mod recover;
 pub mod report;
 mod rounding;
 pub mod scene;
+#[doc(hidden)]
 pub mod system;
 pub mod units;
 pub mod verify;
 
+pub use analysis::checkpoint::Checkpoint;
+pub use analysis::limit::{
+    Bracket, Directions, Laws, Limit, LimitError, Range, Thickness, least_thickness,
+    least_thickness_observed, limit, limit_by, limit_observed, ranges,
+};
 pub use analysis::outcome::Outcome;
-pub use analysis::solve::{Run, SolveError, solve, solve_observed};
-pub use data::state::State;
+pub use analysis::solve::{Event, Run, SolveError, solve, solve_observed};
+pub use data::route::Route;
+pub use data::state::{ContactState, ContactStatus, Reaction, State};
 pub use data::verdict::{Evidence, Judgement, Verdict};
+pub use history::History;
 pub use model::Model;
 pub use plan::Plan;
+pub use report::{Format, Options, write_all};
 pub use scene::{Scene, SceneError};
 pub use units::Units;
+pub use verify::checks::Checks;
 
 /// The programs of the README and of the guide are compiled and run with the tests.
 #[cfg(doctest)]

@@ -6,7 +6,7 @@ pub use crate::data::info::{PhaseTime, RouteEnd, SoftReport, SolveInfo};
 pub use crate::data::state::{
     ContactState, ContactStatus, ElementStress, FilmStress, Principal, Reaction, State,
 };
-use crate::data::verdict::Judgement;
+use crate::data::verdict::{Judgement, Verdict};
 use crate::history::{History, Step};
 use crate::model::Model;
 use crate::plan::Plan;
@@ -42,6 +42,13 @@ pub struct Outcome {
     pub judgement: Judgement,
     /// Time of every phase.
     pub times: Vec<PhaseTime>,
+}
+
+impl Outcome {
+    /// Whether the structure stands, falls, or is undecided; [`judgement`](Self::judgement) has the evidence and the sentence.
+    pub fn verdict(&self) -> Verdict {
+        self.judgement.verdict
+    }
 }
 
 /// The state after one step of a load history, for pictures.
