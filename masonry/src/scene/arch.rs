@@ -145,6 +145,72 @@ impl Arch {
         Self::new(name, material, Shape::Semicircular, span, thickness, voussoirs)
     }
 
+    /// Two arcs that meet at the crown, by span and rise of the intrados, thickness \[length\] and an even number of voussoirs.
+    pub fn pointed(
+        name: &str,
+        material: &str,
+        span: f64,
+        rise: f64,
+        thickness: f64,
+        voussoirs: u32,
+    ) -> Self {
+        let rise = Some(rise);
+        Self { rise, ..Self::new(name, material, Shape::Pointed, span, thickness, voussoirs) }
+    }
+
+    /// A flat arch by span, angle of the springings from the vertical \[degrees\], height \[length\] and number of voussoirs.
+    pub fn flat(
+        name: &str,
+        material: &str,
+        span: f64,
+        skew_deg: f64,
+        height: f64,
+        voussoirs: u32,
+    ) -> Self {
+        let skew_deg = Some(skew_deg);
+        Self { skew_deg, ..Self::new(name, material, Shape::Flat, span, height, voussoirs) }
+    }
+
+    /// Voussoirs between joints from left to right, each from the intrados to the extrados \[length\].
+    ///
+    /// ```
+    /// use masonry::scene::Arch;
+    /// let lines = vec![[[0.0, 0.0], [-0.2, 0.3]], [[0.5, 0.1], [0.5, 0.4]], [[1.0, 0.0], [1.2, 0.3]]];
+    /// assert_eq!(Arch::between_joints("arch", "stone", lines).lines.unwrap().len(), 3);
+    /// ```
+    pub fn between_joints(name: &str, material: &str, lines: Vec<Line>) -> Self {
+        let arch = Self::new(name, material, Shape::Joints, 0.0, 0.0, 0);
+        Self { span: None, thickness: None, voussoirs: None, lines: Some(lines), ..arch }
+    }
+
+    /// Puts the left end of the intrados here \[length\].
+    #[must_use]
+    pub fn origin(mut self, origin: [f64; 2]) -> Self {
+        self.origin = Some(origin);
+        self
+    }
+
+    /// Gives the joints between voussoirs a class, instead of `bed` and `head`.
+    #[must_use]
+    pub fn joint(mut self, joint: &str) -> Self {
+        self.joint = Some(joint.to_owned());
+        self
+    }
+
+    /// Puts piers below both ends.
+    #[must_use]
+    pub fn piers(mut self, piers: Piers) -> Self {
+        self.piers = Some(piers);
+        self
+    }
+
+    /// Gives every block a mesh, which elastic ones need.
+    #[must_use]
+    pub fn mesh(mut self, mesh: [u32; 2]) -> Self {
+        self.mesh = Some(mesh);
+        self
+    }
+
     /// Puts rigid supports below both ends, whose joints are of a class.
     #[must_use]
     pub fn springing(mut self, joint: &str) -> Self {

@@ -43,6 +43,32 @@ pub struct Opening {
 }
 
 impl Opening {
+    /// A door: an opening of a width \[length\] from the lowest course on, so many courses high, at a distance from the left
+    /// end of the wall.
+    ///
+    /// ```
+    /// use masonry::scene::Opening;
+    /// let window = Opening::door(1.0, 0.8, 4).above(3).bearing(0.2);
+    /// assert_eq!((window.course, window.courses), (4, 4));
+    /// ```
+    pub fn door(x: f64, width: f64, courses: u32) -> Self {
+        Self { x, width, course: first(), courses, bearing: None }
+    }
+
+    /// Puts the opening above so many courses, as a window.
+    #[must_use]
+    pub fn above(mut self, courses: u32) -> Self {
+        self.course = courses.saturating_add(1);
+        self
+    }
+
+    /// Gives the length on which the lintel rests on either side \[length\].
+    #[must_use]
+    pub fn bearing(mut self, length: f64) -> Self {
+        self.bearing = Some(length);
+        self
+    }
+
     /// The courses that it takes, from 0.
     pub(crate) fn rows(&self) -> std::ops::Range<usize> {
         let first = self.course.saturating_sub(1) as usize;

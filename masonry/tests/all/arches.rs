@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use masonry::Model;
-use masonry::scene::Scene;
+use masonry::scene::{Arch, Opening, Piers, Scene};
 use serde_json::Value;
 
 /// A scene with one arch, whose keys follow, under its own weight of 10 kN/m3.
@@ -324,4 +324,40 @@ fn impossible_arches_name_the_key_the_value_and_what_would_fit() {
             .to_string()
             .contains("there is no arch \"arc\" in the scene; did you mean \"arch\"?")
     );
+}
+
+#[test]
+fn arches_and_openings_built_in_rust_are_those_of_a_file() {
+    let read = |arch: &str| Scene::from_toml(&scene(1.0, arch, "")).unwrap().arches.remove(0);
+    let named = |arch: Arch| arch.joint("radial").springing("radial");
+    assert_eq!(
+        read(
+            "shape = \"pointed\"\nspan = 2.0\nrise = 1.5\nthickness = 0.3\nvoussoirs = 8\norigin = [1.0, 2.0]"
+        ),
+        named(Arch::pointed("arch", "stone", 2.0, 1.5, 0.3, 8)).origin([1.0, 2.0])
+    );
+    assert_eq!(
+        read(
+            "shape = \"flat\"\nspan = 2.0\nskew_deg = 20.0\nthickness = 0.3\nvoussoirs = 7\nmesh = [2, 2]\n\
+             piers = { width = 0.5, height = 1.0, courses = 2 }"
+        ),
+        named(Arch::flat("arch", "stone", 2.0, 20.0, 0.3, 7)).mesh([2, 2]).piers(Piers {
+            width: 0.5,
+            height: 1.0,
+            courses: 2
+        })
+    );
+    let lines = vec![[[0.0, 0.0], [-0.5, 0.5]], [[1.0, 0.2], [1.0, 0.7]], [[2.0, 0.0], [2.5, 0.5]]];
+    assert_eq!(
+        read(
+            "shape = \"joints\"\n\
+             lines = [[[0, 0], [-0.5, 0.5]], [[1, 0.2], [1, 0.7]], [[2, 0], [2.5, 0.5]]]"
+        ),
+        named(Arch::between_joints("arch", "stone", lines))
+    );
+    let window: Opening = serde_json::from_str(
+        r#"{"x": 1, "width": 0.8, "course": 4, "courses": 4, "bearing": 0.2}"#,
+    )
+    .unwrap();
+    assert_eq!(window, Opening::door(1.0, 0.8, 4).above(3).bearing(0.2));
 }
