@@ -5,6 +5,7 @@ mod answer;
 mod arrays;
 mod forms;
 mod options;
+mod walls;
 mod watch;
 
 use pyo3::prelude::*;
@@ -21,4 +22,6 @@ mod _native {
         solve_boxed, solve_contact, solve_horizontal, solve_many, solve_mixed, solve_program,
         solve_standard,
     };
+    #[pymodule_export]
+    use crate::walls::{Found, Outcome, PyScene, SceneError};
 }
