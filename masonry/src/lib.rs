@@ -51,6 +51,8 @@
 pub mod analysis;
 mod columns;
 pub mod data;
+#[cfg(feature = "import")]
+pub mod drawing;
 #[doc(hidden)]
 pub mod element;
 #[doc(hidden)]

@@ -1,0 +1,76 @@
+//! DXF as text: polylines, lines, arcs, circles and solids, of the drawing itself and of blocks that it inserts.
+//!
+//! A file is a list of pairs, a code and a value on a line each; code 0 begins an entity. Only few entities bound
+//! blocks, so that a reader of its own is small, knows the line of everything, and passes over what it does not know.
+
+mod insert;
+mod pairs;
+mod shapes;
+
+use std::collections::BTreeMap;
+
+use self::insert::Expansion;
+use self::pairs::{Record, records};
+use super::{Drawing, DrawingError, DrawingErrorKind, Place, Unit};
+
+/// The parts of a file that matter.
+#[derive(Default)]
+struct File<'a> {
+    unit: Option<Unit>,
+    /// Blocks by name: their first record, which has the base point, and those inside.
+    blocks: BTreeMap<&'a str, Vec<Record<'a>>>,
+    entities: Vec<Record<'a>>,
+}
+
+pub(super) fn read(text: &str) -> Result<Drawing, DrawingError> {
+    let file = File::of(records(text)?)?;
+    let mut drawing = Drawing { unit: file.unit, ..Drawing::default() };
+    Expansion { blocks: &file.blocks, drawing: &mut drawing }.all(&file.entities)?;
+    Ok(drawing)
+}
+
+impl<'a> File<'a> {
+    fn of(records: Vec<Record<'a>>) -> Result<Self, DrawingError> {
+        let mut file = Self::default();
+        let mut section = "";
+        let mut block: Option<&str> = None;
+        let mut has_ended = false;
+        let last = records.last().map_or(0, |record| record.line);
+        for record in records {
+            match (record.kind, section) {
+                ("SECTION", _) => {
+                    section = record.text(2).unwrap_or_default();
+                    if section == "HEADER" {
+                        file.unit = unit(&record);
+                    }
+                }
+                ("ENDSEC", _) => (section, block) = ("", None),
+                ("EOF", _) => has_ended = true,
+                ("BLOCK", "BLOCKS") => {
+                    let name = record.text(2).unwrap_or_default();
+                    block = Some(name);
+                    file.blocks.insert(name, vec![record]);
+                }
+                ("ENDBLK", "BLOCKS") => block = None,
+                (_, "BLOCKS") => {
+                    let inside = block.and_then(|name| file.blocks.get_mut(name));
+                    inside.into_iter().for_each(|it| it.push(record.clone()));
+                }
+                (_, "ENTITIES") => file.entities.push(record),
+                _ => {}
+            }
+        }
+        if has_ended {
+            Ok(file)
+        } else {
+            Err(DrawingErrorKind::Truncated.at(&Place::new("DXF", Some(last))))
+        }
+    }
+}
+
+/// The unit of the header, if it gives one.
+fn unit(header: &Record) -> Option<Unit> {
+    let at = header.pairs.iter().position(|pair| pair.value == "$INSUNITS")?;
+    let number = header.pairs.get(at + 1)?.value.trim().parse().ok()?;
+    Unit::of_dxf(number)
+}

@@ -1,0 +1,207 @@
+//! Bodies in space, brought into the plane of a wall: the section of prisms that lie in one layer, and faces in a plane.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use nalgebra::{Point2, Point3, Vector3};
+
+use super::{Drawing, DrawingError, DrawingErrorKind, Outline, Place};
+
+/// The largest sine of an angle between faces of a prism that ought to be parallel, or at right angles. Chosen: corners
+/// of blocks of 0.1 m that are rounded to millimetres miss by a hundredth.
+const TURNED: f64 = 1e-2;
+/// The part of the depth by which the ends of blocks may differ. Chosen: as the angle.
+const UNEVEN: f64 = 1e-2;
+
+/// Corners and faces of a body.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub(super) struct Mesh {
+    pub(super) name: Option<String>,
+    pub(super) layer: String,
+    pub(super) is_fixed: bool,
+    pub(super) place: Place,
+    pub(super) corners: Vec<Point3<f64>>,
+    /// Indices of corners.
+    pub(super) faces: Vec<Vec<usize>>,
+}
+
+/// The plane of a drawing in space.
+#[derive(Debug, Clone, Copy)]
+struct Plane {
+    right: Vector3<f64>,
+    up: Vector3<f64>,
+    /// The direction across the plane.
+    across: Vector3<f64>,
+}
+
+/// Adds bodies to a drawing.
+///
+/// # Errors
+/// The body that is no prism across a plane that all share.
+pub(super) fn add(drawing: &mut Drawing, meshes: &[Mesh]) -> Result<(), DrawingError> {
+    if meshes.iter().all(|mesh| mesh.faces.is_empty()) {
+        return Ok(());
+    }
+    if let Some(plane) = flat(meshes) {
+        return meshes.iter().try_for_each(|mesh| add_faces(drawing, mesh, plane));
+    }
+    let plane = shared_plane(meshes)?;
+    let [from, to] = meshes[0].extent(plane.across);
+    drawing.thickness = Some(to - from);
+    for mesh in meshes {
+        let corners =
+            mesh.section(plane).ok_or_else(|| DrawingErrorKind::NotPlane.at(&mesh.place))?;
+        let Mesh { name, layer, is_fixed, place, .. } = mesh.clone();
+        drawing.add_outline(Outline { corners, layer, name, is_fixed, place })?;
+    }
+    Ok(())
+}
+
+/// Each face of a flat mesh is an outline.
+fn add_faces(drawing: &mut Drawing, mesh: &Mesh, plane: Plane) -> Result<(), DrawingError> {
+    for (number, face) in (1..).zip(&mesh.faces) {
+        let corners = face.iter().map(|k| plane.project(mesh.corners[*k])).collect();
+        let place = Place::new(format!("face {number} of {}", mesh.place.entity), mesh.place.line);
+        let Mesh { layer, is_fixed, .. } = mesh.clone();
+        drawing.add_outline(Outline { corners, layer, name: None, is_fixed, place })?;
+    }
+    Ok(())
+}
+
+/// The plane in which all corners lie, if it is one of two axes; what lies is seen from above.
+fn flat(meshes: &[Mesh]) -> Option<Plane> {
+    let corners = || meshes.iter().flat_map(|mesh| &mesh.corners);
+    let extent = |along: Vector3<f64>| extent(corners(), along);
+    let [z, y, x] = [Vector3::z(), Vector3::y(), Vector3::x()];
+    let planes = [
+        Plane { right: x, up: y, across: z },
+        Plane { right: x, up: z, across: -y },
+        Plane { right: y, up: z, across: x },
+    ];
+    let size = [x, y, z].map(extent).map(|[low, high]| high - low).into_iter().fold(0.0, f64::max);
+    planes.into_iter().find(|plane| {
+        let [low, high] = extent(plane.across);
+        high - low <= f64::from(f32::EPSILON) * size
+    })
+}
+
+/// The upright plane across which all bodies are prisms of one depth; of two such planes the one seen along y.
+fn shared_plane(meshes: &[Mesh]) -> Result<Plane, DrawingError> {
+    let mut planes: Vec<Plane> = Vec::new();
+    for normal in meshes[0].normals().filter(|normal| normal.z.abs() <= TURNED) {
+        let plane = Plane::across(normal);
+        if planes.iter().all(|other| other.across.cross(&plane.across).norm() > TURNED) {
+            planes.push(plane);
+        }
+    }
+    planes.sort_by(|a, b| b.across.y.abs().total_cmp(&a.across.y.abs()));
+    let mut error = DrawingErrorKind::NotPlane.at(&meshes[0].place);
+    let mut most = None;
+    for plane in planes {
+        let wrong = meshes.iter().position(|mesh| !mesh.is_prism(plane.across));
+        let uneven = wrong.map_or_else(|| uneven(meshes, plane), |_| None);
+        let Some(at) = wrong.or(uneven) else { return Ok(plane) };
+        // The mistake is shown that comes last: the plane fits most bodies.
+        if most < Some((wrong.is_none(), at)) {
+            most = Some((wrong.is_none(), at));
+            let [from, to] = meshes[at].extent(plane.across);
+            let kind = match wrong {
+                Some(_) => DrawingErrorKind::NotPlane,
+                None => DrawingErrorKind::NotOneLayer { from, to },
+            };
+            error = kind.at(&meshes[at].place);
+        }
+    }
+    Err(error)
+}
+
+/// The first body whose ends across the plane are not those of the first.
+fn uneven(meshes: &[Mesh], plane: Plane) -> Option<usize> {
+    let [from, to] = meshes[0].extent(plane.across);
+    meshes.iter().position(|mesh| {
+        let [near, far] = mesh.extent(plane.across);
+        (near - from).abs().max((far - to).abs()) > UNEVEN * (to - from)
+    })
+}
+
+fn extent<'a>(corners: impl Iterator<Item = &'a Point3<f64>>, along: Vector3<f64>) -> [f64; 2] {
+    corners
+        .map(|it| it.coords.dot(&along))
+        .fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], s| [a.min(s), b.max(s)])
+}
+
+impl Plane {
+    /// The upright plane with a normal, x to the right where that is possible.
+    fn across(normal: Vector3<f64>) -> Self {
+        let right = Vector3::new(-normal.y, normal.x, 0.0).normalize();
+        let is_back = if right.x.abs() > TURNED { right.x < 0.0 } else { right.y < 0.0 };
+        let right = if is_back { -right } else { right };
+        Self { right, up: Vector3::z(), across: right.cross(&Vector3::z()) }
+    }
+
+    fn project(self, point: Point3<f64>) -> Point2<f64> {
+        Point2::new(point.coords.dot(&self.right), point.coords.dot(&self.up))
+    }
+}
+
+impl Mesh {
+    /// Unit normals of the faces with an area.
+    fn normals(&self) -> impl Iterator<Item = Vector3<f64>> {
+        self.faces.iter().filter_map(|face| self.normal(face))
+    }
+
+    fn normal(&self, face: &[usize]) -> Option<Vector3<f64>> {
+        let first = self.corners[*face.first()?];
+        let sides: Vec<_> = face.iter().map(|k| self.corners[*k] - first).collect();
+        let sum = sides.windows(2).map(|pair| pair[0].cross(&pair[1]));
+        sum.fold(Vector3::zeros(), |sum, it| sum + it).try_normalize(0.0)
+    }
+
+    fn is_prism(&self, across: Vector3<f64>) -> bool {
+        self.normals().all(|normal| {
+            normal.dot(&across).abs() <= TURNED || normal.cross(&across).norm() <= TURNED
+        })
+    }
+
+    fn extent(&self, along: Vector3<f64>) -> [f64; 2] {
+        extent(self.corners.iter(), along)
+    }
+
+    /// For each corner the first at the same place: some programs give every face corners of its own.
+    fn welded(&self) -> Vec<usize> {
+        let mut first = BTreeMap::new();
+        let key = |it: &Point3<f64>| [it.x, it.y, it.z].map(f64::to_bits);
+        let corners = self.corners.iter().enumerate();
+        corners.map(|(k, corner)| *first.entry(key(corner)).or_insert(k)).collect()
+    }
+
+    /// The outline of the faces at the end of a prism; `None` if they have no single outline.
+    fn section(&self, plane: Plane) -> Option<Vec<Point2<f64>>> {
+        let caps = self.faces.iter().filter(|face| {
+            self.normal(face).is_some_and(|normal| normal.dot(&plane.across) > 1.0 - TURNED)
+        });
+        let same = self.welded();
+        let mut sides = BTreeSet::new();
+        for face in caps {
+            for (k, from) in face.iter().enumerate() {
+                let (from, to) = (same[*from], same[face[(k + 1) % face.len()]]);
+                // A side that two faces share is inside.
+                if !sides.remove(&(to, from)) {
+                    sides.insert((from, to));
+                }
+            }
+        }
+        let count = sides.len();
+        let mut sides: BTreeMap<usize, usize> = sides.into_iter().collect();
+        if sides.len() < count {
+            return None;
+        }
+        let (&first, _) = sides.first_key_value()?;
+        let mut corners = Vec::new();
+        let mut at = first;
+        while let Some(next) = sides.remove(&at) {
+            corners.push(plane.project(self.corners[at]));
+            at = next;
+        }
+        (at == first && sides.is_empty()).then_some(corners)
+    }
+}

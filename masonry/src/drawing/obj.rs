@@ -1,0 +1,145 @@
+//! Wavefront OBJ: faces in a plane, or bodies that are prisms; lines.
+
+use nalgebra::{Point2, Point3};
+
+use super::error::shown;
+use super::mesh::{self, Mesh};
+use super::{Drawing, DrawingError, DrawingErrorKind, Line, MOST_POINTS, Place};
+
+/// The material of faces that name none.
+const MATERIAL: &str = "stone";
+
+/// A file that is read line by line.
+#[derive(Default)]
+struct Reader {
+    corners: Vec<Point3<f64>>,
+    /// Bodies, whose faces have numbers of corners of the whole file so far.
+    bodies: Vec<Mesh>,
+    lines: Vec<Line>,
+    material: Option<String>,
+}
+
+pub(super) fn read(text: &str) -> Result<Drawing, DrawingError> {
+    let mut reader = Reader::default();
+    for (number, line) in (1..).zip(text.lines()) {
+        reader.line(line, number)?;
+    }
+    let mut drawing = Drawing::default();
+    let meshes: Vec<Mesh> = reader.bodies.iter().map(|body| body.own(&reader.corners)).collect();
+    mesh::add(&mut drawing, &meshes)?;
+    reader.lines.into_iter().try_for_each(|line| drawing.add_line(line))?;
+    Ok(drawing)
+}
+
+impl Reader {
+    fn line(&mut self, line: &str, number: usize) -> Result<(), DrawingError> {
+        let line = line.split('#').next().unwrap_or_default();
+        let mut words = line.split_whitespace();
+        let keyword = words.next().unwrap_or_default();
+        let rest = line.trim_start().get(keyword.len()..).unwrap_or_default().trim();
+        let place = Place::new(shown(keyword), Some(number));
+        match keyword {
+            "v" => self.corner(words, &place)?,
+            "f" => {
+                let face = self.indices(words, &place)?;
+                self.body(number).faces.push(face);
+            }
+            "l" => {
+                let points = self.indices(words, &place)?;
+                let points =
+                    points.iter().map(|k| self.corners[*k].xy()).collect::<Vec<Point2<_>>>();
+                let layer = self.material.clone().unwrap_or_else(|| MATERIAL.into());
+                self.lines.push(Line { points, layer, place });
+            }
+            "o" | "g" => {
+                let place = Place::new(format!("{keyword} {}", shown(rest)), Some(number));
+                let layer = self.material.clone().unwrap_or_else(|| MATERIAL.into());
+                let name = Some(shown(rest)).filter(|it| !it.is_empty());
+                self.bodies.push(Mesh { name, layer, place, ..Mesh::default() });
+            }
+            "usemtl" => {
+                self.material = Some(shown(rest));
+                let layer = shown(rest);
+                if let Some(body) = self.bodies.last_mut().filter(|it| it.faces.is_empty()) {
+                    body.layer = layer;
+                } else {
+                    let place = Place::new(format!("usemtl {layer}"), Some(number));
+                    self.bodies.push(Mesh { layer, place, ..Mesh::default() });
+                }
+            }
+            // Normals, textures and smoothing do not matter; a file of another kind has no faces, which is an error later.
+            _ => {}
+        }
+        Ok(())
+    }
+
+    fn corner<'a>(
+        &mut self,
+        words: impl Iterator<Item = &'a str>,
+        place: &Place,
+    ) -> Result<(), DrawingError> {
+        let mut corner = [0.0; 3];
+        let mut count = 0;
+        for (to, word) in corner.iter_mut().zip(words) {
+            let wrong = |_| DrawingErrorKind::Number { text: shown(word) }.at(place);
+            *to = word.parse().map_err(wrong)?;
+            count += 1;
+        }
+        if count < corner.len() {
+            return Err(DrawingErrorKind::Truncated.at(place));
+        }
+        if self.corners.len() == MOST_POINTS {
+            let kind = DrawingErrorKind::TooMany { what: "corners", limit: MOST_POINTS };
+            return Err(kind.at(place));
+        }
+        self.corners.push(Point3::from(corner));
+        Ok(())
+    }
+
+    /// The corners of a face or line: numbers from 1, or from the last backwards.
+    fn indices<'a>(
+        &self,
+        words: impl Iterator<Item = &'a str>,
+        place: &Place,
+    ) -> Result<Vec<usize>, DrawingError> {
+        let index = |word: &str| {
+            let text = word.split('/').next().unwrap_or_default();
+            let number: Option<i64> = text.parse().ok();
+            let index = number.and_then(|number| match number {
+                1.. => usize::try_from(number - 1).ok(),
+                _ => self.corners.len().checked_sub(usize::try_from(number.unsigned_abs()).ok()?),
+            });
+            let unknown = || DrawingErrorKind::UnknownCorner { corner: shown(text) }.at(place);
+            index.filter(|it| *it < self.corners.len()).ok_or_else(unknown)
+        };
+        words.map(index).collect()
+    }
+
+    /// The body to which a face belongs.
+    fn body(&mut self, number: usize) -> &mut Mesh {
+        if self.bodies.is_empty() {
+            let place = Place::new("OBJ", Some(number));
+            self.bodies.push(Mesh { layer: MATERIAL.to_owned(), place, ..Mesh::default() });
+        }
+        let last = self.bodies.len() - 1;
+        &mut self.bodies[last]
+    }
+}
+
+impl Mesh {
+    /// The body with its own corners, of those of the file.
+    fn own(&self, corners: &[Point3<f64>]) -> Self {
+        let mut numbers = std::collections::BTreeMap::new();
+        let mut own = Self { faces: Vec::new(), ..self.clone() };
+        for face in &self.faces {
+            let face = face.iter().map(|k| {
+                *numbers.entry(*k).or_insert_with(|| {
+                    own.corners.push(corners[*k]);
+                    own.corners.len() - 1
+                })
+            });
+            own.faces.push(face.collect());
+        }
+        own
+    }
+}

@@ -1,0 +1,183 @@
+//! SVG: paths, polygons, polylines, lines, rectangles and circles, with the transforms around them.
+//!
+//! Layers are groups with a label of Inkscape, or else the nearest `id` of a group; y points down in the file.
+
+mod path;
+
+use nalgebra::{Matrix3, Point2, Vector2};
+use roxmltree::{Document, Node, ParsingOptions};
+use svgtypes::{PointsParser, Transform, ViewBox};
+
+use super::curve::{Arc, Chords};
+use super::error::shown;
+use super::{
+    Change, Drawing, DrawingError, DrawingErrorKind, Line, MOST_SHAPES, Outline, Place, Unit,
+};
+
+/// Groups in groups. Chosen: as blocks in blocks of other formats, with room for those of editors; a stack holds them.
+const DEEPEST: usize = 64;
+const INKSCAPE: &str = "http://www.inkscape.org/namespaces/inkscape";
+
+/// Points of one part of a shape.
+struct Part {
+    points: Vec<Point2<f64>>,
+    is_closed: bool,
+    /// How far chords are from curves.
+    off: f64,
+}
+
+pub(super) fn read(text: &str) -> Result<Drawing, DrawingError> {
+    let nodes_limit = u32::try_from(4 * MOST_SHAPES).unwrap_or(u32::MAX);
+    let options = ParsingOptions { nodes_limit, ..ParsingOptions::default() };
+    let document = Document::parse_with_options(text, options).map_err(|error| {
+        let line = usize::try_from(error.pos().row).ok();
+        DrawingErrorKind::Syntax { message: error.to_string() }.at(&Place::new("SVG", line))
+    })?;
+    let root = document.root_element();
+    let (unit, scale) = size_of_unit(root);
+    let mut drawing = Drawing { unit, ..Drawing::default() };
+    let upright = Matrix3::new_nonuniform_scaling(&Vector2::new(scale, -scale));
+    Reader { drawing: &mut drawing }.inside(root, &Frame { map: upright, layer: "0", depth: 0 })?;
+    Ok(drawing)
+}
+
+/// The unit of the width, and how many are one unit of the coordinates; no unit if the width has none.
+fn size_of_unit(root: Node) -> (Option<Unit>, f64) {
+    let width = root.attribute("width").unwrap_or_default().trim();
+    let symbol = width.trim_start_matches(|c: char| c.is_ascii_digit() || "+-.".contains(c));
+    let number = width[..width.len() - symbol.len()].parse::<f64>().ok();
+    let view = root.attribute("viewBox").and_then(|text| text.parse::<ViewBox>().ok());
+    match (Unit::of_symbol(symbol), number, view) {
+        (Some(unit), Some(width), Some(view)) if width > 0.0 && view.w > 0.0 => {
+            (Some(unit), width / view.w)
+        }
+        _ => (None, 1.0),
+    }
+}
+
+struct Reader<'a> {
+    drawing: &'a mut Drawing,
+}
+
+/// What holds for all that is inside of a group.
+#[derive(Clone, Copy)]
+struct Frame<'a> {
+    map: Matrix3<f64>,
+    layer: &'a str,
+    depth: usize,
+}
+
+impl Reader<'_> {
+    fn inside(&mut self, parent: Node, frame: &Frame) -> Result<(), DrawingError> {
+        for node in parent.children().filter(Node::is_element) {
+            self.node(node, frame)?;
+        }
+        Ok(())
+    }
+
+    fn node(&mut self, node: Node, frame: &Frame) -> Result<(), DrawingError> {
+        if is_hidden(node) {
+            return Ok(());
+        }
+        let place = place(node);
+        if frame.depth == DEEPEST {
+            return Err(DrawingErrorKind::Nested { depth: DEEPEST }.at(&place));
+        }
+        let map = frame.map * transform(node, &place)?;
+        let parts = match node.tag_name().name() {
+            "g" | "a" | "svg" | "switch" => {
+                let label = node.attribute((INKSCAPE, "label")).or_else(|| node.attribute("id"));
+                let layer = label.unwrap_or(frame.layer);
+                return self.inside(node, &Frame { map, layer, depth: frame.depth + 1 });
+            }
+            "path" => path::parts(node.attribute("d").unwrap_or_default(), &place)?,
+            "polygon" | "polyline" => vec![points(node)],
+            "rect" => vec![rectangle(node, &place)?],
+            "line" => vec![line(node, &place)?],
+            "circle" => vec![circle(node, &place)?],
+            // What describes, styles or is only used elsewhere is not drawn.
+            "defs" | "metadata" | "title" | "desc" | "style" | "namedview" | "script" => {
+                return Ok(());
+            }
+            name => {
+                let what = format!(
+                    "<{}> was left out: turn objects into paths, unlink clones",
+                    shown(name)
+                );
+                self.drawing.changes.push(Change::new(what, &place));
+                return Ok(());
+            }
+        };
+        parts.into_iter().try_for_each(|part| self.add(part, &Frame { map, ..*frame }, &place))
+    }
+
+    fn add(&mut self, part: Part, frame: &Frame, place: &Place) -> Result<(), DrawingError> {
+        if part.off > 0.0 {
+            let by = part.off * frame.map.determinant().abs().sqrt();
+            self.drawing.changes.push(Change::by("arcs became chords", place, by));
+        }
+        let points = part.points.iter().map(|it| frame.map.transform_point(it)).collect();
+        let (layer, place) = (frame.layer.to_owned(), place.clone());
+        if part.is_closed {
+            let (name, is_fixed) = (None, false);
+            self.drawing.add_outline(Outline { corners: points, layer, name, is_fixed, place })
+        } else {
+            self.drawing.add_line(Line { points, layer, place })
+        }
+    }
+}
+
+fn place(node: Node) -> Place {
+    let id = node.attribute("id").map_or(String::new(), |id| format!(" id \"{}\"", shown(id)));
+    let row = node.document().text_pos_at(node.range().start).row;
+    Place::new(format!("<{}>{id}", shown(node.tag_name().name())), usize::try_from(row).ok())
+}
+
+fn is_hidden(node: Node) -> bool {
+    let style = node.attribute("style").unwrap_or_default();
+    node.attribute("display") == Some("none")
+        || style.replace(' ', "").split(';').any(|it| it == "display:none")
+}
+
+fn transform(node: Node, place: &Place) -> Result<Matrix3<f64>, DrawingError> {
+    let Some(text) = node.attribute("transform") else { return Ok(Matrix3::identity()) };
+    let wrong = |error: svgtypes::Error| {
+        let message = format!("transform \"{}\": {error}", shown(text));
+        DrawingErrorKind::Syntax { message }.at(place)
+    };
+    let Transform { a, b, c, d, e, f } = text.parse().map_err(wrong)?;
+    Ok(Matrix3::new(a, c, e, b, d, f, 0.0, 0.0, 1.0))
+}
+
+/// A number of an attribute, zero without it; units of lengths are those of the drawing.
+fn number(node: Node, name: &str, place: &Place) -> Result<f64, DrawingError> {
+    let text = node.attribute(name).unwrap_or("0").trim();
+    text.parse().map_err(|_| DrawingErrorKind::Number { text: shown(text) }.at(place))
+}
+
+fn points(node: Node) -> Part {
+    let list = PointsParser::from(node.attribute("points").unwrap_or_default());
+    let points = list.map(|(x, y)| Point2::new(x, y)).collect();
+    Part { points, is_closed: node.tag_name().name() == "polygon", off: 0.0 }
+}
+
+fn rectangle(node: Node, place: &Place) -> Result<Part, DrawingError> {
+    let get = |name| number(node, name, place);
+    let (x, y, width, height) = (get("x")?, get("y")?, get("width")?, get("height")?);
+    let corners = [[x, y], [x + width, y], [x + width, y + height], [x, y + height]];
+    Ok(Part { points: corners.map(Point2::from).to_vec(), is_closed: true, off: 0.0 })
+}
+
+fn line(node: Node, place: &Place) -> Result<Part, DrawingError> {
+    let get = |name| number(node, name, place);
+    let ends = [[get("x1")?, get("y1")?], [get("x2")?, get("y2")?]];
+    Ok(Part { points: ends.map(Point2::from).to_vec(), is_closed: false, off: 0.0 })
+}
+
+fn circle(node: Node, place: &Place) -> Result<Part, DrawingError> {
+    let get = |name| number(node, name, place);
+    let centre = Point2::new(get("cx")?, get("cy")?);
+    let Chords { mut points, off } = Arc::circle(centre, get("r")?).chords();
+    points.pop();
+    Ok(Part { points, is_closed: true, off })
+}

@@ -1,0 +1,69 @@
+//! Units of drawings.
+
+use std::fmt;
+
+/// A unit of length of a drawing.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Unit {
+    /// Millimetre.
+    Millimetre,
+    /// Centimetre.
+    Centimetre,
+    /// Metre.
+    Metre,
+    /// Inch.
+    Inch,
+    /// Foot.
+    Foot,
+}
+
+impl Unit {
+    /// All units, from the smallest.
+    pub const ALL: [Self; 5] =
+        [Self::Millimetre, Self::Centimetre, Self::Inch, Self::Foot, Self::Metre];
+
+    /// Metres in one unit.
+    pub fn metres(self) -> f64 {
+        match self {
+            Self::Millimetre => 1e-3,
+            Self::Centimetre => 1e-2,
+            Self::Metre => 1.0,
+            Self::Inch => 0.0254,
+            Self::Foot => 0.3048,
+        }
+    }
+
+    /// The symbol.
+    pub fn symbol(self) -> &'static str {
+        match self {
+            Self::Millimetre => "mm",
+            Self::Centimetre => "cm",
+            Self::Metre => "m",
+            Self::Inch => "in",
+            Self::Foot => "ft",
+        }
+    }
+
+    /// The unit of a symbol.
+    pub fn of_symbol(symbol: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|unit| unit.symbol() == symbol)
+    }
+
+    /// The unit of a number of `$INSUNITS` in a DXF file.
+    pub(super) fn of_dxf(number: i64) -> Option<Self> {
+        match number {
+            1 => Some(Self::Inch),
+            2 => Some(Self::Foot),
+            4 => Some(Self::Millimetre),
+            5 => Some(Self::Centimetre),
+            6 => Some(Self::Metre),
+            _ => None,
+        }
+    }
+}
+
+impl fmt::Display for Unit {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.symbol())
+    }
+}
