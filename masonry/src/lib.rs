@@ -34,6 +34,7 @@
 //! | [`law`] | the law of a joint: friction, cohesion, tensile strength |
 //! | [`scene`] | the input in its own units: text, checks, builders, bonds of bricks |
 //! | [`model`] | blocks, joints, contact points and meshes, in SI units |
+//! | `drawing`, `import` | with the feature `import`: files of drawings, and the scenes that they become |
 //! | `system` | stiffness, loads, contact rows (3.2), rigid motions |
 //! | `forms` | the forms of the problem (3.27) and its reduction (3.18), (3.23) |
 //! | `recover` | from contact forces to displacements, stresses, reactions |
@@ -63,6 +64,8 @@ pub mod forms;
 pub mod geometry;
 pub mod history;
 pub mod ids;
+#[cfg(feature = "import")]
+pub mod import;
 pub mod law;
 pub mod material;
 #[doc(hidden)]

@@ -14,7 +14,7 @@ mod classes;
 mod dry;
 mod forces;
 mod from_scene;
-mod heal;
+pub(crate) mod heal;
 pub mod joints;
 pub mod loads;
 pub mod mesh;

@@ -5,6 +5,7 @@
 
 mod completions;
 mod end;
+mod import;
 mod interrupt;
 mod limit;
 mod new;
@@ -44,6 +45,8 @@ enum Command {
     Limit(limit::LimitArgs),
     /// Measure error and cost of routes, tolerances and meshes.
     Study(study::StudyArgs),
+    /// Make a scene of a drawing: DXF, SVG, OBJ, COMPAS JSON.
+    Import(import::ImportArgs),
     /// Print or write a commented scene to begin with.
     New(new::NewArgs),
     /// Print the JSON schema of scene files, for editors.
@@ -81,6 +84,7 @@ fn main() -> ExitCode {
         Command::Solve(args) => solve::run(&args),
         Command::Limit(args) => limit::run(&args),
         Command::Study(args) => study::run(&args),
+        Command::Import(args) => import::run(&args),
         Command::New(args) => new::run(&args),
         Command::Schema => print(Scene::schema()).map(|()| SOLVED),
         Command::Draw(args) => draw(&args),
