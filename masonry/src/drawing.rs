@@ -211,7 +211,8 @@ impl Drawing {
 
     /// Refuses points that are no numbers, or too many.
     fn count(&mut self, points: &[Point2<f64>], place: &Place) -> Result<(), DrawingError> {
-        if points.iter().any(|it| !(it.x.abs().max(it.y.abs()) < FARTHEST)) {
+        let is_place = |it: &f64| it.abs() < FARTHEST;
+        if !points.iter().flat_map(|point| point.iter()).all(is_place) {
             return Err(DrawingErrorKind::NotFinite.at(place));
         }
         self.points += points.len();

@@ -53,8 +53,9 @@ impl<'a> File<'a> {
                 }
                 ("ENDBLK", "BLOCKS") => block = None,
                 (_, "BLOCKS") => {
-                    let inside = block.and_then(|name| file.blocks.get_mut(name));
-                    inside.into_iter().for_each(|it| it.push(record.clone()));
+                    if let Some(inside) = block.and_then(|name| file.blocks.get_mut(name)) {
+                        inside.push(record);
+                    }
                 }
                 (_, "ENTITIES") => file.entities.push(record),
                 _ => {}

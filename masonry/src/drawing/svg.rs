@@ -108,10 +108,10 @@ impl Reader<'_> {
                 return Ok(());
             }
         };
-        parts.into_iter().try_for_each(|part| self.add(part, &Frame { map, ..*frame }, &place))
+        parts.into_iter().try_for_each(|part| self.add(&part, &Frame { map, ..*frame }, &place))
     }
 
-    fn add(&mut self, part: Part, frame: &Frame, place: &Place) -> Result<(), DrawingError> {
+    fn add(&mut self, part: &Part, frame: &Frame, place: &Place) -> Result<(), DrawingError> {
         if part.off > 0.0 {
             let by = part.off * frame.map.determinant().abs().sqrt();
             self.drawing.changes.push(Change::by("arcs became chords", place, by));

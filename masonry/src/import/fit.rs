@@ -85,7 +85,7 @@ fn check_overlaps(sheet: &Sheet) -> Result<(), ImportError> {
         let size = geometry::size(a).min(geometry::size(b));
         if area > TOUCHING * size * size {
             let tolerance = sheet.tolerance;
-            let depth = metres(depth(a, b).max(depth(b, a)).max(area / size));
+            let depth = metres(depth(a, b).min(depth(b, a)));
             let (shown, remedy) = (metres(tolerance), String::new());
             let kind = ImportErrorKind::Overlap { depth, tolerance, shown, remedy };
             return Err(kind.at(&[&stones[first].place, &stones[second].place]));
@@ -94,9 +94,14 @@ fn check_overlaps(sheet: &Sheet) -> Result<(), ImportError> {
     Ok(())
 }
 
-/// How deep corners of one polygon lie in another.
+/// How far one polygon reaches into another, across the edge of the other where that is least.
 fn depth(one: &[Point2<f64>], other: &[Point2<f64>]) -> f64 {
-    one.iter().map(|corner| -geometry::outside(other, *corner)).fold(0.0, f64::max)
+    let across = |k: usize| {
+        let normal = geometry::outward_normal(other, k);
+        let inside = one.iter().map(|corner| (other[k] - corner).dot(&normal));
+        inside.fold(f64::NEG_INFINITY, f64::max)
+    };
+    (0..other.len()).map(across).fold(f64::INFINITY, f64::min)
 }
 
 /// Cuts digits that say nothing, so that corners at one place are written alike.

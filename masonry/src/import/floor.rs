@@ -23,9 +23,13 @@ pub(super) fn add(sheet: &mut Sheet) -> Result<Option<String>, ImportError> {
     }
     let hull = lower_hull(shapes(&sheet.stones).into_iter().flatten().copied().collect());
     let lines = (0..hull.len()).filter_map(|k| flat_from(&hull[k..], sheet.tolerance));
-    let rested = lines.map(|ends| (resting(sheet, ends), ends));
-    let best = rested.max_by(|a, b| a.0.total_cmp(&b.0)).filter(|(length, _)| *length > 0.0);
-    let Some((_, [from, to])) = best else { return Err(ImportErrorKind::NoFloor.at(&[])) };
+    // Of lines on which the same blocks rest the one that goes below all of them.
+    let rank = |[from, to]: [Point2<f64>; 2]| (resting(sheet, [from, to]), (to - from).norm());
+    let ranked = lines.map(|ends| (rank(ends), ends));
+    let best = ranked.max_by(|(a, _), (b, _)| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)));
+    let Some((_, [from, to])) = best.filter(|((length, _), _)| *length > 0.0) else {
+        return Err(ImportErrorKind::NoFloor.at(&[]));
+    };
     let more = (to - from) * BEYOND;
     let ends = [from - more, to + more];
     let (name, place) = ("floor".to_owned(), Place::new("floor", None));
@@ -57,7 +61,9 @@ fn flat_from(hull: &[Point2<f64>], tolerance: f64) -> Option<[Point2<f64>; 2]> {
     let line = |end: usize| [hull[0], hull[end]];
     let is_flat =
         |end: &usize| hull[1..*end].iter().all(|it| distance(*it, line(*end)) <= tolerance);
-    (1..hull.len()).take_while(is_flat).last().map(line)
+    let longest = (1..hull.len()).take_while(is_flat).last().map(line);
+    // A side that is steeper than 45 degrees is a wall.
+    longest.filter(|[from, to]| (to.x - from.x) > (to.y - from.y).abs())
 }
 
 /// The length of the edges that lie on a line, to the tolerance.

@@ -190,7 +190,9 @@ fn move_edges(sheet: &mut Sheet, shares: &[(Edge, f64)], factor: f64) {
     for of_stone in shares.chunk_by(|a, b| a.0.0 == b.0.0) {
         let stone = &mut sheet.stones[of_stone[0].0.0];
         let mut by = vec![0.0; stone.corners.len()];
-        of_stone.iter().for_each(|((_, edge), share)| by[*edge] = factor * share);
+        for ((_, edge), share) in of_stone {
+            by[*edge] = factor * share;
+        }
         stone.corners = offset(&stone.corners, &by);
     }
 }

@@ -116,7 +116,7 @@ impl Sheet {
                     self.supports.extend(pieces(&name, &line.points, &line.place));
                 }
                 Meaning::Joints(name) => {
-                    self.marks.extend(pieces(&name, &line.points, &line.place))
+                    self.marks.extend(pieces(&name, &line.points, &line.place));
                 }
                 Meaning::Ignored => self.changes.push(Change::new("ignored", &line.place)),
             }

@@ -90,12 +90,12 @@ impl<'a> Expansion<'a> {
                 return Ok(());
             }
         };
-        self.add_shape(shape, record, frame)
+        self.add_shape(&shape, record, frame)
     }
 
     fn add_shape(
         &mut self,
-        shape: Shape,
+        shape: &Shape,
         record: &Record<'a>,
         frame: &Frame<'a>,
     ) -> Result<(), DrawingError> {

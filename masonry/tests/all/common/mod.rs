@@ -3,6 +3,7 @@
 #![allow(dead_code, reason = "every test binary uses its own part of this module")]
 #![allow(unreachable_pub, reason = "a module of helpers, compiled into each test binary")]
 
+pub mod drawings;
 pub mod enumerate;
 pub mod quoted;
 pub mod reference;
