@@ -27,8 +27,8 @@ use nalgebra::Point2;
 pub use self::error::{DrawingError, DrawingErrorKind};
 pub use self::unit::Unit;
 
-/// Bytes of a file. Chosen: a hundred times a drawing of 1500 stones.
-pub const LARGEST_FILE: usize = 64 << 20;
+/// Bytes of a file. Chosen: fifty times a drawing of 1500 stones; as numbers in a list, JSON takes half a gigabyte of memory.
+pub const LARGEST_FILE: usize = 32 << 20;
 /// Outlines and lines of a drawing, after blocks were inserted. Chosen: a hundred times a wall of 1500 stones.
 const MOST_SHAPES: usize = 150_000;
 /// Corners of one outline or line. Chosen: a stone that was scanned has some hundreds.

@@ -86,8 +86,13 @@ fn flat(meshes: &[Mesh]) -> Option<Plane> {
 
 /// The upright plane across which all bodies are prisms of one depth; of two such planes the one seen along y.
 fn shared_plane(meshes: &[Mesh]) -> Result<Plane, DrawingError> {
+    /// Directions of the sides of the first body that are tried. Chosen: stones have fewer.
+    const MOST: usize = 64;
     let mut planes: Vec<Plane> = Vec::new();
     for normal in meshes[0].normals().filter(|normal| normal.z.abs() <= TURNED) {
+        if planes.len() == MOST {
+            break;
+        }
         let plane = Plane::across(normal);
         if planes.iter().all(|other| other.across.cross(&plane.across).norm() > TURNED) {
             planes.push(plane);

@@ -72,17 +72,22 @@ pub enum ImportErrorKind {
     },
     /// No outline bounds a block.
     #[error(
-        "no outline bounds a block: draw blocks as closed polylines, on other layers than \"support\" and \"joint\""
+        "no outline bounds a block{dropped}: draw blocks as closed polylines, on other layers than \"support\" and \"joint\""
     )]
-    NoBlocks,
+    NoBlocks {
+        /// The last outline that was dropped, and why.
+        dropped: String,
+    },
     /// No support is drawn, and no block rests on a line below all.
     #[error(
         "no support is drawn, and no block rests with an edge on a line below all others: draw supports on a layer \"support\""
     )]
     NoFloor,
-    /// There are more blocks than can be treated.
-    #[error("there are more than {limit} blocks: import parts of the drawing")]
+    /// There is more than can be treated.
+    #[error("there are more than {limit} {what}: import parts of the drawing")]
     TooMany {
+        /// What there is too much of.
+        what: &'static str,
         /// How many there may be.
         limit: usize,
     },

@@ -20,6 +20,9 @@ const FAULTY: f64 = 0.05;
 const LARGEST: f64 = 0.25;
 /// Blocks. Chosen: ten times what is solved in a minute.
 const MOST_BLOCKS: usize = 20_000;
+/// Pieces of supports, and of lines along joints: each is compared with all blocks. Chosen: ground that was surveyed has some
+/// hundreds.
+const MOST_PIECES: usize = 2000;
 
 /// A drawing in metres.
 pub(super) struct Sheet {
@@ -60,7 +63,7 @@ impl Sheet {
         sheet.sort(drawing, factor, options, &mut sorted);
         sheet.tolerance = match tolerance.or_else(|| sorted.tolerance()) {
             Some(tolerance) => tolerance,
-            None => return Err(ImportErrorKind::NoBlocks.at(&[])),
+            None => return Err(sheet.no_blocks()),
         };
         sheet.lay(sorted)?;
         sheet.limit_tolerance(tolerance.is_some())?;
@@ -132,7 +135,9 @@ impl Sheet {
         }));
         if sorted.raw.len() > MOST_BLOCKS {
             let place = &sorted.raw[MOST_BLOCKS].outline.place;
-            return Err(ImportErrorKind::TooMany { limit: MOST_BLOCKS }.at(&[place]));
+            return Err(
+                ImportErrorKind::TooMany { what: "blocks", limit: MOST_BLOCKS }.at(&[place])
+            );
         }
         for Raw { outline, material } in sorted.raw {
             let Outline { corners, name, place, .. } = outline;
@@ -146,11 +151,24 @@ impl Sheet {
                 self.supports.extend(pieces(&name, &corners, &outline.place));
             }
         }
+        for pieces in [&self.supports, &self.marks] {
+            if let Some(piece) = pieces.get(MOST_PIECES) {
+                let what = "sides of supports, or lines of joints";
+                let kind = ImportErrorKind::TooMany { what, limit: MOST_PIECES };
+                return Err(kind.at(&[&piece.place]));
+            }
+        }
         if self.stones.is_empty() {
-            return Err(ImportErrorKind::NoBlocks.at(&[]));
+            return Err(self.no_blocks());
         }
         stones::without_duplicates(&mut self.stones, self.tolerance, &mut self.changes)?;
         stones::check_convex(&self.stones)
+    }
+
+    fn no_blocks(&self) -> ImportError {
+        let last = self.changes.last();
+        let dropped = last.map_or(String::new(), |it| format!(" ({}: {})", it.place, it.what));
+        ImportErrorKind::NoBlocks { dropped }.at(&[])
     }
 
     fn cleaned(&mut self, corners: &[Point2<f64>], place: &Place) -> Option<Vec<Point2<f64>>> {

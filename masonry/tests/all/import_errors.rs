@@ -30,7 +30,7 @@ fn files_that_are_no_drawings_say_why() {
     let error = Drawing::read(&vec![b' '; LARGEST_FILE + 1], Format::Dxf).unwrap_err();
     assert_eq!(
         error.to_string(),
-        "the file is larger than 64 MB: save only the layers with the blocks"
+        "the file is larger than 32 MB: save only the layers with the blocks"
     );
     let empty = Dxf::new(6).entity("TEXT", "0", "1\nA\n").text();
     assert_refused(
@@ -236,6 +236,12 @@ fn what_cannot_be_mended_has_its_place_and_remedy() {
         &Dxf::new(6).line("support", [0.0, 0.0], [1.0, 0.0]),
         &Options::default(),
         "no outline bounds a block: draw blocks as closed polylines, on other layers than \"support\" and \"joint\"",
+    );
+    assert_not_imported(
+        &Dxf::new(6).polygons("brick", &[square(0.0, 0.0)]),
+        &Options { tolerance: Some(0.6), ..Options::default() },
+        "no outline bounds a block (LWPOLYLINE 1 (line 22): slivers were dropped): draw blocks as closed polylines, on \
+         other layers than \"support\" and \"joint\"",
     );
     let diamond = vec![[0.0, 0.0], [1.0, 1.1], [0.0, 2.2], [-1.0, 1.1]];
     assert_not_imported(

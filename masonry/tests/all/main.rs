@@ -13,6 +13,7 @@ mod cli;
 mod cli_runs;
 mod guide;
 mod import;
+mod import_command;
 mod import_errors;
 mod import_formats;
 mod limit;

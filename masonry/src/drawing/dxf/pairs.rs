@@ -3,7 +3,7 @@
 use nalgebra::Point2;
 
 use crate::drawing::error::shown;
-use crate::drawing::{DrawingError, DrawingErrorKind, Place};
+use crate::drawing::{DrawingError, DrawingErrorKind, MOST_SHAPES, Place};
 
 /// A code and its value.
 #[derive(Debug, Clone, Copy)]
@@ -22,6 +22,9 @@ pub(super) struct Record<'a> {
     pub(super) pairs: Vec<Pair<'a>>,
 }
 
+/// Entities, vertices and entries of tables. Chosen: ten times the shapes that are allowed, in 100 MB of memory.
+const MOST_RECORDS: usize = 10 * MOST_SHAPES;
+
 /// All records of a file.
 pub(super) fn records(text: &str) -> Result<Vec<Record<'_>>, DrawingError> {
     let mut records: Vec<Record> = Vec::new();
@@ -37,6 +40,10 @@ pub(super) fn records(text: &str) -> Result<Vec<Record<'_>>, DrawingError> {
         let Some((line, value)) = lines.next() else {
             return Err(DrawingErrorKind::Truncated.at(&Place::new("DXF", Some(line))));
         };
+        if records.len() > MOST_RECORDS {
+            let kind = DrawingErrorKind::TooMany { what: "records", limit: MOST_RECORDS };
+            return Err(kind.at(&Place::new("DXF", Some(line))));
+        }
         let value = value.trim();
         match records.last_mut() {
             _ if code == 0 => records.push(Record { kind: value, line, pairs: Vec::new() }),
