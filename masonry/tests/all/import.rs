@@ -1,5 +1,7 @@
 //! Drawings with the faults of real ones become scenes that answer as the exact geometry does.
 
+#![allow(clippy::float_cmp, reason = "import rounds away what is no digit of the drawing")]
+
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
 use std::time::Instant;
 
@@ -289,7 +291,7 @@ fn a_drawing_without_supports_stands_on_a_floor() {
 fn rubble_that_is_rounded_meets_exactly() {
     let corner = |i: usize, j: usize| {
         let (x, y) = (i as f64, j as f64);
-        let inside = i % 6 != 0 && j % 6 != 0;
+        let inside = (1..6).contains(&i) && (1..6).contains(&j);
         let by = if inside { 0.13 } else { 0.0 };
         let angle = FRAC_PI_4 * x + FRAC_PI_2 * y * y;
         [0.3 * (x + by * angle.sin()), 0.2 * (y + by * angle.cos())]

@@ -56,7 +56,10 @@ fn a_drawing_becomes_a_scene_that_is_solved() {
         document.descendants().filter(|it| it.has_tag_name(("http://www.w3.org/2000/svg", "g")));
     let counts: Vec<_> = groups
         .map(|it| {
-            (it.attribute("class").unwrap(), it.children().filter(|it| it.is_element()).count())
+            (
+                it.attribute("class").unwrap(),
+                it.children().filter(roxmltree::Node::is_element).count(),
+            )
         })
         .collect();
     assert_eq!(counts, [("drawing", 10), ("blocks", 10), ("supports", 1)]);

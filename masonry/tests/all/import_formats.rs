@@ -1,5 +1,7 @@
 //! COMPAS JSON, SVG, OBJ and lists become the scenes that they draw.
 
+#![allow(clippy::float_cmp, reason = "import rounds away what is no digit of the drawing")]
+
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
 

@@ -21,7 +21,8 @@ pub fn wall(bricks: usize, courses: usize, gap: f64) -> Vec<Polygon> {
         let mut ends = vec![0.0];
         ends.extend((0..=bricks).map(inner).filter(|x| *x > 0.0));
         ends.dedup();
-        let open = |at: f64, last: f64, to: f64| if at == 0.0 || at == last { at } else { at + to };
+        let is_face = |at: f64, last: f64| at < 1e-9 || at > last - 1e-9;
+        let open = |at: f64, last: f64, to: f64| if is_face(at, last) { at } else { at + to };
         let y = |k: usize, to: f64| open(k as f64 * height, courses as f64 * height, to);
         for pair in ends.windows(2) {
             let (left, right) = (open(pair[0], width, 0.5 * gap), open(pair[1], width, -0.5 * gap));
