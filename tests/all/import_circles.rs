@@ -31,11 +31,12 @@ fn the_files_of_masonry_import_one_another_in_one_direction() {
 }
 
 /// The top modules of `masonry` from the ground up; those of one layer know nothing of each other.
-const LAYERS: [&[&str]; 15] = [
+const LAYERS: [&[&str]; 16] = [
     &["ids", "units"],
-    &["columns", "data", "element", "files", "geometry", "law", "material", "rounding"],
+    &["columns", "data", "drawing", "element", "files", "geometry", "law", "material", "rounding"],
     &["scene"],
     &["model"],
+    &["import"],
     &["system"],
     &["forms"],
     &["recover"],

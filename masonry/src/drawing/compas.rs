@@ -9,7 +9,8 @@ use serde_json::{Map, Value};
 use super::error::shown;
 use super::list::json_error;
 use super::mesh::{self, Mesh};
-use super::{Drawing, DrawingError, DrawingErrorKind, MOST_SHAPES, Place};
+use super::shapes::MOST_SHAPES;
+use super::{Drawing, DrawingError, DrawingErrorKind, Place};
 
 /// The material of blocks that name none.
 const MATERIAL: &str = "stone";

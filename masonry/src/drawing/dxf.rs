@@ -24,7 +24,7 @@ struct File<'a> {
 
 pub(super) fn read(text: &str) -> Result<Drawing, DrawingError> {
     let file = File::of(records(text)?)?;
-    let mut drawing = Drawing { unit: file.unit, ..Drawing::default() };
+    let mut drawing = Drawing::in_unit(file.unit);
     Expansion { blocks: &file.blocks, drawing: &mut drawing }.all(&file.entities)?;
     Ok(drawing)
 }

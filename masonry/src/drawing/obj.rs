@@ -4,7 +4,8 @@ use nalgebra::{Point2, Point3};
 
 use super::error::shown;
 use super::mesh::{self, Mesh};
-use super::{Drawing, DrawingError, DrawingErrorKind, Line, MOST_POINTS, Place};
+use super::shapes::MOST_POINTS;
+use super::{Drawing, DrawingError, DrawingErrorKind, Line, Place};
 
 /// The material of faces that name none.
 const MATERIAL: &str = "stone";

@@ -10,9 +10,8 @@ use svgtypes::{PointsParser, Transform, ViewBox};
 
 use super::curve::{Arc, Chords};
 use super::error::shown;
-use super::{
-    Change, Drawing, DrawingError, DrawingErrorKind, Line, MOST_SHAPES, Outline, Place, Unit,
-};
+use super::shapes::MOST_SHAPES;
+use super::{Change, Drawing, DrawingError, DrawingErrorKind, Line, Outline, Place, Unit};
 
 /// Groups in groups. Chosen: as blocks in blocks of other formats, with room for those of editors; a stack holds them.
 const DEEPEST: usize = 64;
@@ -35,7 +34,7 @@ pub(super) fn read(text: &str) -> Result<Drawing, DrawingError> {
     })?;
     let root = document.root_element();
     let (unit, scale) = size_of_unit(root);
-    let mut drawing = Drawing { unit, ..Drawing::default() };
+    let mut drawing = Drawing::in_unit(unit);
     let upright = Matrix3::new_nonuniform_scaling(&Vector2::new(scale, -scale));
     Reader { drawing: &mut drawing }.inside(root, &Frame { map: upright, layer: "0", depth: 0 })?;
     Ok(drawing)

@@ -49,6 +49,7 @@ impl Imported {
 struct Row<'a> {
     count: usize,
     first: Vec<&'a Change>,
+    has_more: bool,
     largest: Option<f64>,
 }
 
@@ -56,15 +57,19 @@ impl<'a> Row<'a> {
     fn add(&mut self, change: &'a Change) {
         self.count += 1;
         self.largest = change.by.map(|by| by.max(self.largest.unwrap_or(0.0))).or(self.largest);
-        if self.first.len() < NAMED {
+        // One entity may be changed several times.
+        let is_new = self.first.iter().all(|it| it.place != change.place);
+        if is_new && self.first.len() < NAMED {
             self.first.push(change);
+        } else {
+            self.has_more |= is_new;
         }
     }
 
     fn places(&self) -> String {
         let by = self.largest.map_or(String::new(), |by| format!(", by up to {} m", metres(by)));
         let mut places: Vec<String> = self.first.iter().map(|it| it.place.to_string()).collect();
-        if self.count > places.len() {
+        if self.has_more {
             places.push("...".to_owned());
         }
         format!("{by}: {}", places.join(", "))

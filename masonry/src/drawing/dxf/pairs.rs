@@ -3,7 +3,8 @@
 use nalgebra::Point2;
 
 use crate::drawing::error::shown;
-use crate::drawing::{DrawingError, DrawingErrorKind, MOST_SHAPES, Place};
+use crate::drawing::shapes::MOST_SHAPES;
+use crate::drawing::{DrawingError, DrawingErrorKind, Place};
 
 /// A code and its value.
 #[derive(Debug, Clone, Copy)]

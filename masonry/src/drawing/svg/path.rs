@@ -5,7 +5,8 @@ use svgtypes::{SimplePathSegment, SimplifyingPathParser};
 
 use super::Part;
 use crate::drawing::curve::{Chords, cubic};
-use crate::drawing::{DrawingError, DrawingErrorKind, MOST_CORNERS, Place};
+use crate::drawing::shapes::MOST_CORNERS;
+use crate::drawing::{DrawingError, DrawingErrorKind, Place};
 
 pub(super) fn parts(text: &str, place: &Place) -> Result<Vec<Part>, DrawingError> {
     let mut parts: Vec<Part> = Vec::new();
