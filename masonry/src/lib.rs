@@ -52,8 +52,6 @@
 pub mod analysis;
 mod columns;
 pub mod data;
-#[cfg(feature = "import")]
-pub mod drawing;
 #[doc(hidden)]
 pub mod element;
 #[doc(hidden)]
@@ -84,6 +82,9 @@ pub mod scene;
 pub mod system;
 pub mod units;
 pub mod verify;
+
+#[cfg(feature = "import")]
+pub use masonry_drawing as drawing;
 
 pub use analysis::checkpoint::Checkpoint;
 pub use analysis::limit::{

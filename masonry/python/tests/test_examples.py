@@ -8,9 +8,17 @@ import pkgutil
 import pytest
 
 import lcp
+import masonry
 
 PAGE = pathlib.Path(__file__).parents[1] / "README.md"
-MODULES = ["lcp", *(f"lcp.{it.name}" for it in pkgutil.iter_modules(lcp.__path__))]
+MODULES = [
+    name
+    for package in (lcp, masonry)
+    for name in (
+        package.__name__,
+        *(f"{package.__name__}.{it.name}" for it in pkgutil.iter_modules(package.__path__)),
+    )
+]
 
 
 @pytest.mark.parametrize("name", MODULES)

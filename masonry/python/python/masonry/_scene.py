@@ -21,7 +21,7 @@ class Scene:
     Parameters
     ----------
     **keys
-        Tables, lists and numbers as in TOML.
+        Tables, lists and numbers as in TOML; ``title`` may be left out.
 
     Raises
     ------
@@ -46,7 +46,7 @@ class Scene:
     """
 
     def __init__(self, **keys: Any) -> None:
-        self._keys = copy.deepcopy(keys)
+        self._keys: dict[str, Any] = {"title": "", **copy.deepcopy(keys)}
         self._native: _native.Scene | None = None
         self._checked()
 
@@ -56,10 +56,11 @@ class Scene:
 
         Examples
         --------
-        >>> Scene.read("thickness = 1.0\\n")
-        Traceback (most recent call last):
-        ...
-        lcp._native.SceneError: units: ...
+        >>> try:
+        ...     Scene.read("title = 'No units'\\nthickness = 1.0\\n")
+        ... except ValueError as error:
+        ...     print(str(error).splitlines()[-1])
+        missing field `units`
         """
         text = os.fspath(source)
         is_text = "\n" in text
@@ -79,7 +80,7 @@ class Scene:
     def __setitem__(self, path: str, value: Any) -> None:
         """Give a key a value; the scene is checked when it is used."""
         place, _, last = path.rpartition(".")
-        table = self[place] if place else self._keys
+        table: Any = self[place] if place else self._keys
         table[int(last) if isinstance(table, list) else last] = value
         self._native = None
 

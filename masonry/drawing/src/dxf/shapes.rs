@@ -3,8 +3,8 @@
 use nalgebra::Point2;
 
 use super::pairs::Record;
-use crate::drawing::DrawingError;
-use crate::drawing::curve::{Arc, Chords, bulged};
+use crate::DrawingError;
+use crate::curve::{Arc, Chords, bulged};
 
 /// Points in the order of an entity.
 pub(super) struct Shape {

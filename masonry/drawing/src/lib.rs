@@ -1,13 +1,13 @@
 //! Drawings: closed outlines and lines in a plane, with their layer and their place in the file that they come from.
 //!
-//! A [`Drawing`] is what a file says, without repairs: [`import`](crate::import) makes a scene of it.
+//! A [`Drawing`] is what a file says, without repairs: the crate `masonry` makes a scene of it.
 //!
 //! ```
-//! use masonry::drawing::{Drawing, Format};
+//! use masonry_drawing::{Drawing, Format};
 //! let text = r#"[{ "material": "stone", "corners": [[0, 0], [2, 0], [2, 1], [0, 1]] }]"#;
 //! let drawing = Drawing::read(text.as_bytes(), Format::List)?;
 //! assert_eq!(drawing.outlines[0].layer, "stone");
-//! # Ok::<(), masonry::drawing::DrawingError>(())
+//! # Ok::<(), masonry_drawing::DrawingError>(())
 //! ```
 
 mod compas;

@@ -68,11 +68,13 @@ pub struct Change {
 }
 
 impl Change {
-    pub(crate) fn new(what: impl Into<String>, place: &Place) -> Self {
+    /// A change without a distance.
+    pub fn new(what: impl Into<String>, place: &Place) -> Self {
         Self { what: what.into(), place: place.clone(), by: None }
     }
 
-    pub(crate) fn by(what: impl Into<String>, place: &Place, by: f64) -> Self {
+    /// A change by a distance, in units of the drawing.
+    pub fn by(what: impl Into<String>, place: &Place, by: f64) -> Self {
         Self { by: Some(by), ..Self::new(what, place) }
     }
 }

@@ -6,9 +6,9 @@ use nalgebra::{Matrix3, Point2, Vector2};
 
 use super::pairs::Record;
 use super::shapes::{self, Shape};
-use crate::drawing::error::shown;
-use crate::drawing::shapes::MOST_SHAPES;
-use crate::drawing::{Change, Drawing, DrawingError, DrawingErrorKind, Line, Outline, Place};
+use crate::error::shown;
+use crate::shapes::MOST_SHAPES;
+use crate::{Change, Drawing, DrawingError, DrawingErrorKind, Line, Outline, Place};
 
 /// Blocks in blocks. Chosen: drawings have three or four; a block in itself has no end.
 const DEEPEST: usize = 16;

@@ -12,7 +12,8 @@ pub struct Place {
 }
 
 impl Place {
-    pub(crate) fn new(entity: impl Into<String>, line: Option<usize>) -> Self {
+    /// An entity, and its line in the file if it has one.
+    pub fn new(entity: impl Into<String>, line: Option<usize>) -> Self {
         Self { entity: entity.into(), line }
     }
 }

@@ -2,9 +2,9 @@
 
 use nalgebra::Point2;
 
-use crate::drawing::error::shown;
-use crate::drawing::shapes::MOST_SHAPES;
-use crate::drawing::{DrawingError, DrawingErrorKind, Place};
+use crate::error::shown;
+use crate::shapes::MOST_SHAPES;
+use crate::{DrawingError, DrawingErrorKind, Place};
 
 /// A code and its value.
 #[derive(Debug, Clone, Copy)]

@@ -4,9 +4,9 @@ use nalgebra::Point2;
 use svgtypes::{SimplePathSegment, SimplifyingPathParser};
 
 use super::Part;
-use crate::drawing::curve::{Chords, cubic};
-use crate::drawing::shapes::MOST_CORNERS;
-use crate::drawing::{DrawingError, DrawingErrorKind, Place};
+use crate::curve::{Chords, cubic};
+use crate::shapes::MOST_CORNERS;
+use crate::{DrawingError, DrawingErrorKind, Place};
 
 pub(super) fn parts(text: &str, place: &Place) -> Result<Vec<Part>, DrawingError> {
     let mut parts: Vec<Part> = Vec::new();
