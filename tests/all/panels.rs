@@ -189,7 +189,8 @@ mod by_pivots {
         let outcome = solve(&panels::scene("panel_no_floor").route(Route::Lemke)).unwrap();
         assert_eq!(outcome.solve.status, lcp::Status::RayTermination);
         assert!(outcome.state.is_none());
-        let tried = |form: &str| outcome.solve.attempts.iter().any(|line| line.starts_with(form));
+        let tried =
+            |form: &str| outcome.solve.attempts.iter().any(|it| it.to_string().starts_with(form));
         assert!(tried("coulomb") && tried("mixed"), "{:?}", outcome.solve.attempts);
         let rates = outcome.mechanism.as_ref().unwrap();
         assert!(rates.iter().flatten().all(|rate| rate.y < 0.0), "all blocks fall");

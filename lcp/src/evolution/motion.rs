@@ -9,6 +9,7 @@ use crate::{Contact2d, Error, Status};
 
 /// How steps of a [`Evolution`](crate::Evolution) have ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub enum Ending {
     /// The bodies are under the loads and gaps that they were taken to, and may move.

@@ -16,7 +16,7 @@ use crate::recover;
 use crate::scene::{Output, Scene, SceneError, Solver};
 
 /// The version of the format.
-const VERSION: u32 = 4;
+const VERSION: u32 = 5;
 /// What stands between the data and their checksum.
 const SEAL: &str = ",\"checksum\":\"";
 

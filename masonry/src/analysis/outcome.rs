@@ -2,7 +2,7 @@
 
 use nalgebra::Vector2;
 
-pub use crate::data::info::{PhaseTime, RouteEnd, SoftReport, SolveInfo};
+pub use crate::data::info::{Attempt, PhaseTime, RouteEnd, SoftReport, SolveInfo};
 pub use crate::data::state::{
     ContactState, ContactStatus, ElementStress, FilmStress, Principal, Reaction, State,
 };

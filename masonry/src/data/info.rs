@@ -41,8 +41,8 @@ pub struct SolveInfo {
     pub form: String,
     /// Order of the complementarity problem; of the augmented Lagrangian method, of its linear systems.
     pub order: usize,
-    /// One line for each attempt of any route: form, covering vector, start basis, outcome.
-    pub attempts: Vec<String>,
+    /// All attempts of all routes, in order.
+    pub attempts: Vec<Attempt>,
     /// Pivots over all attempts.
     pub pivots: usize,
     /// Steps of the interior-point method, programs, re-centrings of springs, or iterations of the
@@ -87,6 +87,65 @@ impl SolveInfo {
             coulomb_residuals: None,
         }
     }
+}
+
+/// One attempt to find a state; reports write it as a sentence.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+#[non_exhaustive]
+pub enum Attempt {
+    /// A path of pivots.
+    Pivots {
+        /// The form, by its name.
+        form: String,
+        /// The name of the start basis that was given, unless the solver found its own.
+        start: Option<String>,
+        /// Covering vector, end and pivots.
+        path: lcp::lemke::Attempt,
+    },
+    /// A method on the sparse problem.
+    Sparse {
+        /// The route.
+        route: Route,
+        /// `Solved`, or why not.
+        status: lcp::Status,
+        /// Steps, programs, rounds or iterations.
+        iterations: usize,
+        /// Matrices factorised.
+        factorisations: usize,
+        /// The worst residual \[-\].
+        #[serde(deserialize_with = "or_infinite")]
+        residual: f64,
+    },
+    /// The motion of blocks that are loaded slowly.
+    Motion {
+        /// How it ended.
+        ending: lcp::Ending,
+        /// Matrices factorised.
+        factorisations: usize,
+    },
+    /// The search for forces within friction that balance the loads.
+    Forces {
+        /// `Solved` if they are an answer, `Infeasible` if there are none, or what kept them from being one.
+        status: lcp::Status,
+        /// Whether there are such forces.
+        are_found: bool,
+        /// Matrices factorised.
+        factorisations: usize,
+    },
+    /// The states of the contacts, solved anew with all displacements as unknowns.
+    Refinement {
+        /// The worst residual \[-\].
+        #[serde(deserialize_with = "or_infinite")]
+        residual: f64,
+    },
+    /// A route that was left because no forces balance the loads.
+    Left {
+        /// The route.
+        route: Route,
+        /// Its steps up to there.
+        iterations: usize,
+    },
 }
 
 /// One iteration of the augmented Lagrangian method.

@@ -6,7 +6,7 @@
 use lcp::{ContactState, Residuals, Status};
 
 use super::{Answer, sparse};
-use crate::data::info::SolveInfo;
+use crate::data::info::{Attempt, SolveInfo};
 use crate::data::statics::Statics;
 use crate::forms::Sparse;
 use crate::method::statics::Decision;
@@ -19,33 +19,23 @@ const FORM: &str = "admissible forces";
 /// The answer that a decision is, to this tolerance.
 pub fn answer(system: &System, sparse: &Sparse, decision: &Decision, tolerance: f64) -> Answer {
     let problem = &sparse.problem;
-    let (status, at_rest, line) = match &decision.statics {
+    let (status, at_rest) = match &decision.statics {
         Statics::Admissible(forces) if system.is_at_rest() => {
             let (state, residuals) = rested(system, sparse, forces, tolerance);
             let solved = residuals.worst() <= tolerance;
             let status = if solved { Status::Solved } else { Status::AlmostSolved };
-            let line =
-                if solved { "balance the loads of blocks at rest" } else { "are not exact enough" };
-            (status, Some((state, residuals)), line)
+            (status, Some((state, residuals)))
         }
-        Statics::Admissible(_) => (
-            Status::Stalled,
-            None,
-            "balance the loads; whether displacements fit them, they do not say",
-        ),
-        Statics::Impossible(_) => {
-            (Status::Infeasible, None, "that balance the loads do not exist, proved by a motion")
-        }
-        Statics::Open if decision.is_cancelled => {
-            (Status::Cancelled, None, "were not yet found when the search was cancelled")
-        }
-        Statics::Open => (Status::Stalled, None, "were neither found nor proved not to exist"),
+        Statics::Impossible(_) => (Status::Infeasible, None),
+        Statics::Open if decision.is_cancelled => (Status::Cancelled, None),
+        Statics::Admissible(_) | Statics::Open => (Status::Stalled, None),
     };
+    let are_found = matches!(decision.statics, Statics::Admissible(_));
     let residuals = at_rest.as_ref().map_or(sparse::UNKNOWN, |(_, residuals)| *residuals);
     let info = SolveInfo {
         form: FORM.to_owned(),
         order: 3 * system.bodies.len() + system.points() + system.friction.len(),
-        attempts: vec![format!("forces: {line}, after {} factorisations", decision.steps)],
+        attempts: vec![Attempt::Forces { status, are_found, factorisations: decision.steps }],
         iterations: decision.steps,
         factorisations: decision.steps,
         proved: status == Status::Infeasible,

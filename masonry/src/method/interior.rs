@@ -5,14 +5,12 @@
 //! friction soft springs tell whether there is an equilibrium.
 
 use lcp::{
-    Contact2d, ContactState, InteriorPoint, InteriorPointSettings, Iteration, Solution, Solver,
-    Status,
+    Contact2d, ContactState, InteriorPoint, InteriorPointSettings, Iteration, Solver, Status,
 };
 
 use super::loading::{self, Led, Loading};
-use super::sparse::Found;
 use super::{Answer, Method, Observer, Request, RouteError, RouteProgress, sparse};
-use crate::data::info::{SolveInfo, Way};
+use crate::data::info::{Attempt, SolveInfo, Way};
 use crate::data::motion::Motion;
 use crate::forms::Sparse;
 use crate::scene::Route;
@@ -46,7 +44,7 @@ impl Method for Interior<'_> {
             InteriorPoint::new(InteriorPointSettings { tolerance, max_iterations, ..defaults })
         };
         let solution = solver.solve_observed(problem, &mut |at| observer(step(at, 0)))?;
-        let path = self.answer(solution);
+        let path = sparse::solved(Route::Interior, self.sparse, solution);
         let is_over =
             matches!(path.info.status, Status::Solved | Status::Cancelled | Status::Infeasible);
         if is_over || !may_move { Ok(path) } else { self.led(Some(path), request, observer) }
@@ -54,10 +52,6 @@ impl Method for Interior<'_> {
 }
 
 impl Interior<'_> {
-    fn answer(&self, solution: Solution<Contact2d>) -> Answer {
-        sparse::answer(Route::Interior, self.sparse, Found::of(self.sparse, solution), None)
-    }
-
     /// Where the loading leads to, after a path that has no answer.
     fn led(
         &self,
@@ -83,34 +77,19 @@ impl Interior<'_> {
     }
 
     fn answer_of(&self, led: Led) -> Result<Answer, RouteError> {
-        let status = led.ending.status();
+        let Led { ending, factorisations, .. } = led;
         let problem = self.sparse.problem.slid(&led.slips)?;
-        let residuals = problem.residuals(&led.state);
-        let line = format!(
-            "interior: loaded slowly, the blocks {}, after {} factorisations",
-            match led.ending {
-                lcp::Ending::Rests => "have come to rest".to_owned(),
-                lcp::Ending::Flows => "go on moving, and nothing resists them".to_owned(),
-                lcp::Ending::Left => "have moved beyond small displacements".to_owned(),
-                _ => format!("have come to no end: {status}"),
-            },
-            led.factorisations
-        );
-        let found = Found {
-            status,
-            state: led.state,
-            residuals,
+        let info = SolveInfo {
             iterations: led.iterations,
-            factorisations: led.factorisations,
-            proof: None,
+            factorisations,
+            way: if ending.rests() && led.steps == 1 { Way::Law } else { Way::Motion },
+            ..SolveInfo::new(Route::Interior, ending.status(), problem.residuals(&led.state))
         };
-        let mut answer = sparse::answer(Route::Interior, self.sparse, found, None);
-        let is_one_step = led.ending == lcp::Ending::Rests && led.steps == 1;
-        answer.info.way = if is_one_step { Way::Law } else { Way::Motion };
-        answer.info.attempts = vec![line];
+        let mut answer = sparse::answer(self.sparse, info, led.state);
+        answer.info.attempts = vec![Attempt::Motion { ending, factorisations }];
         answer.account = Some(led.account);
         answer.moved = Some(self.sparse.by_rows(&led.slips));
-        if status == Status::NoEquilibrium {
+        if answer.info.status == Status::NoEquilibrium {
             answer.motion = Some(Motion::Velocities(led.velocity));
         }
         Ok(answer)

@@ -6,11 +6,11 @@
 //! that there is no equilibrium: a rigid block that just fits between two walls may fall, or may be jammed. A
 //! solution of the mixed form is also measured in the paper's form.
 
-use lcp::lemke::{Attempt, AttemptCovering, AttemptEnd, AttemptStart};
+use lcp::lemke::{self, AttemptStart};
 use lcp::{Basis, Covering, Lemke, LemkeSettings, Residuals, Side, Status, WarmStart};
 
 use super::{Answer, Method, Observer, Request, RouteError, RouteProgress, auto};
-use crate::data::info::SolveInfo;
+use crate::data::info::{Attempt, SolveInfo};
 use crate::data::motion::Motion;
 use crate::data::route::Route;
 use crate::data::state::RowState;
@@ -68,7 +68,7 @@ impl Method for Pivots<'_> {
 struct Pivoting<'a> {
     request: &'a Request,
     start: Option<&'a Start>,
-    attempts: Vec<String>,
+    attempts: Vec<Attempt>,
     pivots: usize,
     factorisations: usize,
     /// The paper's form, once it was tried: any answer is measured against it.
@@ -84,8 +84,11 @@ impl Pivoting<'_> {
             })?;
             self.pivots += solution.info.pivots;
             self.factorisations += solution.info.factorisations;
-            let attempts = solution.info.attempts.iter();
-            self.attempts.extend(attempts.map(|it| describe(form.kind, start, it)));
+            self.attempts.extend(solution.info.attempts.iter().map(|path| Attempt::Pivots {
+                form: form.kind.name().to_owned(),
+                start: start.filter(|_| is_given(path)).map(str::to_owned),
+                path: path.clone(),
+            }));
             // A singular start was replaced by one that the solver found; so would the next be.
             let is_own = start.is_some_and(|name| name != Start::LAST);
             let replaced = is_own && !solution.info.attempts.iter().any(is_given);
@@ -165,29 +168,6 @@ fn covering(form: &Form, start: &Start) -> Vec<f64> {
     (0..form.order()).map(|pair| if cone(pair) { COHESION } else { 1.0 }).collect()
 }
 
-fn is_given(attempt: &Attempt) -> bool {
+fn is_given(attempt: &lemke::Attempt) -> bool {
     attempt.start == AttemptStart::Given
-}
-
-fn describe(kind: FormKind, given: Option<&str>, attempt: &Attempt) -> String {
-    let end = match attempt.end {
-        AttemptEnd::Complementary => "complementary basis",
-        AttemptEnd::Ray => "ray",
-        AttemptEnd::PivotLimit => "pivot limit",
-        AttemptEnd::Cycle => "cycle",
-        AttemptEnd::Singular => "singular basis",
-        AttemptEnd::Cancelled => "cancelled",
-        _ => "ended",
-    };
-    let start = match given {
-        Some(name) if is_given(attempt) => name.to_owned(),
-        _ => attempt.start.to_string(),
-    };
-    let covering = match attempt.covering {
-        AttemptCovering::Given => "cohesive".to_owned(),
-        covering => covering.to_string(),
-    };
-    let (kind, pivots) = (kind.name(), attempt.pivots);
-    let residual = attempt.residual.map_or(String::new(), |it| format!(", residual {it:.1e}"));
-    format!("{kind}: start {start}, covering {covering}: {end} after {pivots} pivots{residual}")
 }

@@ -13,9 +13,8 @@ use lcp::{
     Residuals, Solver, Status, WarmStart,
 };
 
-use super::sparse::Found;
 use super::{Answer, Method, Observer, Request, RouteError, RouteProgress, sparse};
-use crate::data::info::SoftReport;
+use crate::data::info::{SoftReport, SolveInfo};
 use crate::forms::Sparse;
 use crate::scene::Route;
 
@@ -66,8 +65,13 @@ impl Method for Sweeps<'_> {
                 break Status::Solved;
             }
         };
-        let report = rounds.report(stiffness);
-        Ok(sparse::answer(Route::Pgs, self.sparse, rounds.into_found(status), report))
+        let info = SolveInfo {
+            iterations: rounds.done,
+            factorisations: rounds.factorisations,
+            soft: rounds.report(stiffness),
+            ..SolveInfo::new(Route::Pgs, status, rounds.residuals)
+        };
+        Ok(sparse::answer(self.sparse, info, rounds.state))
     }
 }
 
@@ -213,16 +217,5 @@ impl<'a> Rounds<'a> {
             share: *share,
             displacement_error: (size > 0.0).then(|| change / size),
         })
-    }
-
-    fn into_found(self, status: Status) -> Found {
-        Found {
-            status,
-            state: self.state,
-            residuals: self.residuals,
-            iterations: self.done,
-            factorisations: self.factorisations,
-            proof: None,
-        }
     }
 }

@@ -9,7 +9,6 @@ use std::ops::ControlFlow;
 use lcp::qp::SoftConstraints;
 use lcp::{QuadraticProgram, QuadraticProgramSettings, Solver, Status};
 
-use super::sparse::Found;
 use super::{Answer, Method, Observer, Request, RouteError, sparse};
 use crate::data::info::SoftReport;
 use crate::forms::Sparse;
@@ -36,7 +35,7 @@ impl Method for Programs<'_> {
             next
         })?;
         let is_over = is_cancelled || solution.status == Status::Cancelled;
-        let report = match request.soft {
+        let soft = match request.soft {
             Some(epsilon) if !is_over => {
                 let biased = program.solve_soft(problem, epsilon)?;
                 Some(SoftReport {
@@ -49,6 +48,8 @@ impl Method for Programs<'_> {
             }
             _ => None,
         };
-        Ok(sparse::answer(Route::Qp, self.sparse, Found::of(self.sparse, solution), report))
+        let mut answer = sparse::solved(Route::Qp, self.sparse, solution);
+        answer.info.soft = soft;
+        Ok(answer)
     }
 }

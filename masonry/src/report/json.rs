@@ -32,6 +32,7 @@ pub fn result(outcome: &Outcome, files: &[String]) -> Result<String, serde_json:
         "warnings": judgement.warnings.as_slice(),
         "status": Value::of(&solve.status)?,
     };
+    let attempts: Vec<String> = solve.attempts.iter().map(ToString::to_string).collect();
     object.extend(reason(outcome).map(|why| ("reason".to_owned(), why.into())));
     object.extend(members! {
         "title": &outcome.title,
@@ -42,7 +43,7 @@ pub fn result(outcome: &Outcome, files: &[String]) -> Result<String, serde_json:
         "routes": Value::of(&solve.routes)?,
         "form": &solve.form,
         "order": solve.order,
-        "attempts": solve.attempts.as_slice(),
+        "attempts": attempts.as_slice(),
         "pivots": solve.pivots,
         "iterations": solve.iterations,
     });

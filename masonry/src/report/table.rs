@@ -147,7 +147,7 @@ fn solution(outcome: &Outcome) -> Vec<Said> {
     }
     rows.push(("factorisations", solve.factorisations.to_string()));
     for (index, attempt) in solve.attempts.iter().enumerate() {
-        rows.push((if index == 0 { "attempts" } else { "" }, attempt.clone()));
+        rows.push((if index == 0 { "attempts" } else { "" }, attempt.to_string()));
     }
     if let Some(soft) = &solve.soft {
         rows.push(("soft springs", bias(soft)));

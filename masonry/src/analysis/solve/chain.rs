@@ -8,7 +8,7 @@ use lcp::{Contact2d, Status};
 use nalgebra::Vector2;
 
 use super::{Clock, Event, SolveError, named};
-use crate::data::info::{RouteEnd, SolveInfo};
+use crate::data::info::{Attempt, RouteEnd, SolveInfo};
 use crate::data::state::State;
 use crate::data::statics::Statics;
 use crate::forms::reduction::Reduction;
@@ -296,10 +296,7 @@ impl<'a> Chain<'a> {
             if checks.hold(tolerance) {
                 attempt.info.status = Status::Solved;
                 attempt.info.residuals = residuals;
-                attempt.info.attempts.push(format!(
-                    "refined on all displacements, residual {:.1e}",
-                    residuals.worst()
-                ));
+                attempt.info.attempts.push(Attempt::Refinement { residual: residuals.worst() });
                 (attempt.state, attempt.checks) = (Some(state), Some(checks));
             }
         }
@@ -344,10 +341,7 @@ impl<'a> Chain<'a> {
         {
             let SolveInfo { status, attempts, iterations, .. } = &mut answer.info;
             *status = Status::Stalled;
-            *attempts = vec![format!(
-                "{}: left after {iterations} steps, since no forces inside friction balance the loads",
-                route.name()
-            )];
+            *attempts = vec![Attempt::Left { route, iterations: *iterations }];
         }
         let account = answer.account;
         let is_at_rest = account.is_some() && answer.info.status == Status::Solved;

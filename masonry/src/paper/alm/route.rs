@@ -3,8 +3,9 @@
 use lcp::Error;
 
 use super::{AlmError, Settings, solve};
+use crate::data::info::SolveInfo;
 use crate::forms::Sparse;
-use crate::method::sparse::{self, Found};
+use crate::method::sparse;
 use crate::method::{Answer, Method, Observer, Request, RouteError, RouteProgress};
 use crate::scene::Route;
 
@@ -24,18 +25,15 @@ impl Method for Multipliers<'_> {
             number += 1;
             observer(RouteProgress::Iteration { number, residual: at.unbalance })
         })?;
-        let found = Found {
-            status: answer.status,
-            state: answer.state,
-            residuals: answer.residuals,
+        let info = SolveInfo {
             iterations: answer.convergence.len(),
             factorisations: answer.factorisations,
-            proof: None,
+            convergence: answer.convergence,
+            ..SolveInfo::new(Route::Alm, answer.status, answer.residuals)
         };
-        let mut report = sparse::answer(Route::Alm, self.sparse, found, None);
-        report.info.order = problem.displacements();
-        report.info.convergence = answer.convergence;
-        Ok(report)
+        let mut answer = sparse::answer(self.sparse, info, answer.state);
+        answer.info.order = problem.displacements();
+        Ok(answer)
     }
 }
 

@@ -4,8 +4,9 @@
 use lcp::{ContactState, Status};
 
 use super::{MortaredError, MortaredWall, Settings};
+use crate::data::info::SolveInfo;
 use crate::forms::Sparse;
-use crate::method::sparse::{self, Found};
+use crate::method::sparse;
 use crate::method::{Answer, Method, Observer, Request, RouteError, RouteProgress};
 use crate::model::Model;
 use crate::scene::Route;
@@ -62,18 +63,15 @@ impl Method for Strips<'_> {
             Status::Solved if residuals.worst() > request.tolerance => Status::AlmostSolved,
             status => status,
         };
-        let found = Found {
-            status,
-            state,
-            residuals,
+        let info = SolveInfo {
             iterations: answer.convergence.len(),
             factorisations: answer.factorisations,
-            proof: None,
+            convergence: answer.convergence,
+            ..SolveInfo::new(Route::Alm, status, residuals)
         };
-        let mut report = sparse::answer(Route::Alm, self.sparse, found, None);
-        report.info.order = wall.without_films().displacements();
-        report.info.convergence = answer.convergence;
-        Ok(report)
+        let mut answer = sparse::answer(self.sparse, info, state);
+        answer.info.order = wall.without_films().displacements();
+        Ok(answer)
     }
 }
 

@@ -1,7 +1,8 @@
 //! A running-bond wall with an invented state: reports are tested whatever solvers find.
 
 use masonry::analysis::outcome::{
-    ContactState, ContactStatus, ElementStress, Outcome, PhaseTime, Principal, Reaction, State,
+    Attempt, ContactState, ContactStatus, ElementStress, Outcome, PhaseTime, Principal, Reaction,
+    State,
 };
 use masonry::analysis::solve::solve;
 use masonry::data::verdict::{Evidence, Verdict};
@@ -69,7 +70,6 @@ pub(crate) fn solved(wall: Wall) -> Outcome {
     "Solved".clone_into(&mut solve.routes[0].end);
     solve.routes[0].seconds = 0.8;
     "coulomb".clone_into(&mut solve.form);
-    solve.attempts = vec!["coulomb, covering vector e, empty basis: solved".to_owned()];
     (solve.order, solve.pivots, solve.iterations, solve.factorisations) = (339, 412, 0, 3);
     solve.residuals = lcp::Residuals {
         equation: 2.3e-15,
@@ -111,7 +111,11 @@ fn seed() -> Scene {
 pub(crate) fn unsolved(wall: Wall) -> Outcome {
     let mut outcome = solved(wall);
     outcome.solve.status = lcp::Status::RayTermination;
-    outcome.solve.attempts.push("stewart-trinkle, covering vector e: secondary ray".to_owned());
+    if let Some(Attempt::Pivots { start, mut path, .. }) = outcome.solve.attempts.first().cloned() {
+        (path.end, path.residual) = (lcp::lemke::AttemptEnd::Ray, None);
+        let form = "stewart-trinkle".to_owned();
+        outcome.solve.attempts.push(Attempt::Pivots { form, start, path });
+    }
     outcome.state = None;
     outcome.checks = None;
     outcome.reactions.clear();
