@@ -2,4 +2,5 @@
 
 pub mod checks;
 pub(crate) mod moving;
+pub(crate) mod step;
 pub mod verdict;

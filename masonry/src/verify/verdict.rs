@@ -13,7 +13,7 @@ mod unique;
 
 use nalgebra::Vector2;
 
-use crate::data::info::{SolveInfo, Way};
+use crate::data::info::Way;
 use crate::data::state::State;
 use crate::data::statics::Statics;
 use crate::data::verdict::{Evidence, Judgement, Verdict};
@@ -25,26 +25,15 @@ use crate::recover;
 use crate::system::displaced_nodes;
 use crate::system::mass;
 use crate::system::rigid::Modes;
+use crate::verify::step::{LoadingEnd, StepResult};
 
 pub(crate) use unique::circulating;
-
-/// Where loading from a state without stresses leads rigid blocks that some forces within friction would hold.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum LoadingEnd {
-    ToRest,
-    ToFall,
-    /// Neither came out.
-    Nowhere,
-}
 
 /// All that the verdict depends on.
 #[derive(Clone, Copy)]
 pub(crate) struct Findings<'a> {
     pub(crate) model: &'a Model,
-    pub(crate) info: &'a SolveInfo,
-    pub(crate) state: Option<&'a State>,
-    pub(crate) statics: Option<&'a Statics>,
-    pub(crate) led: Option<LoadingEnd>,
+    pub(crate) step: &'a StepResult,
     /// The load history, of several steps only.
     pub(crate) history: Option<&'a History>,
     /// Unusual magnitudes of the scene.
@@ -57,12 +46,13 @@ pub(crate) struct Findings<'a> {
 
 impl Judgement {
     pub(crate) fn of(known: &Findings<'_>) -> Self {
-        let movement = known.state.map(|state| Drift::of(known.model, state));
-        let is_solved = known.info.status == lcp::Status::Solved;
-        let (verdict, evidence) = match known.statics {
+        let movement = known.step.state.as_ref().map(|state| Drift::of(known.model, state));
+        let StepResult { info, statics, loading, .. } = known.step;
+        let is_solved = known.step.is_solved();
+        let (verdict, evidence) = match statics {
             Some(Statics::Impossible(_)) => (Verdict::Falls, Evidence::NoAdmissibleForces),
-            _ if known.led == Some(LoadingEnd::ToFall) => (Verdict::Falls, Evidence::Motion),
-            _ if known.led == Some(LoadingEnd::Nowhere) => {
+            _ if *loading == Some(LoadingEnd::ToFall) => (Verdict::Falls, Evidence::Motion),
+            _ if *loading == Some(LoadingEnd::Nowhere) => {
                 (Verdict::Undecided, Evidence::AdmissibleForces)
             }
             _ if is_solved && !movement.is_some_and(|movement| is_too_far(known, movement)) => {
@@ -74,9 +64,7 @@ impl Judgement {
             Some(Statics::Admissible(_)) if known.at_rest => {
                 (Verdict::Undecided, Evidence::AdmissibleForces)
             }
-            _ if known.info.status == lcp::Status::NoEquilibrium => {
-                (Verdict::Falls, Evidence::Motion)
-            }
+            _ if info.status == lcp::Status::NoEquilibrium => (Verdict::Falls, Evidence::Motion),
             Some(Statics::Admissible(_)) => (Verdict::Undecided, Evidence::AdmissibleForces),
             Some(Statics::Open) | None => (Verdict::Undecided, Evidence::None),
         };
@@ -88,13 +76,14 @@ impl Judgement {
 /// Whether displacements are too large for the state to mean anything. One that only a motion leads to may be at the end of
 /// a fall.
 fn is_too_far(known: &Findings<'_>, movement: Drift) -> bool {
-    movement.is_too_large() || (known.info.way == Way::Motion && movement.is_large())
+    movement.is_too_large() || (known.step.info.way == Way::Motion && movement.is_large())
 }
 
 fn warnings(known: &Findings<'_>, verdict: Verdict, movement: Option<Drift>) -> Vec<String> {
     let mut list = known.unusual.to_vec();
     list.extend(known.model.of_dry_joints());
-    let may_move = known.history.is_some() || known.led.is_some() || known.info.way == Way::Motion;
+    let StepResult { info, state, loading, .. } = known.step;
+    let may_move = known.history.is_some() || loading.is_some() || info.way == Way::Motion;
     let is_open = verdict == Verdict::Undecided && may_move;
     list.extend(is_open.then(|| known.model.of_hard_joints()).flatten());
     list.extend(may_move.then(|| mass::of_unit_density(known.model)).flatten());
@@ -105,7 +94,7 @@ fn warnings(known: &Findings<'_>, verdict: Verdict, movement: Option<Drift>) -> 
             sentence::of_movement(movement)
         ));
     }
-    if known.circulating > 0 && known.state.is_some() {
+    if known.circulating > 0 && state.is_some() {
         let blocks = "Displacements, stresses and the resultants of joints that do not meet in a corner are \
                       not affected.";
         let rigid = "One of many sets that balance the loads is shown. Joints that slide while the load grows \

@@ -5,7 +5,6 @@ use std::ops::ControlFlow;
 use web_time::Instant;
 
 use lcp::{Contact2d, Status};
-use nalgebra::Vector2;
 
 use super::{Clock, Event, SolveError, named};
 use crate::data::info::{Attempt, RouteEnd, SolveInfo};
@@ -13,6 +12,7 @@ use crate::data::state::State;
 use crate::data::statics::Statics;
 use crate::forms::reduction::Reduction;
 use crate::forms::{Sparse, Start};
+use crate::history::energy::FrictionWork;
 use crate::method::auto::{self, Rank};
 use crate::method::forces;
 use crate::method::interior::Interior;
@@ -30,30 +30,32 @@ use crate::recover;
 use crate::scene::Route;
 use crate::system::{System, mass};
 use crate::verify::checks::Checks;
-use crate::verify::verdict::{Drift, LoadingEnd};
+use crate::verify::step::{LoadingEnd, StepResult};
+use crate::verify::verdict::Drift;
 
-/// The outcome of a route.
+/// A result, with what only the steps around it ask for.
 pub(super) struct Tried {
-    pub(super) info: SolveInfo,
-    pub(super) state: Option<State>,
-    pub(super) checks: Option<Checks>,
-    pub(super) mechanism: Option<Vec<Vec<Vector2<f64>>>>,
+    pub(super) result: StepResult,
+    /// Where pivots ended, if that is a state.
     pub(super) basis: Option<Start>,
-    /// The decision on admissible forces, if it was made.
-    pub(super) statics: Option<Statics>,
-    /// Where loading leads rigid blocks at rest, if that was asked.
-    pub(super) led: Option<LoadingEnd>,
     /// How far every contact point slid \[m\] before the slip of the state, if a motion led there.
     pub(super) moved: Option<Vec<f64>>,
-    /// Works and energies on the way.
-    pub(super) account: Option<lcp::Account>,
-    /// The sparse problem, if a route was solved on it.
-    pub(super) sparse: Option<Sparse>,
+    /// Works and energies on the way, if blocks moved.
+    account: Option<lcp::Account>,
 }
 
 impl Tried {
     fn rank(&self) -> Rank {
-        Rank::of(&self.info, self.mechanism.is_some())
+        Rank::of(&self.result.info, self.result.mechanism.is_some())
+    }
+
+    /// The work of friction in the step; `model` is that of the step.
+    pub(super) fn friction(&self, model: &Model) -> FrictionWork {
+        match (&self.account, &self.result.state) {
+            (Some(account), _) => FrictionWork::of_way(account),
+            (None, Some(state)) => FrictionWork::of_step(model, &state.contacts),
+            (None, None) => FrictionWork::default(),
+        }
     }
 }
 
@@ -62,6 +64,8 @@ pub(super) struct Before<'a> {
     /// The loads, gaps and supports there, with slips measured from the state.
     pub(super) problem: Contact2d,
     pub(super) state: &'a State,
+    /// Where pivots ended.
+    pub(super) basis: Option<&'a Start>,
 }
 
 /// A model on its way through the routes.
@@ -72,8 +76,6 @@ pub(super) struct Chain<'a> {
     pub(super) with_stresses: bool,
     pub(super) clock: &'a mut Clock,
     pub(super) observer: &'a mut dyn FnMut(Event) -> ControlFlow<()>,
-    /// The basis of the step before.
-    start: Option<Start>,
     before: Option<Before<'a>>,
     sparse: Option<Sparse>,
     /// Whether there are admissible forces; asked at most once.
@@ -98,7 +100,6 @@ impl<'a> Chain<'a> {
             with_stresses,
             clock,
             observer,
-            start: None,
             before: None,
             sparse: None,
             decision: None,
@@ -106,16 +107,15 @@ impl<'a> Chain<'a> {
         }
     }
 
-    /// The same from where the step before has ended: its basis, and its state.
-    pub(super) fn after(mut self, start: Option<Start>, before: Option<Before<'a>>) -> Self {
-        (self.start, self.before) = (start, before);
-        self
+    /// The same from where the step before has ended.
+    pub(super) fn after(self, before: Option<Before<'a>>) -> Self {
+        Self { before, ..self }
     }
 
-    /// The attempt that says most; with all lines of all of them.
-    pub(super) fn run(mut self, routes: &[Choice]) -> Result<Tried, SolveError> {
+    /// The route that says most, with the attempts of all of them; and the sparse problem, if it was built.
+    pub(super) fn run(mut self, routes: &[Choice]) -> Result<(Tried, Option<Sparse>), SolveError> {
         let has_friction = !self.system.friction.is_empty();
-        let (mut ends, mut lines, mut pivots) = (Vec::new(), Vec::new(), 0);
+        let (mut ends, mut attempts, mut pivots) = (Vec::new(), Vec::new(), 0);
         let mut best: Option<Tried> = None;
         let mut refusal = None;
         for (position, choice) in routes.iter().enumerate() {
@@ -134,16 +134,17 @@ impl<'a> Chain<'a> {
             self.may_be_cut =
                 auto::may_be_cut(routes[position + 1..].iter().map(|choice| choice.route));
             match self.attempt(choice.route) {
-                Ok(mut attempt) => {
-                    attempt.info.because.clone_from(&choice.because);
-                    end(attempt.info.status.to_string());
-                    lines.append(&mut attempt.info.attempts);
-                    pivots += attempt.info.pivots;
-                    let is_cancelled = attempt.info.status == Status::Cancelled;
-                    let is_final = attempt.rank().is_final(has_friction) || is_cancelled;
-                    let is_better = best.as_ref().is_none_or(|best| attempt.rank() < best.rank());
+                Ok(mut tried) => {
+                    let info = &mut tried.result.info;
+                    info.because.clone_from(&choice.because);
+                    end(info.status.to_string());
+                    attempts.append(&mut info.attempts);
+                    pivots += info.pivots;
+                    let is_cancelled = info.status == Status::Cancelled;
+                    let is_final = tried.rank().is_final(has_friction) || is_cancelled;
+                    let is_better = best.as_ref().is_none_or(|best| tried.rank() < best.rank());
                     if is_better || is_cancelled {
-                        best = Some(attempt);
+                        best = Some(tried);
                     }
                     if is_final {
                         break;
@@ -162,17 +163,15 @@ impl<'a> Chain<'a> {
             (None, Some(refusal)) => return Err(refusal),
             (None, None) => unreachable!("every plan has a route"),
         };
-        best.info.routes = ends;
-        best.info.attempts = lines;
-        best.info.pivots = pivots;
-        self.add_statics(&mut best);
-        self.add_loading(&mut best)?;
-        best.sparse = self.sparse;
-        Ok(best)
+        let result = &mut best.result;
+        (result.info.routes, result.info.attempts, result.info.pivots) = (ends, attempts, pivots);
+        self.add_statics(result);
+        self.add_loading(result)?;
+        Ok((best, self.sparse))
     }
 
     /// Whether any forces balance the loads, if the verdict needs it.
-    fn add_statics(&mut self, best: &mut Tried) {
+    fn add_statics(&mut self, best: &mut StepResult) {
         let is_far =
             best.state.as_ref().is_some_and(|state| Drift::of(self.model, state).is_large());
         if !auto::needs_statics(best.info.status, is_far, self.system.is_at_rest()) {
@@ -186,7 +185,7 @@ impl<'a> Chain<'a> {
     }
 
     /// Where loading from a state without stresses leads rigid blocks that have admissible forces, if the verdict needs it.
-    fn add_loading(&mut self, best: &mut Tried) -> Result<(), SolveError> {
+    fn add_loading(&mut self, best: &mut StepResult) -> Result<(), SolveError> {
         let has_friction = !self.system.friction.is_empty();
         if !auto::needs_loading(best.info.status, self.system.is_at_rest(), has_friction) {
             return Ok(());
@@ -202,12 +201,13 @@ impl<'a> Chain<'a> {
         let Answer { info, motion, .. } = self.timed(&method)?;
         best.info.attempts.extend(info.attempts);
         best.info.factorisations += info.factorisations;
-        best.led = Some(match info.status {
+        let end = match info.status {
             Status::Solved => LoadingEnd::ToRest,
             Status::NoEquilibrium => LoadingEnd::ToFall,
             _ => LoadingEnd::Nowhere,
-        });
-        if best.led == Some(LoadingEnd::ToFall) {
+        };
+        best.loading = Some(end);
+        if end == LoadingEnd::ToFall {
             let motion = motion.as_ref();
             best.mechanism = motion
                 .and_then(|motion| recover::mechanism(&model, &system, Some(&sparse), motion));
@@ -254,8 +254,8 @@ impl<'a> Chain<'a> {
             .clock
             .time("reduction", self.observer, || Reduction::new(system, None))
             .map_err(|error| named(error, model))?;
-        let start = self.start.take();
-        let pivots = Pivots { system, reduction: &reduction, start: start.as_ref() };
+        let start = self.before.as_ref().and_then(|before| before.basis);
+        let pivots = Pivots { system, reduction: &reduction, start };
         let answer = self.timed(&pivots)?;
         let with_stresses = self.with_stresses;
         let state = answer.rows.as_ref().map(|rows| {
@@ -263,19 +263,18 @@ impl<'a> Chain<'a> {
                 recover::recover(model, system, &reduction, rows, with_stresses)
             })
         });
-        let attempt = self.concluded(model, answer, state);
-        if attempt.info.status == Status::AlmostSolved {
-            self.refined(attempt)
-        } else {
-            Ok(attempt)
+        let mut tried = self.concluded(model, answer, state);
+        if tried.result.info.status == Status::AlmostSolved {
+            self.refine(&mut tried.result)?;
         }
+        Ok(tried)
     }
 
-    /// The answer on the states of its contacts, solved anew with all displacements as unknowns: the reduced
-    /// forms lose digits of flat bricks, and of huge friction. The given answer if that is not better.
-    fn refined(&mut self, mut attempt: Tried) -> Result<Tried, SolveError> {
+    /// Solves a result anew on the states of its contacts, with all displacements as unknowns: the reduced forms lose
+    /// digits of flat bricks, and of huge friction. The given result stays if that is not better.
+    fn refine(&mut self, result: &mut StepResult) -> Result<(), SolveError> {
         let Self { model, system, .. } = *self;
-        let Some(state) = &attempt.state else { return Ok(attempt) };
+        let Some(state) = &result.state else { return Ok(()) };
         let sparse = self.sparse()?;
         let given = sparse.state(model, system, state);
         let tolerance = self.request.tolerance;
@@ -294,14 +293,14 @@ impl<'a> Chain<'a> {
             );
             let checks = Checks::of(model, &state);
             if checks.hold(tolerance) {
-                attempt.info.status = Status::Solved;
-                attempt.info.residuals = residuals;
-                attempt.info.attempts.push(Attempt::Refinement { residual: residuals.worst() });
-                (attempt.state, attempt.checks) = (Some(state), Some(checks));
+                let info = &mut result.info;
+                (info.status, info.residuals) = (Status::Solved, residuals);
+                info.attempts.push(Attempt::Refinement { residual: residuals.worst() });
+                (result.state, result.checks) = (Some(state), Some(checks));
             }
         }
         self.sparse = Some(sparse);
-        Ok(attempt)
+        Ok(())
     }
 
     fn on_sparse(&mut self, route: Route) -> Result<Tried, SolveError> {
@@ -352,13 +351,12 @@ impl<'a> Chain<'a> {
         if has_compliances {
             self.sparse = Some(sparse);
         }
-        let attempt = Tried { moved, account, ..self.concluded(model, answer, state) };
-        let excess = attempt.checks.as_ref().map(|checks| checks.excess(self.request.tolerance));
-        match excess {
+        let tried = Tried { moved, account, ..self.concluded(model, answer, state) };
+        match self.excess(&tried) {
             Some(excess) if is_at_rest && excess > 1.0 && excess.is_finite() => {
-                Ok(self.finer(route, excess, attempt))
+                Ok(self.finer(route, excess, tried))
             }
-            _ => Ok(attempt),
+            _ => Ok(tried),
         }
     }
 
@@ -372,18 +370,23 @@ impl<'a> Chain<'a> {
         self.request.step_tolerance = 0.5 * loading::STEP_TOLERANCE / excess;
         // The rough answer stays if finer steps cannot be taken.
         let Ok(finer) = self.on_sparse(route) else { return rough };
-        let tolerance = self.request.tolerance;
-        let is_nearer = finer.checks.as_ref().is_some_and(|it| it.excess(tolerance) < excess);
+        let is_nearer = self.excess(&finer).is_some_and(|it| it < excess);
         let is_better = match finer.rank().cmp(&rough.rank()) {
             Ordering::Less => true,
             Ordering::Equal => is_nearer,
-            Ordering::Greater => finer.info.status == Status::Cancelled,
+            Ordering::Greater => finer.result.info.status == Status::Cancelled,
         };
         let (mut best, other) = if is_better { (finer, rough) } else { (rough, finer) };
-        best.info.iterations += other.info.iterations;
-        best.info.factorisations += other.info.factorisations;
-        best.info.attempts.splice(0..0, other.info.attempts);
+        let (info, other) = (&mut best.result.info, other.result.info);
+        info.iterations += other.iterations;
+        info.factorisations += other.factorisations;
+        info.attempts.splice(0..0, other.attempts);
         best
+    }
+
+    /// How many times the checks exceed their tolerance.
+    fn excess(&self, tried: &Tried) -> Option<f64> {
+        tried.result.checks.as_ref().map(|checks| checks.excess(self.request.tolerance))
     }
 
     /// A slip for every contact point, zero without friction.
@@ -455,8 +458,7 @@ impl<'a> Chain<'a> {
         let mechanism = motion.and_then(|motion| {
             recover::mechanism(self.model, self.system, self.sparse.as_ref(), motion)
         });
-        let basis = answer.basis;
-        let (statics, led, moved, account, sparse) = (None, None, None, None, None);
-        Tried { info, state, checks, mechanism, basis, statics, led, moved, account, sparse }
+        let result = StepResult { state, checks, mechanism, ..StepResult::new(info) };
+        Tried { result, basis: answer.basis, moved: None, account: None }
     }
 }

@@ -2,8 +2,7 @@
 
 use std::ops::ControlFlow;
 
-use lcp::Status;
-use nalgebra::Vector2;
+use lcp::{Contact2d, Status};
 
 use super::chain::{Before, Chain, Tried};
 use super::{Clock, Event, SolveError};
@@ -11,7 +10,6 @@ use crate::analysis::checkpoint::{Checkpoint, CheckpointError};
 use crate::analysis::outcome::{Frame, Outcome};
 use crate::data::info::SolveInfo;
 use crate::data::state::State;
-use crate::data::statics::Statics;
 use crate::data::verdict::Judgement;
 use crate::forms::{Sparse, Start};
 use crate::history::energy::{self, FrictionWork, Snapshot};
@@ -26,7 +24,8 @@ use crate::rounding::cleared;
 use crate::scene::{Scene, Solver};
 use crate::system::System;
 use crate::verify::checks::Checks;
-use crate::verify::verdict::{self, Findings, LoadingEnd};
+use crate::verify::step::StepResult;
+use crate::verify::verdict::{self, Findings};
 
 /// A scene that is solved step by step.
 ///
@@ -71,47 +70,38 @@ pub struct Run {
     origin: String,
     pub(super) request: Request,
     with_stresses: bool,
-    /// How many steps were solved.
-    solved: usize,
-    /// Records of these steps; empty for one step.
+    /// The steps that were solved; empty for one step.
     records: Vec<StepRecord>,
     /// What another loading has come to.
     pub(super) second_loading: Option<SecondLoading>,
-    reached: Option<Reached>,
-    last: Option<Last>,
-    /// Where the pivots of the next step start.
-    basis: Option<Start>,
+    /// The last step that was solved.
+    solved: Option<StepResult>,
+    /// What the next step needs of the last state that was kept; `None` if there is only one step.
+    carry: Option<Carry>,
+    /// The step after it, if that was tried and not solved.
+    failed: Option<StepResult>,
     /// The sparse problem of the last step that was tried, if it was built.
     sparse: Option<Sparse>,
     clock: Clock,
 }
 
-/// What the last step that was solved has come to.
+/// The model of a step.
 #[derive(Debug)]
-struct Reached {
-    info: SolveInfo,
-    state: State,
-    checks: Option<Checks>,
-    /// The step as the next one needs it; `None` where there is only one.
-    in_history: Option<InHistory>,
-}
-
-/// The model of a step, and what tells the work to the next one.
-#[derive(Debug)]
-struct InHistory {
+struct Situation {
+    /// The model under the actions of the step.
     model: Model,
-    /// How far every contact point had slid where the slips of the state are measured from \[m\].
+    /// How far every contact point had slid where slips are measured from \[m\].
     slips: Vec<f64>,
-    snapshot: Snapshot,
 }
 
-/// How the last step that was tried ended.
+/// What only the next step needs of a state.
 #[derive(Debug)]
-struct Last {
-    info: SolveInfo,
-    statics: Option<Statics>,
-    led: Option<LoadingEnd>,
-    mechanism: Option<Vec<Vec<Vector2<f64>>>>,
+struct Carry {
+    situation: Situation,
+    /// What tells the work to the next state.
+    snapshot: Snapshot,
+    /// Where pivots ended.
+    basis: Option<Start>,
 }
 
 impl Run {
@@ -152,12 +142,11 @@ impl Run {
             origin,
             request: Request { form, max_pivots, max_steps, soft, ..Request::new(tolerance) },
             with_stresses: scene.output.stresses,
-            solved: 0,
             records: Vec::new(),
             second_loading: None,
-            reached: None,
-            last: None,
-            basis: None,
+            solved: None,
+            carry: None,
+            failed: None,
             sparse: None,
             clock,
         })
@@ -203,13 +192,11 @@ impl Run {
         if info.status != Status::Solved || !checks.hold(tolerance) {
             return Err(CheckpointError::NoEquilibrium.into());
         }
-        let in_history = Some(InHistory { model, slips, snapshot });
-        let reached = Reached { info: info.clone(), state, checks: Some(checks), in_history };
-        self.reached = Some(reached);
-        self.last = Some(Last { info, statics: None, led: None, mechanism: None });
-        self.solved = records.len();
+        let basis = checkpoint.basis(self.system.rows.len() + self.system.friction.len());
+        self.carry = Some(Carry { situation: Situation { model, slips }, snapshot, basis });
+        let (state, checks) = (Some(state), Some(checks));
+        self.solved = Some(StepResult { state, checks, ..StepResult::new(info) });
         self.records.clone_from(records);
-        self.basis = checkpoint.basis(self.system.rows.len() + self.system.friction.len());
         Ok(self)
     }
 
@@ -221,117 +208,128 @@ impl Run {
         &mut self,
         observer: &mut dyn FnMut(Event) -> ControlFlow<()>,
     ) -> Result<bool, SolveError> {
-        let is_over = self.last.as_ref().is_some_and(|last| last.info.status != Status::Solved);
-        let Some(step) = self.steps.get(self.solved).filter(|_| !is_over).cloned() else {
+        let solved = self.solved_steps();
+        let Some(step) = self.steps.get(solved).filter(|_| self.failed.is_none()).cloned() else {
             return Ok(false);
         };
-        let stepped = self.has_history().then(|| {
-            let slips = self.slips();
-            (self.model.under(&step.actions, &slips), slips)
-        });
-        let before = match (&stepped, self.records.last()) {
-            (Some((_, slips)), Some(record)) => {
-                self.system.reload(&self.model.under(&record.step.actions, slips));
-                Some(Sparse::new(&self.system)?.problem)
-            }
-            _ => None,
-        };
-        if let Some((model, _)) = &stepped {
-            let (number, of) = (self.solved + 1, self.steps.len());
+        let situation = self.has_history().then(|| self.situation(&step));
+        let mut problem = None;
+        if let Some(Situation { model, slips }) = &situation {
+            let (number, of) = (solved + 1, self.steps.len());
             if observer(Event::Step { number, of }).is_break() {
-                let info = SolveInfo::new(self.plan.routes[0].route, Status::Cancelled, UNKNOWN);
-                self.last = Some(Last { info, statics: None, led: None, mechanism: None });
+                self.failed = Some(self.without_state(Status::Cancelled));
                 return Ok(true);
             }
+            problem = self.problem_before(slips)?;
             self.system.reload(model);
         }
-        let model = stepped.as_ref().map_or(&self.model, |(model, _)| model);
-        let before = before.zip(self.reached.as_ref());
-        let before = before.map(|(problem, reached)| Before { problem, state: &reached.state });
         self.sparse = None;
+        let model = situation.as_ref().map_or(&self.model, |situation| &situation.model);
+        let state = self.solved.as_ref().and_then(|solved| solved.state.as_ref());
+        let basis = self.carry.as_ref().and_then(|carry| carry.basis.as_ref());
+        let before = problem.zip(state).map(|(problem, state)| Before { problem, state, basis });
         let (clock, with_stresses) = (&mut self.clock, self.with_stresses);
         let chain = Chain::new(model, &self.system, self.request, with_stresses, clock, observer);
-        let found = chain.after(self.basis.take(), before).run(&self.plan.routes);
-        match found {
-            Ok(found) => self.take(step, stepped, found),
-            Err(error) if self.solved == 0 => return Err(error),
+        match chain.after(before).run(&self.plan.routes) {
+            Ok((tried, sparse)) => {
+                self.sparse = sparse;
+                self.take(step, situation, tried);
+                Ok(true)
+            }
+            Err(error) if solved == 0 => Err(error),
             Err(error) => {
-                let info =
-                    SolveInfo::new(self.plan.routes[0].route, Status::NumericalTrouble, UNKNOWN);
-                self.last = Some(Last { info, statics: None, led: None, mechanism: None });
+                self.failed = Some(self.without_state(Status::NumericalTrouble));
                 let Step { stage, number, .. } = step;
-                let error = Box::new(error);
-                return Err(SolveError::Step { stage, step: number, error });
+                Err(SolveError::Step { stage, step: number, error: Box::new(error) })
             }
         }
-        Ok(true)
     }
 
-    /// The slip of every contact point after the last step.
-    fn slips(&self) -> Vec<f64> {
-        match &self.reached {
-            Some(reached) => reached.state.contacts.iter().map(|contact| contact.y_t).collect(),
+    /// A step as it follows the last one that was solved.
+    fn situation(&self, step: &Step) -> Situation {
+        let state = self.solved.as_ref().and_then(|solved| solved.state.as_ref());
+        let slips: Vec<f64> = match state {
+            Some(state) => state.contacts.iter().map(|contact| contact.y_t).collect(),
             None => vec![0.0; self.model.contacts.len()],
-        }
+        };
+        Situation { model: self.model.under(&step.actions, &slips), slips }
     }
 
-    /// Keeps a solved step, or the state of an unsolved one if there is no earlier state.
-    /// An only step has nothing to remember except its state.
-    fn take(&mut self, step: Step, stepped: Option<(Model, Vec<f64>)>, found: Tried) {
-        let Tried { info, state, checks, mechanism, basis, statics, led, moved, account, sparse } =
-            found;
-        (self.basis, self.sparse) = (basis, sparse);
-        if let (Some(moved), None) = (&moved, &stepped) {
+    /// The problem of the last step that was solved, with slips measured from its state.
+    fn problem_before(&mut self, slips: &[f64]) -> Result<Option<Contact2d>, SolveError> {
+        let Some(record) = self.records.last() else { return Ok(None) };
+        self.system.reload(&self.model.under(&record.step.actions, slips));
+        Ok(Some(Sparse::new(&self.system)?.problem))
+    }
+
+    /// The result of a step that no route was asked about, or whose routes were refused.
+    fn without_state(&self, status: Status) -> StepResult {
+        StepResult::new(SolveInfo::new(self.plan.routes[0].route, status, UNKNOWN))
+    }
+
+    /// Keeps a result. An only step has nothing else to remember.
+    fn take(&mut self, step: Step, situation: Option<Situation>, mut tried: Tried) {
+        if let Some(situation) = situation {
+            self.remember(step, situation, &mut tried);
+        } else if let Some(moved) = &tried.moved {
             // The state is judged with slips from where the blocks came to.
             self.model = self.model.slid(moved);
         }
-        if let Some(mut state) = state {
-            let model = stepped.as_ref().map_or(&self.model, |(model, _)| model);
-            let friction = match &account {
-                Some(account) => FrictionWork::of_way(account),
-                None => FrictionWork::of_step(model, &state.contacts),
-            };
-            let in_history = stepped.map(|(mut model, mut slips)| {
-                if let Some(moved) = &moved {
-                    slips.iter_mut().zip(moved).for_each(|(slip, moved)| *slip += moved);
-                    model = self.model.under(&step.actions, &slips);
-                }
-                let steps = model.contacts.iter().zip(&mut state.contacts).zip(&slips);
-                let frictional = steps.filter(|((contact, _), _)| contact.law.resists_sliding());
-                let moved = state.displacements.iter().flatten().map(nalgebra::Matrix::amax);
-                let most = moved.fold(0.0, f64::max);
-                for ((_, contact), slip) in frictional {
-                    contact.y_t = slip + cleared(contact.y_t, most);
-                }
-                let snapshot = Snapshot::of(&model, &self.system, &state);
-                InHistory { model, slips, snapshot }
-            });
-            let is_solved = info.status == Status::Solved;
-            if is_solved || self.reached.is_none() {
-                let reached = Reached { info: info.clone(), state, checks, in_history };
-                if is_solved {
-                    self.solved += 1;
-                    self.records.extend(self.record(step, friction, &reached));
-                }
-                self.reached = Some(reached);
-            }
-        }
-        self.last = Some(Last { info, statics, led, mechanism });
+        let result = tried.result;
+        let place = if result.is_solved() { &mut self.solved } else { &mut self.failed };
+        *place = Some(result);
     }
 
-    /// The record of a step that follows the last one reached; `None` where there is no history.
-    fn record(&self, step: Step, friction: FrictionWork, reached: &Reached) -> Option<StepRecord> {
-        let Reached { info, state, checks, in_history } = reached;
-        let InHistory { model, snapshot, .. } = in_history.as_ref()?;
-        let before = self.reached.as_ref().and_then(|it| it.in_history.as_ref());
-        let work = match before {
+    /// Keeps the record of a solved step, and what the next one needs of its state. The state of an unsolved step counts only
+    /// if there is no earlier one.
+    fn remember(&mut self, step: Step, situation: Situation, tried: &mut Tried) {
+        let is_solved = tried.result.is_solved();
+        if !is_solved && self.solved.is_some() {
+            return;
+        }
+        let friction = tried.friction(&situation.model);
+        let Some(carry) = self.carry(&step, situation, tried) else { return };
+        if is_solved {
+            self.records.extend(self.record(step, friction, &tried.result, &carry));
+        }
+        self.carry = Some(carry);
+    }
+
+    /// What the next step needs of a state, whose slips become those of all steps.
+    fn carry(&self, step: &Step, situation: Situation, tried: &mut Tried) -> Option<Carry> {
+        let Situation { mut model, mut slips } = situation;
+        let state = tried.result.state.as_mut()?;
+        if let Some(moved) = &tried.moved {
+            slips.iter_mut().zip(moved).for_each(|(slip, moved)| *slip += moved);
+            model = self.model.under(&step.actions, &slips);
+        }
+        let most = largest_displacement(state);
+        let contacts = model.contacts.iter().zip(&mut state.contacts).zip(&slips);
+        for ((_, contact), slip) in contacts.filter(|((it, _), _)| it.law.resists_sliding()) {
+            contact.y_t = slip + cleared(contact.y_t, most);
+        }
+        let snapshot = Snapshot::of(&model, &self.system, state);
+        let (situation, basis) = (Situation { model, slips }, tried.basis.take());
+        Some(Carry { situation, snapshot, basis })
+    }
+
+    /// The record of a step after the last one that was solved.
+    fn record(
+        &self,
+        step: Step,
+        friction: FrictionWork,
+        result: &StepResult,
+        carry: &Carry,
+    ) -> Option<StepRecord> {
+        let StepResult { info, state: Some(state), checks, .. } = result else { return None };
+        let Carry { situation: Situation { model, .. }, snapshot, .. } = carry;
+        let work = match &self.carry {
             Some(before) => before.snapshot.work_to(snapshot),
             None => snapshot.at_rest().work_to(snapshot),
         };
-        let held_before =
-            self.reached.as_ref().map_or(0.0, |before| energy::held(model, &before.state.contacts));
+        let before = self.solved.as_ref().and_then(|solved| solved.state.as_ref());
+        let held_before = before.map_or(0.0, |before| energy::held(model, &before.contacts));
         let held = energy::held(model, &state.contacts) - held_before;
-        let largest = state.displacements.iter().flatten().map(nalgebra::Matrix::amax);
         Some(StepRecord {
             step,
             route: info.route,
@@ -344,7 +342,7 @@ impl Run {
             energy_created: friction.created,
             dragged: friction.dragged,
             strain_energy: state.strain_energy,
-            largest_displacement: largest.fold(0.0, f64::max),
+            largest_displacement: largest_displacement(state),
             contacts: checks.as_ref().map_or([0; 3], |it| [it.open, it.stick, it.slip]),
             reactions: recover::reactions(model, &state.contacts),
         })
@@ -357,7 +355,7 @@ impl Run {
 
     /// How many steps were solved.
     pub fn solved_steps(&self) -> usize {
-        self.solved
+        if self.has_history() { self.records.len() } else { usize::from(self.solved.is_some()) }
     }
 
     /// How many steps there are.
@@ -368,65 +366,63 @@ impl Run {
     /// The state after the last step that was solved; `None` before the first, and for a scene of one step.
     pub fn frame(&self) -> Option<Frame> {
         let position = self.records.len().checked_sub(1)?;
-        let Reached { state, in_history, .. } = self.reached.as_ref()?;
-        let InHistory { model, .. } = in_history.as_ref()?;
+        let AtEnd { model, state, .. } = self.reached()?;
         let step = self.records[position].step.clone();
         Some(Frame { step, position, model: model.clone(), state: state.clone() })
     }
 
     /// What the last step of a history has come to; `None` before it is solved.
     pub(super) fn at_end(&self) -> Option<AtEnd<'_>> {
-        let Reached { state, in_history, .. } =
-            self.reached.as_ref().filter(|_| self.solved == self.steps.len())?;
+        self.reached().filter(|_| self.records.len() == self.steps.len())
+    }
+
+    /// What the last step that was solved has come to; `None` before the first, and for a scene of one step.
+    fn reached(&self) -> Option<AtEnd<'_>> {
+        let (solved, carry) = (self.solved.as_ref()?, self.carry.as_ref()?);
         let dissipation = self.records.iter().map(|record| record.dissipation).sum();
-        Some(AtEnd { model: &in_history.as_ref()?.model, state, dissipation })
+        Some(AtEnd { model: &carry.situation.model, state: solved.state.as_ref()?, dissipation })
     }
 
     /// Everything that the next step needs; `None` before the first, and for a scene of one step.
     pub fn checkpoint(&self) -> Option<Checkpoint> {
-        let Reached { info, state, in_history, .. } = self.reached.as_ref()?;
-        let slips = &in_history.as_ref()?.slips;
-        (!self.records.is_empty()).then(|| {
-            let (origin, records) = (self.origin.clone(), self.records.clone());
-            Checkpoint::new(origin, records, info.clone(), state, slips, self.basis.as_ref())
-        })
+        let StepResult { info, state, .. } = self.solved.as_ref()?;
+        let (state, Carry { situation, basis, .. }) = (state.as_ref()?, self.carry.as_ref()?);
+        let (origin, records, info) = (self.origin.clone(), self.records.clone(), info.clone());
+        Some(Checkpoint::new(origin, records, info, state, &situation.slips, basis.as_ref()))
     }
 
-    /// The outcome: the state after the last step that was solved.
-    pub fn finish(self) -> Outcome {
-        let failed = self.steps.get(self.solved).cloned();
-        let Last { info, statics, led, mechanism } = self.last.unwrap_or_else(|| {
-            let info = SolveInfo::new(self.plan.routes[0].route, Status::Cancelled, UNKNOWN);
-            Last { info, statics: None, led: None, mechanism: None }
-        });
-        let steps = self.steps.len();
-        let Self { records, loads, second_loading, .. } = self;
-        let history = History { records, failed, steps, loads, second_loading };
-        let (model, state, checks) = match self.reached {
-            Some(Reached { state, checks, in_history, .. }) => {
-                (in_history.map_or(self.model, |it| it.model), Some(state), checks)
+    /// The outcome: the state after the last step that was solved, and the reason why no other was.
+    pub fn finish(mut self) -> Outcome {
+        let step = match (self.failed.take(), self.solved.take()) {
+            (Some(failed), Some(StepResult { state, checks, .. })) => {
+                StepResult { state, checks, ..failed }
             }
-            None => (self.model, None, None),
+            (Some(only), None) | (None, Some(only)) => only,
+            (None, None) => self.without_state(Status::Cancelled),
         };
-        let contacts = state.as_ref().map(|state| &state.contacts);
-        let reactions =
-            contacts.map_or_else(Vec::new, |contacts| recover::reactions(&model, contacts));
-        let history = (steps > 1).then_some(history);
+        let history = self.has_history().then(|| History {
+            failed: self.steps.get(self.records.len()).cloned(),
+            records: self.records,
+            steps: self.steps.len(),
+            loads: self.loads,
+            second_loading: self.second_loading,
+        });
+        let model = self.carry.map_or(self.model, |carry| carry.situation.model);
         let build = || Sparse::new(&self.system).ok();
-        let sparse = state.as_ref().and_then(|_| self.sparse.or_else(build));
-        let circulating = state.as_ref().zip(sparse);
+        let circulating = step.state.as_ref().and_then(|state| {
+            let sparse = self.sparse.or_else(build)?;
+            Some(verdict::circulating(&model, &sparse.problem, state))
+        });
         let judgement = Judgement::of(&Findings {
             model: &model,
-            info: &info,
-            state: state.as_ref(),
-            statics: statics.as_ref(),
-            led,
+            step: &step,
             history: history.as_ref(),
             at_rest: self.system.is_at_rest(),
             unusual: &self.unusual,
-            circulating: circulating
-                .map_or(0, |(state, sparse)| verdict::circulating(&model, &sparse.problem, state)),
+            circulating: circulating.unwrap_or(0),
         });
+        let StepResult { info, state, checks, mechanism, .. } = step;
+        let reactions = state.as_ref().map(|state| recover::reactions(&model, &state.contacts));
         Outcome {
             title: self.title,
             model,
@@ -434,11 +430,15 @@ impl Run {
             solve: info,
             state,
             checks,
-            reactions,
+            reactions: reactions.unwrap_or_default(),
             history,
             mechanism,
             judgement,
             times: self.clock.times,
         }
     }
+}
+
+fn largest_displacement(state: &State) -> f64 {
+    state.displacements.iter().flatten().map(nalgebra::Matrix::amax).fold(0.0, f64::max)
 }

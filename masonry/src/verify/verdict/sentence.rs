@@ -19,7 +19,7 @@ pub(super) fn of(
     let at = failed.map(at_step).unwrap_or_default();
     let first = match (verdict, evidence) {
         (Verdict::Stands, Evidence::AdmissibleForces) => {
-            match known.led {
+            match known.step.loading {
                 Some(_) => "The wall stands: contact forces within friction balance the loads (verified), and loading leads \
                      to rest.",
                 None => "The wall stands: contact forces within friction balance the loads (verified).",
@@ -32,8 +32,8 @@ pub(super) fn of(
         },
         (Verdict::Falls, Evidence::Motion) => format!(
             "The wall falls{at}: its blocks do not come to rest within small displacements (evidence, not a proof).{}",
-            match known.statics {
-                _ if known.led.is_some() => {
+            match known.step.statics {
+                _ if known.step.loading.is_some() => {
                     " Contact forces within friction that balance the loads exist, as a prestress might bring them about, \
                      but loading from a state without stresses does not lead to them."
                 }
@@ -96,10 +96,10 @@ pub(super) fn of_movement(movement: Drift) -> String {
 }
 
 fn undecided(known: &Findings<'_>, evidence: Evidence, movement: Option<Drift>) -> String {
-    let info = known.info;
+    let info = &known.step.info;
     let tried = tried(known);
     match (info.status, evidence) {
-        (Status::Solved, _) if known.led.is_some() => {
+        (Status::Solved, _) if known.step.loading.is_some() => {
             "forces within friction balance the loads, but it was not found whether loading leads to them.".to_owned()
         }
         (Status::Solved, _) => {
@@ -125,7 +125,7 @@ fn undecided(known: &Findings<'_>, evidence: Evidence, movement: Option<Drift>) 
 
 /// What was tried, and how near it came.
 fn tried(known: &Findings<'_>) -> String {
-    let info = known.info;
+    let info = &known.step.info;
     let mut names: Vec<&str> = info.routes.iter().map(|end| end.route.name()).collect();
     names.retain(|name| *name != "forces");
     let near = info.residuals.worst();
