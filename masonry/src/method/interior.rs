@@ -77,20 +77,23 @@ impl Interior<'_> {
     }
 
     fn answer_of(&self, led: Led) -> Result<Answer, RouteError> {
-        let Led { ending, factorisations, .. } = led;
-        let problem = self.sparse.problem.slid(&led.slips)?;
+        let Led { ending, evolution, iterations } = led;
+        let (state, slips) = (evolution.state().clone(), evolution.slips_before());
+        let residuals = self.sparse.problem.slid(slips)?.residuals(&state);
+        let factorisations = evolution.factorisations();
+        let is_one_step = ending.rests() && evolution.steps() == 1;
         let info = SolveInfo {
-            iterations: led.iterations,
+            iterations,
             factorisations,
-            way: if ending.rests() && led.steps == 1 { Way::Law } else { Way::Motion },
-            ..SolveInfo::new(Route::Interior, ending.status(), problem.residuals(&led.state))
+            way: if is_one_step { Way::Law } else { Way::Motion },
+            ..SolveInfo::new(Route::Interior, ending.status(), residuals)
         };
-        let mut answer = sparse::answer(self.sparse, info, led.state);
+        let mut answer = sparse::answer(self.sparse, info, state);
         answer.info.attempts = vec![Attempt::Motion { ending, factorisations }];
-        answer.account = Some(led.account);
-        answer.moved = Some(self.sparse.by_rows(&led.slips));
+        answer.account = Some(*evolution.account());
+        answer.moved = Some(self.sparse.by_rows(slips));
         if answer.info.status == Status::NoEquilibrium {
-            answer.motion = Some(Motion::Velocities(led.velocity));
+            answer.motion = Some(Motion::Velocities(evolution.velocity().to_vec()));
         }
         Ok(answer)
     }

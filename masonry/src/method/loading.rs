@@ -3,7 +3,7 @@
 use std::ops::ControlFlow;
 
 use lcp::{
-    Account, Contact2d, ContactState, Ending, Evolution, EvolutionSettings, InteriorPoint,
+    Contact2d, ContactState, Ending, Evolution, EvolutionSettings, InteriorPoint,
     InteriorPointSettings, Iteration,
 };
 
@@ -49,14 +49,9 @@ pub(crate) struct Loading<'a> {
 /// Where blocks have come to.
 pub(crate) struct Led {
     pub(crate) ending: Ending,
-    /// The state after the last step, and how far every point had slid before it.
-    pub(crate) state: ContactState,
-    pub(crate) slips: Vec<f64>,
-    pub(crate) velocity: Vec<f64>,
-    pub(crate) account: Account,
-    /// Steps on the way.
-    pub(crate) steps: usize,
-    pub(crate) factorisations: usize,
+    /// The blocks after the last step.
+    pub(crate) evolution: Evolution,
+    /// Iterations of all steps.
     pub(crate) iterations: usize,
 }
 
@@ -112,16 +107,7 @@ impl Loading<'_> {
             Evolution::new(&problem.with_loads(vec![0.0; n])?, matrix, settings)?
         };
         let ending = evolution.lead_observed(problem, h, observer)?;
-        Ok(Led {
-            ending,
-            state: evolution.state().clone(),
-            slips: evolution.slips_before().to_vec(),
-            velocity: evolution.velocity().to_vec(),
-            account: *evolution.account(),
-            steps: evolution.steps(),
-            factorisations: evolution.factorisations(),
-            iterations,
-        })
+        Ok(Led { ending, evolution, iterations })
     }
 
     /// The time of the way, for a drag of one: as long as the drag is to be a small part of the loads.

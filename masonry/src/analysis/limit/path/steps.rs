@@ -69,8 +69,8 @@ impl Steps<'_> {
         };
         let led = loading.lead(&mut |at| observer(at))?;
         Ok(match led.ending {
-            Ending::Rests => StepEnd::Rests(rest(&problem, led.state)?.into()),
-            Ending::Flows | Ending::Left => StepEnd::Flows(led.velocity),
+            Ending::Rests => StepEnd::Rests(rest(&problem, led.evolution.state().clone())?.into()),
+            Ending::Flows | Ending::Left => StepEnd::Flows(led.evolution.velocity().to_vec()),
             _ => StepEnd::Open,
         })
     }
