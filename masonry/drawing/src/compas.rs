@@ -108,7 +108,8 @@ impl Search {
 
     fn place(&self, name: Option<&str>) -> Place {
         let name = name.map_or(String::new(), |name| format!("block \"{}\" at ", shown(name)));
-        Place::new(format!("{name}{}", self.path.join(".")), None)
+        let path = if self.path.is_empty() { "the mesh".to_owned() } else { self.path.join(".") };
+        Place::new(format!("{name}{path}"), None)
     }
 }
 

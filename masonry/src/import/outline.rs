@@ -78,27 +78,59 @@ fn without_near(corners: &mut Vec<Point2<f64>>, tolerance: f64) -> Option<f64> {
 /// the edges; the largest distance.
 fn without_straight(corners: &mut Vec<Point2<f64>>, tolerance: f64) -> Option<f64> {
     let mut largest: Option<f64> = None;
-    // For every corner the ones that were left out after it.
-    let mut out: Vec<Vec<Point2<f64>>> = vec![Vec::new(); corners.len()];
-    while corners.len() >= 3 {
-        let count = corners.len();
-        let off = |k: usize| {
-            let before = (k + count - 1) % count;
-            let ends = [corners[before], corners[(k + 1) % count]];
-            let passed = out[before].iter().chain(&out[k]).chain([&corners[k]]);
-            passed.map(|it| distance(*it, ends)).fold(0.0, f64::max)
-        };
-        let straightest = (0..count).map(|k| (off(k), k)).min_by(|a, b| a.0.total_cmp(&b.0));
-        let Some((by, k)) = straightest.filter(|(by, _)| *by <= tolerance) else { break };
-        let gone = corners.remove(k);
-        let mut after = out.remove(k);
-        let before = (k + count - 1) % count;
-        let before = if before > k { before - 1 } else { before };
-        out[before].push(gone);
-        out[before].append(&mut after);
+    let mut ring = Ring::of(corners);
+    while ring.corners.len() >= 3 {
+        let offs = ring.offs.iter().copied().enumerate();
+        let straightest = offs.min_by(|(_, a), (_, b)| a.total_cmp(b));
+        let Some((k, by)) = straightest.filter(|(_, by)| *by <= tolerance) else { break };
+        ring.leave_out(k);
         largest = Some(by.max(largest.unwrap_or(0.0)));
     }
+    *corners = ring.corners;
     largest
+}
+
+/// The corners of an outline that are left.
+struct Ring {
+    corners: Vec<Point2<f64>>,
+    /// For every corner those that were left out after it.
+    out: Vec<Vec<Point2<f64>>>,
+    /// For every corner how far it, and what was left out beside it, is from the edge that would take its place.
+    offs: Vec<f64>,
+}
+
+impl Ring {
+    fn of(corners: &[Point2<f64>]) -> Self {
+        let out = vec![Vec::new(); corners.len()];
+        let mut ring = Self { corners: corners.to_vec(), out, offs: Vec::new() };
+        ring.offs = (0..corners.len()).map(|k| ring.off(k)).collect();
+        ring
+    }
+
+    fn off(&self, k: usize) -> f64 {
+        let (before, after) = self.beside(k);
+        let ends = [self.corners[before], self.corners[after]];
+        let passed = self.out[before].iter().chain(&self.out[k]).chain([&self.corners[k]]);
+        passed.map(|it| distance(*it, ends)).fold(0.0, f64::max)
+    }
+
+    fn beside(&self, k: usize) -> (usize, usize) {
+        let count = self.corners.len();
+        ((k + count - 1) % count, (k + 1) % count)
+    }
+
+    fn leave_out(&mut self, k: usize) {
+        let (before, _) = self.beside(k);
+        let gone = [self.corners[k]].into_iter().chain(std::mem::take(&mut self.out[k]));
+        self.out[before].extend(gone);
+        self.corners.remove(k);
+        self.out.remove(k);
+        self.offs.remove(k);
+        let before = if before > k { before - 1 } else { before };
+        for beside in [before, (before + 1) % self.corners.len()] {
+            self.offs[beside] = self.off(beside);
+        }
+    }
 }
 
 /// The distance of a point from a segment.
