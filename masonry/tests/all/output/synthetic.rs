@@ -111,11 +111,8 @@ fn seed() -> Scene {
 pub(crate) fn unsolved(wall: Wall) -> Outcome {
     let mut outcome = solved(wall);
     outcome.solve.status = lcp::Status::RayTermination;
-    if let Some(Attempt::Pivots { start, mut path, .. }) = outcome.solve.attempts.first().cloned() {
-        (path.end, path.residual) = (lcp::lemke::AttemptEnd::Ray, None);
-        let form = "stewart-trinkle".to_owned();
-        outcome.solve.attempts.push(Attempt::Pivots { form, start, path });
-    }
+    let left = Attempt::Left { route: Route::Lemke, iterations: 412 };
+    outcome.solve.attempts.push(left);
     outcome.state = None;
     outcome.checks = None;
     outcome.reactions.clear();
