@@ -9,7 +9,7 @@
 //! | [`motion`] | motions of a structure that has no equilibrium |
 //! | [`verdict`] | whether a wall stands, with the evidence |
 //!
-//! What makes these data, and what they come to, is beside what makes them: [`Proof::of`](statics::Proof::of) is in
+//! Functions that make these data are in the modules of their methods: [`Proof::of`](statics::Proof::of) is in
 //! [`method::statics`](crate::method::statics), [`Principal::of`](state::Principal::of) in
 //! [`recover`](crate::recover).
 

@@ -37,7 +37,7 @@ use self::fit::Fitted;
 pub use self::imported::Imported;
 pub use self::options::{Joints, Options};
 use self::sheet::Sheet;
-use crate::drawing::Drawing;
+use masonry_drawing::Drawing;
 
 /// Makes a scene of a drawing.
 ///

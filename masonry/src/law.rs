@@ -19,7 +19,7 @@
 //!
 //! and `-T` along the normal is a load on both sides. So [`System`](crate::system::System) and everything built on it
 //! use `t_n'`; [`State`](crate::data::state::State) has `t_n` again. These forces are a [`Cone`]: edges, along which forces have
-//! any size, and caps, which bound a force in both directions. Nothing else in the crate knows the bound. A strength in
+//! any size, and caps, which bound a force in both directions. Only the forms write the bound as equations. A strength in
 //! compression would be a cap along the normal.
 //!
 //! The faces of a joint may give way before it opens or slides: with a stiffness `k_n` and `k_t` \[Pa/m\] they are springs
@@ -200,7 +200,7 @@ impl Cone {
         [1.0, -1.0].map(|sign| self.mu * normal + self.base + sign * tangential)
     }
 
-    /// What of a tangential force friction carries, and what the cap.
+    /// The parts of a tangential force that friction and the cap carry.
     pub(crate) fn shares(&self, normal: f64, tangential: f64) -> [f64; 2] {
         let bound = self.mu * normal.max(0.0);
         let friction = tangential.clamp(-bound, bound);

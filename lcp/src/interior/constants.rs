@@ -27,8 +27,9 @@ pub(super) const WIDENING: f64 = 100.0;
 /// walls take a third less steps from gaps that are not opened; walls near their limit and on open bases, on which all
 /// other attempts jam whatever the friction, are solved in 35 to 80 steps from gaps opened by 1e3 or 1e4.
 pub(super) const OPENINGS: [f64; 3] = [0.0, 1e4, 1e3];
-/// Steps without a reduction of the merit (mean product plus squared defect) by a tenth after which an attempt is left. Measured on settlements: with 12 an
-/// open base is lost that the path solves with 15; with 20 and 30 those that jam take 5 to 15 more, and no other is solved.
+/// Steps without a reduction of the merit (mean product plus squared defect) by a tenth after which an attempt is left.
+/// Measured on settlements: with 12 an open base is lost that the path solves with 15; with 20 and 30 those that jam take 5
+/// to 15 more, and no other is solved.
 pub(super) const PATIENCE: usize = 15;
 /// The least that a product of a pair may be, relative to the mean; products from there to the inverse of it are central.
 /// Theory: the box of Gondzio (1996). Measured on walls: with 0.01 and 0.3 some are solved and others not.

@@ -153,7 +153,11 @@ fn iterate(
         let residual = now.residual(&defect, accuracy);
         let error = now.error_of_proof();
         if residual <= tolerance {
-            return (now.at.solution(), Status::Solved);
+            // Rounding by the division may take a point beyond the tolerance again.
+            let solved = Homogeneous::new(program, now.at.clone().solution());
+            if solved.residual(&solved.defect(), accuracy) <= tolerance {
+                return (solved.at, Status::Solved);
+            }
         }
         if error <= provable {
             provable = TRIAL_REDUCTION * error;

@@ -22,7 +22,7 @@ pub struct LeastForces {
     pub t: Vec<f64>,
     /// The multipliers `u` of the balance; a proof where the status says so, with a largest component of one.
     pub u: Vec<f64>,
-    /// The residual of the forces and multipliers, measured as [`InteriorPoint::least_forces`] says, which decides the status.
+    /// The residual of the forces and multipliers, measured as [`InteriorPoint::least_forces`] says, which decides the status unless it is a proof.
     pub residual: f64,
     /// The cost.
     pub info: Info,

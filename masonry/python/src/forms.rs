@@ -1,6 +1,8 @@
 //! The problems, each by the methods that treat it.
 #![expect(clippy::needless_pass_by_value, reason = "functions own what they take from Python")]
 
+use std::sync::{Mutex, PoisonError};
+
 use lcp::{
     BoxedLcp, Contact2d, HorizontalLcp, Lcp, Matrix, Method, MixedLcp, Qp, Solution, Solver, Vector,
 };
@@ -191,9 +193,10 @@ pub(crate) fn solve_many(
 }
 
 /// A standard problem that is solved for one `q` after the other.
-#[pyclass]
+#[pyclass(frozen)]
 pub(crate) struct Sequence {
-    sequence: lcp::Sequence<usize>,
+    /// One thread at a time solves.
+    sequence: Mutex<lcp::Sequence<usize>>,
 }
 
 #[pymethods]
@@ -206,14 +209,16 @@ impl Sequence {
         let lcp = Lcp::new(m, Vector::from(zero)).map_err(|error| refused(&error))?;
         let settings = options.auto()?.settings().clone();
         let sequence = lcp::Sequence::new(lcp, &keys, settings).map_err(|error| refused(&error))?;
-        Ok(Self { sequence })
+        Ok(Self { sequence: Mutex::new(sequence) })
     }
 
-    fn solve(&mut self, py: Python<'_>, q: GivenVector<'_>) -> PyResult<Answer> {
+    fn solve(&self, py: Python<'_>, q: GivenVector<'_>) -> PyResult<Answer> {
         let q = vector(&q);
-        let sequence = &mut self.sequence;
-        let solution =
-            py.detach(|| sequence.solve(&q).cloned()).map_err(|error| refused(&error))?;
+        let solved = || {
+            let mut sequence = self.sequence.lock().unwrap_or_else(PoisonError::into_inner);
+            sequence.solve(&q).cloned()
+        };
+        let solution = py.detach(solved).map_err(|error| refused(&error))?;
         let point = vec![solution.t.clone(), solution.y.clone()];
         Ok(Answer::new(py, solution, point))
     }

@@ -51,6 +51,7 @@ impl Options {
     }
 
     pub(crate) fn auto(&self) -> PyResult<Auto> {
+        self.without_iterations()?;
         let mut settings = AutoSettings { time_limit: self.time()?, ..AutoSettings::default() };
         settings.tolerance = self.tol.unwrap_or(settings.tolerance);
         Ok(Auto::new(settings))
@@ -64,6 +65,7 @@ impl Options {
     }
 
     pub(crate) fn enumeration(&self) -> PyResult<Enumeration> {
+        self.without_iterations()?;
         let tolerance = self.tol.unwrap_or(AutoSettings::default().tolerance);
         Ok(Enumeration { tolerance, time_limit: self.time()? })
     }
@@ -72,6 +74,17 @@ impl Options {
     iterative!(interior, InteriorPoint, InteriorPointSettings);
     iterative!(program, QuadraticProgram, QuadraticProgramSettings);
     iterative!(sweeps, ProjectedGaussSeidel, ProjectedGaussSeidelSettings);
+
+    /// Checks that no number of iterations is given to a method that has none.
+    fn without_iterations(&self) -> PyResult<()> {
+        match self.max_iterations {
+            None => Ok(()),
+            Some(_) => Err(PyValueError::new_err(format!(
+                "max_iterations limits one method, and {:?} has none: give method, or time_limit instead",
+                self.method
+            ))),
+        }
+    }
 
     fn time(&self) -> PyResult<Option<Duration>> {
         let time = self.time_limit.map(|seconds| {

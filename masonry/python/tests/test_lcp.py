@@ -1,5 +1,6 @@
 """The package ``lcp`` against scipy, numpy and closed forms."""
 
+import concurrent.futures
 import os
 import signal
 import threading
@@ -147,6 +148,20 @@ def test_sequences_and_batches_agree_with_single_solves():
     np.testing.assert_array_equal([answer.z for answer in batch], single)
 
 
+def test_threads_share_a_sequence():
+    M, q = random_spd(20, 1)
+    steps = lcp.Sequence(M)
+    expected = lcp.solve(M, q).z
+    with concurrent.futures.ThreadPoolExecutor(4) as pool:
+        for answer in pool.map(lambda _: steps.solve(q), range(50)):
+            np.testing.assert_allclose(answer.z, expected, atol=1e-12)
+
+
+def test_bounds_may_be_left_out():
+    assert lcp.solve_boxed(np.eye(2), [-3, 2], 0, None).z.tolist() == [3.0, 0.0]
+    assert lcp.solve_boxed(np.eye(2), [-3, 2], None, 1).z.tolist() == [1.0, -2.0]
+
+
 def test_an_answer_that_is_none_raises_if_asked():
     answer = lcp.solve([[1, -1], [-1, 1]], [-1, 0])
     assert answer.certificate["kind"] == "farkas"
@@ -172,6 +187,7 @@ def boxes(displacement=1):
         (lambda: lcp.solve([["a"]], [1.0]), ValueError, "could not convert"),
         (lambda: lcp.solve([[1.0]], [1.0], method="simplex"), ValueError, "must be one of: .*lemke"),
         (lambda: lcp.solve([[1.0]], [1.0], tol=0), ValueError, "tolerance"),
+        (lambda: lcp.solve([[1.0]], [1.0], max_iterations=3), ValueError, "time_limit instead"),
         (lambda: lcp.solve([[1.0]], [1.0], time_limit=-1), ValueError, "time_limit is -1"),
         (lambda: lcp.solve_mixed([[1.0]], [1.0], [False], method="pgs"), ValueError, "choose one of"),
         (lambda: lcp.solve_many([([[1.0]], [1.0]), ([[1.0, 2.0]], [1.0])]), ValueError, "problem 1: "),
@@ -185,9 +201,9 @@ def test_bad_input_is_an_exception_that_names_it(call, kind, message):
 
 
 def long_problem():
-    """A problem whose path has 2^20 pivots (Murty 1988)."""
-    n = 20
-    return np.tril(2.0 * np.ones((n, n)), -1).T + np.eye(n), -np.ones(n)
+    """A problem whose path has 2^22 pivots (Murty 1988)."""
+    n = 22
+    return np.tril(2.0 * np.ones((n, n)), -1) + np.eye(n), -np.ones(n)
 
 
 def test_a_callback_sees_the_iterations_and_ends_them():
@@ -212,21 +228,16 @@ def test_a_limit_of_time_is_kept():
     M, q = long_problem()
     began = time.perf_counter()
     answer = lcp.lemke(M, q, time_limit=0.2, max_iterations=10**9)
-    assert answer.status in ("TimeLimit", "Solved") and time.perf_counter() - began < 5
+    assert answer.status == "TimeLimit" and 0.15 < time.perf_counter() - began < 2
 
 
 def test_an_interrupt_ends_a_long_solve():
-    rng = np.random.default_rng(0)
-    M = rng.standard_normal((400, 400))
-    q = rng.standard_normal(400)
-    threading.Timer(0.5, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
+    M, q = long_problem()
+    threading.Timer(0.3, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
     began = time.perf_counter()
-    try:
-        with pytest.raises(KeyboardInterrupt):
-            lcp.lemke(M, q)
-            time.sleep(2)
-    finally:
-        assert time.perf_counter() - began < 60
+    with pytest.raises(KeyboardInterrupt):
+        lcp.lemke(M, q, max_iterations=10**9, time_limit=30)
+    assert time.perf_counter() - began < 5
 
 
 def test_other_threads_run_during_a_solve():

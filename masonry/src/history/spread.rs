@@ -45,7 +45,7 @@ pub struct Spread {
     pub dissipation: f64,
 }
 
-/// The state after a history, as far as it is compared.
+/// The state after some steps of a history, as far as it is compared.
 pub(crate) struct AtEnd<'a> {
     pub(crate) model: &'a Model,
     pub(crate) state: &'a State,

@@ -11,10 +11,10 @@ use super::sheet::Sheet;
 use super::stones::Piece;
 use super::supports::{self, CLASS};
 use super::{ImportError, ImportErrorKind, Imported, Options};
-use crate::drawing::{Change, Place};
 use crate::model::{Body, Model};
 use crate::scene::{Block, Joint, Material, Plane, Scene, SceneError, Support};
 use crate::units::{ForceUnit, LengthUnit, Units};
+use masonry_drawing::{Change, Place};
 
 /// The material of mortar.
 const MORTAR: &str = "mortar";

@@ -2,8 +2,8 @@
 
 use std::fmt;
 
-use crate::drawing::{Place, Unit};
 use crate::scene::SceneError;
+use masonry_drawing::{Place, Unit};
 
 /// Something of a drawing does not become a scene: what, where, and how to mend it.
 #[derive(Debug, Clone, PartialEq)]

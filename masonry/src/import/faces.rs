@@ -8,8 +8,8 @@ use nalgebra::Point2;
 
 use super::outline::distance;
 use super::{ImportError, ImportErrorKind};
-use crate::drawing::{Change, Line, Outline, Place};
 use crate::geometry;
+use masonry_drawing::{Change, Line, Outline, Place};
 
 /// Pieces of lines. Theory: four for each of the blocks that are allowed, and as many again for arcs.
 const MOST_PIECES: usize = 160_000;

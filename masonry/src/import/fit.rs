@@ -7,10 +7,10 @@ use super::report::metres;
 use super::sheet::Sheet;
 use super::stones::{Stone, near_pairs};
 use super::{ImportError, ImportErrorKind, Options, floor};
-use crate::drawing::Change;
 use crate::geometry;
 use crate::model::heal::heal;
 use crate::model::{Block, Movement, Support};
+use masonry_drawing::Change;
 
 /// Overlaps below this part of the smaller block are rounding errors, as in the checks of a model.
 const TOUCHING: f64 = 1e-9;

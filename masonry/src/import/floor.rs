@@ -6,8 +6,8 @@ use super::outline::distance;
 use super::sheet::Sheet;
 use super::stones::{Piece, shapes};
 use super::{ImportError, ImportErrorKind};
-use crate::drawing::Place;
 use crate::geometry::{self, cross};
+use masonry_drawing::Place;
 
 /// How much longer than the blocks the floor is on each side, relative to its length. Chosen: to be seen in pictures.
 const BEYOND: f64 = 0.05;

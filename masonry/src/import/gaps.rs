@@ -9,8 +9,8 @@ use super::sheet::Sheet;
 use super::size::{self, median};
 use super::stones::near_pairs;
 use super::{ImportError, ImportErrorKind, Joints};
-use crate::drawing::Change;
 use crate::geometry;
+use masonry_drawing::Change;
 
 /// The widest gap between blocks that is a joint, relative to the shortest edge. Chosen: joints of 10 mm beside bricks of
 /// 52 mm have a fifth; wider gaps are openings.

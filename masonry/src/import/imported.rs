@@ -2,8 +2,8 @@
 
 use nalgebra::Point2;
 
-use crate::drawing::{Change, Place, Unit};
 use crate::scene::Scene;
+use masonry_drawing::{Change, Place, Unit};
 
 /// A scene from a drawing.
 #[derive(Debug, Clone, PartialEq)]

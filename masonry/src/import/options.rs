@@ -1,6 +1,6 @@
 //! How a drawing becomes a scene.
 
-use crate::drawing::Unit;
+use masonry_drawing::Unit;
 
 /// What becomes of joints that are drawn open.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

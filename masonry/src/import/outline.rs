@@ -2,8 +2,8 @@
 
 use nalgebra::Point2;
 
-use crate::drawing::{Change, Place};
 use crate::geometry;
+use masonry_drawing::{Change, Place};
 
 /// Distances below this part of the tolerance are rounding errors. Chosen: far above those of coordinates, far below all
 /// that a report should tell.

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
 use super::Imported;
-use crate::drawing::Change;
+use masonry_drawing::Change;
 
 /// Places that a row names; others are counted. Chosen: what fits a line.
 const NAMED: usize = 3;
@@ -14,9 +14,9 @@ impl Imported {
     pub fn report(&self) -> String {
         let scene = &self.scene;
         let mut text = format!(
-            "{} blocks, {} supports; unit of the drawing: {}; tolerance: {} m\n",
-            scene.blocks.len(),
-            scene.supports.len(),
+            "{}, {}; unit of the drawing: {}; tolerance: {} m\n",
+            counted(scene.blocks.len(), "block"),
+            counted(scene.supports.len(), "support"),
             self.unit,
             metres(self.tolerance),
         );
@@ -99,4 +99,8 @@ pub(super) fn metres(length: f64) -> String {
     } else {
         text
     }
+}
+
+fn counted(count: usize, what: &str) -> String {
+    if count == 1 { format!("1 {what}") } else { format!("{count} {what}s") }
 }

@@ -8,7 +8,7 @@ use super::report::metres;
 use super::size::{self, median};
 use super::stones::{self, Piece, Stone};
 use super::{ImportError, ImportErrorKind, Options, faces};
-use crate::drawing::{Change, Drawing, Line, Outline, Place, Unit};
+use masonry_drawing::{Change, Drawing, Line, Outline, Place, Unit};
 
 /// The tolerance that nobody gives, relative to the shortest edge. Theory: joints of mortar are wider, being 10 mm beside
 /// bricks of 65 mm; corners that are rounded to millimetres are off by less, from edges of 30 mm on.

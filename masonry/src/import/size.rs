@@ -4,8 +4,8 @@ use nalgebra::Point2;
 
 use super::report::metres;
 use super::{ImportError, ImportErrorKind, Options};
-use crate::drawing::{Drawing, Unit};
 use crate::geometry;
+use masonry_drawing::{Drawing, Unit};
 
 /// Sizes of the median block \[m\]. Chosen: tiles of a mosaic have a centimetre, the blocks of Baalbek 20 m; a drawing in
 /// millimetres read as metres has bricks of 200 m, and one in metres read as millimetres has stones below 2 mm.

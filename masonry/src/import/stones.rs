@@ -4,8 +4,8 @@ use nalgebra::Point2;
 
 use super::near;
 use super::{ImportError, ImportErrorKind};
-use crate::drawing::{Change, Place};
 use crate::geometry::{self, PolygonError};
+use masonry_drawing::{Change, Place};
 
 /// A block.
 #[derive(Debug, Clone)]

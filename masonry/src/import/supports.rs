@@ -3,9 +3,9 @@
 use super::fit::Fitted;
 use super::sheet::Sheet;
 use super::stones::Piece;
-use crate::drawing::Change;
 use crate::geometry;
 use crate::scene::Support;
+use masonry_drawing::Change;
 
 /// The class of the joints of supports.
 pub(super) const CLASS: &str = "support";

@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use super::Imported;
-use crate::scene::{Block, SceneError, Support};
+use crate::scene::{Block, Contact, Scene, SceneError, Support};
 
 impl Imported {
     /// The scene as TOML text, with the report at the top and the place in the drawing beside each block.
@@ -19,7 +19,7 @@ impl Imported {
             let _ = writeln!(text, "# {line}");
         }
         text.push('\n');
-        text.push_str(&without_defaults(&rest.to_toml()?));
+        text.push_str(&without_defaults(&rest)?);
         for support in &supports {
             text.push_str(&support_text(support));
         }
@@ -30,13 +30,14 @@ impl Imported {
     }
 }
 
-/// Tables that say what would hold without them.
-fn without_defaults(text: &str) -> String {
-    let tables = text.split("\n\n");
-    let is_default =
-        |it: &&str| ["[contact]", "[solver]", "[output]"].iter().any(|name| it.starts_with(name));
-    tables.filter(|it| !is_default(it)).collect::<Vec<_>>().join("\n\n").trim_end().to_owned()
-        + "\n"
+/// The text of a scene, less the tables that say what would hold without them.
+fn without_defaults(scene: &Scene) -> Result<String, SceneError> {
+    let mut defaults = vec!["[solver]", "[output]"];
+    defaults.extend((scene.contact == Contact::default()).then_some("[contact]"));
+    let text = scene.to_toml()?;
+    let is_default = |it: &&str| defaults.iter().any(|name| it.starts_with(name));
+    let kept: Vec<&str> = text.split("\n\n").filter(|it| !is_default(it)).collect();
+    Ok(kept.join("\n\n").trim_end().to_owned() + "\n")
 }
 
 fn block_text(block: &Block, place: &str) -> String {

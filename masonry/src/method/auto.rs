@@ -1,5 +1,5 @@
 //! The rules of `auto`: which routes a scene uses and in which order, how long each may take, when a result is final,
-//! and what is asked besides. Nothing else in the crate decides this: [`Plan::routes`](crate::plan::Plan::routes) has
+//! and what is asked besides. Nothing else in the crate chooses routes: [`Plan::routes`](crate::plan::Plan::routes) has
 //! the list with its reasons, and [`analysis`](crate::analysis::solve) runs it.
 //!
 //! The cheapest method that can decide runs first; slower ones follow only for what they alone can decide:

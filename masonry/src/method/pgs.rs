@@ -26,8 +26,9 @@ const MAX_ROUNDS: usize = 2000;
 /// Sweeps of one round at most.
 const SWEEPS: usize = 2000;
 /// How much better than the last round the sweeps of the next one have to be; after a round that was not, by this factor
-/// more.
+/// more, and never more than by the least.
 const BETTER: f64 = 0.1;
+const LEAST: f64 = 1e-6;
 /// How accurate the sweeps are at first, and at most: relative to the tolerance, since the springs' forces may be
 /// much larger than the loads, and as far as rounding allows.
 const FIRST: f64 = 0.1;
@@ -189,7 +190,7 @@ impl<'a> Rounds<'a> {
         self.done += 1;
         let lack = self.lack();
         if lack >= self.least {
-            self.better *= BETTER;
+            self.better = (BETTER * self.better).max(LEAST);
         }
         self.idle = if lack < 0.9 * self.least { 0 } else { self.idle + 1 };
         self.least = self.least.min(lack);

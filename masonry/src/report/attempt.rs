@@ -73,7 +73,7 @@ fn solved(status: Status) -> String {
     }
 }
 
-/// What a route counts.
+/// The name of the steps of a route.
 fn counted(route: Route) -> &'static str {
     match route {
         Route::Qp => "programs",

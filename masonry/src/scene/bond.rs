@@ -134,7 +134,7 @@ fn left_of(stretch: f64, wall: &Wall, joints: JointThickness) -> f64 {
     stretch + joints.head / wall.brick.length * (stretch - 1.0)
 }
 
-/// Rounds a length in bricks to half bricks if within [`SLIVER`].
+/// Rounds a length in bricks to half bricks if within [`SAME_PLACE`].
 fn snap(bricks: f64) -> f64 {
     let halves = 0.5 * (2.0 * bricks).round();
     if (bricks - halves).abs() < SAME_PLACE { halves } else { bricks }

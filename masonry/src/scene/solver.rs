@@ -80,13 +80,20 @@ impl From<Route> for RouteSetting {
     }
 }
 
+/// The error of a name that is no route, in the place of which the names of settings are told.
+type Unnamed = serde::de::value::Error;
+
+/// The names of all settings.
+const NAMES: &[&str] = &["auto", "forces", "lemke", "interior", "qp", "pgs", "alm"];
+
 impl<'de> Deserialize<'de> for RouteSetting {
     fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
         let name = String::deserialize(from)?;
         if name == Self::Auto.name() {
             return Ok(Self::Auto);
         }
-        Route::deserialize(StrDeserializer::new(&name)).map(Self::Only)
+        let route = Route::deserialize(StrDeserializer::<Unnamed>::new(&name));
+        route.map(Self::Only).map_err(|_| serde::de::Error::unknown_variant(&name, NAMES))
     }
 }
 

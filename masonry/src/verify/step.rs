@@ -37,6 +37,6 @@ impl StepResult {
     }
 
     pub(crate) fn is_solved(&self) -> bool {
-        self.info.status == lcp::Status::Solved
+        self.info.status == lcp::Status::Solved && self.state.is_some()
     }
 }

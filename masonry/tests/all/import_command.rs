@@ -36,7 +36,7 @@ fn a_drawing_becomes_a_scene_that_is_solved() {
     let report = String::from_utf8(output.stdout).unwrap();
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     assert!(
-        report.starts_with("10 blocks, 1 supports; unit of the drawing: m; tolerance: 0.00"),
+        report.starts_with("10 blocks, 1 support; unit of the drawing: m; tolerance: 0.00"),
         "{report}"
     );
     assert!(

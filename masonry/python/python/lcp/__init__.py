@@ -194,8 +194,8 @@ def solve_mixed(
 def solve_boxed(
     M: Any,
     q: ArrayLike,
-    lower: ArrayLike,
-    upper: ArrayLike,
+    lower: ArrayLike | None,
+    upper: ArrayLike | None,
     *,
     method: str = "auto",
     tol: float | None = None,
@@ -208,7 +208,7 @@ def solve_boxed(
     Parameters
     ----------
     lower, upper : array_like or float
-        Bounds, which may be infinite. The other parameters are those of :func:`solve`.
+        Bounds, which may be infinite; ``None`` is no bound. The other parameters are those of :func:`solve`.
 
     Examples
     --------
@@ -217,7 +217,7 @@ def solve_boxed(
     """
     settings = options(method, tol, time_limit, max_iterations, callback)
     right = vector(q)
-    low, high = (filled(bound, len(right), 0.0) for bound in (lower, upper))
+    low, high = filled(lower, len(right), -np.inf), filled(upper, len(right), np.inf)
     return Solution(_native.solve_boxed(matrix(M), right, low, high, settings))
 
 

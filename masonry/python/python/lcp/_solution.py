@@ -18,8 +18,11 @@ class Unsolved(RuntimeError):
     """The exception of :meth:`Answer.raise_if_unsolved`, with the answer as ``answer``."""
 
     def __init__(self, answer: Answer) -> None:
-        super().__init__(f"{answer.status}: the largest residual is {answer.residual:.1e}")
+        super().__init__(answer)
         self.answer = answer
+
+    def __str__(self) -> str:
+        return f"{self.answer.status}: the largest residual is {self.answer.residual:.1e}"
 
 
 class Answer:

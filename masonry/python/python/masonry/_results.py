@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import csv
 import io
 import json
 import os
@@ -144,10 +145,25 @@ def _table(text: str | None) -> NDArray[np.void] | None:
     """Give a CSV table as records, whose fields are its columns."""
     if text is None:
         return None
-    records: NDArray[np.void] = np.genfromtxt(
-        io.StringIO(text), delimiter=",", names=True, dtype=None, encoding="utf-8", deletechars=""
-    )
-    return np.atleast_1d(records)
+    names, *rows = csv.reader(io.StringIO(text))
+    columns = [_column(name, [row[place] for row in rows]) for place, name in enumerate(names)]
+    records = np.empty(len(rows), dtype=[(name, it.dtype) for name, it in zip(names, columns)])
+    for name, column in zip(names, columns):
+        records[name] = column
+    return records
+
+
+#: Columns that are text, whatever it looks like, and those of whole numbers.
+_TEXTS = {"class", "a", "b", "status", "stage", "way", "route"}
+_NUMBERS = {"index", "joint", "step", "factorisations", "open", "stick", "slip"}
+
+
+def _column(name: str, values: list[str]) -> NDArray[Any]:
+    if name in _TEXTS:
+        return np.array(values, dtype=str)
+    if name in _NUMBERS:
+        return np.array(values, dtype=np.int64)
+    return np.array([float(value) if value else np.nan for value in values])
 
 
 def _records(

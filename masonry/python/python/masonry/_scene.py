@@ -48,6 +48,7 @@ class Scene:
     def __init__(self, **keys: Any) -> None:
         self._keys: dict[str, Any] = {"title": "", **copy.deepcopy(keys)}
         self._native: _native.Scene | None = None
+        self._text = ""
         self._checked()
 
     @classmethod
@@ -68,6 +69,7 @@ class Scene:
         scene = cls.__new__(cls)
         scene._native = native
         scene._keys = json.loads(native.to_json())
+        scene._text = scene._written()
         return scene
 
     def __getitem__(self, path: str) -> Any:
@@ -82,7 +84,9 @@ class Scene:
         place, _, last = path.rpartition(".")
         table: Any = self[place] if place else self._keys
         table[int(last) if isinstance(table, list) else last] = value
-        self._native = None
+
+    def __copy__(self) -> Scene:
+        return self.copy()
 
     def __deepcopy__(self, memo: Any) -> Scene:
         return self.copy()
@@ -95,12 +99,13 @@ class Scene:
         scene = cls.__new__(cls)
         scene._keys = keys
         scene._native = None
+        scene._text = ""
         return scene
 
     def copy(self) -> Scene:
         """Give a scene of its own, whose keys may be changed."""
         scene = Scene._from_keys(copy.deepcopy(self._keys))
-        scene._native = self._native
+        scene._native, scene._text = self._native, self._text
         return scene
 
     def to_toml(self) -> str:
@@ -159,7 +164,19 @@ class Scene:
         """Find the least thickness of an arch under the loads of the scene."""
         return Limit(self._checked().least_thickness(arch))
 
+    def _written(self) -> str:
+        """Give the keys as JSON, arrays and numbers of numpy included."""
+
+        def plain(value: Any) -> Any:
+            if hasattr(value, "tolist"):
+                return value.tolist()
+            raise TypeError(f"a scene has no values of type {type(value).__name__}")
+
+        return json.dumps(self._keys, default=plain)
+
     def _checked(self) -> _native.Scene:
-        if self._native is None:
-            self._native = _native.Scene.from_json(json.dumps(self._keys))
+        # Keys may have been changed in any way since the last check.
+        text = self._written()
+        if self._native is None or text != self._text:
+            self._native, self._text = _native.Scene.from_json(text), text
         return self._native

@@ -107,7 +107,7 @@ impl<'a> Chain<'a> {
         }
     }
 
-    /// The same from where the step before has ended.
+    /// Starts from the end of the step before.
     pub(super) fn after(self, before: Option<Before<'a>>) -> Self {
         Self { before, ..self }
     }

@@ -264,7 +264,8 @@ impl Run {
 
     /// The result of a step that no route was asked about, or whose routes were refused.
     fn without_state(&self, status: Status) -> StepResult {
-        StepResult::new(SolveInfo::new(self.plan.routes[0].route, status, UNKNOWN))
+        let info = SolveInfo::new(self.plan.routes[0].route, status, UNKNOWN);
+        StepResult::new(SolveInfo { because: "planned; no route has ended".to_owned(), ..info })
     }
 
     /// Keeps a result. An only step has nothing else to remember.

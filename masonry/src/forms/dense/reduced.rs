@@ -72,7 +72,7 @@ pub(super) fn tangents_in_i(form: &Equations, reduction: &Reduction) -> Vec<bool
 }
 
 /// A start in which all points with friction slide forwards, along `t`, and one in which they slide backwards, each by the
-/// rule of its form; the only one there is where nothing has friction.
+/// rule of its form; the only one there is if nothing has friction.
 pub(super) fn starts(form: &Equations, t_basic: impl Fn(bool) -> Vec<bool>) -> Vec<Start> {
     if form.layout.friction.is_empty() {
         return vec![Start { name: "isostatic normals", t_basic: t_basic(true) }];
