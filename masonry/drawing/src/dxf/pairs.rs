@@ -94,9 +94,14 @@ impl<'a> Record<'a> {
         Ok(Point2::new(self.number(code, 0.0)?, self.number(code + 10, 0.0)?))
     }
 
-    /// Whether the entity is drawn as seen from behind.
+    /// Whether the coordinates of the entity are those seen from behind.
     pub(super) fn is_mirrored(&self) -> Result<bool, DrawingError> {
-        Ok(self.number(230, 1.0)? < 0.0)
+        /// The flag of polylines in space.
+        const IN_SPACE: i64 = 8;
+        // Lines and polylines in space have coordinates of the world, whatever their direction.
+        let is_in_space = self.kind == "POLYLINE" && self.flags(70) & IN_SPACE != 0;
+        let is_of_world = self.kind == "LINE" || is_in_space;
+        Ok(!is_of_world && self.number(230, 1.0)? < 0.0)
     }
 
     pub(super) fn parsed(&self, pair: &Pair) -> Result<f64, DrawingError> {
