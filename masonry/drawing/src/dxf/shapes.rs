@@ -23,9 +23,13 @@ pub(super) fn line(record: &Record) -> Result<Shape, DrawingError> {
 }
 
 pub(super) fn arc(record: &Record) -> Result<Shape, DrawingError> {
-    let [from, to] = [record.number(50, 0.0)?, record.number(51, 360.0)?].map(f64::to_radians);
-    let sweep = (to - from).rem_euclid(std::f64::consts::TAU);
+    let [from, to] = [record.number(50, 0.0)?, record.number(51, 360.0)?];
+    let sweep = (to - from).rem_euclid(360.0);
+    if sweep == 0.0 {
+        return circle(record);
+    }
     let (centre, radius) = (record.point(10)?, record.number(40, 0.0)?);
+    let [from, sweep] = [from, sweep].map(f64::to_radians);
     let Chords { points, off } = Arc { centre, radius, from, sweep }.chords();
     Ok(Shape { points, is_closed: false, off })
 }
