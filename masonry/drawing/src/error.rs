@@ -3,6 +3,7 @@
 use std::fmt;
 
 use super::Place;
+use super::place::harmless;
 
 /// Something is wrong with the file of a drawing: what, where, and how to mend it.
 #[derive(Debug, Clone, PartialEq)]
@@ -124,8 +125,8 @@ impl DrawingErrorKind {
     }
 }
 
-/// The beginning of a text that stands where it should not.
+/// The beginning of a text of the file, without what a terminal obeys.
 pub(super) fn shown(text: &str) -> String {
     const LONGEST: usize = 40;
-    text.chars().take(LONGEST).collect()
+    text.chars().take(LONGEST).map(harmless).collect()
 }

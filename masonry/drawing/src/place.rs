@@ -20,14 +20,18 @@ impl Place {
 
 impl fmt::Display for Place {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        // Names of a file may be long, and may hold what a terminal obeys.
-        let shown = |c: char| if c.is_control() { '\u{fffd}' } else { c };
+        // Names of a file may be long.
         let mut rest = self.entity.chars();
-        let entity: String = rest.by_ref().take(LONGEST_NAME).map(shown).collect();
+        let entity: String = rest.by_ref().take(LONGEST_NAME).map(harmless).collect();
         let dots = if rest.next().is_some() { "..." } else { "" };
         write!(f, "{entity}{dots}")?;
         self.line.map_or(Ok(()), |line| write!(f, " (line {line})"))
     }
+}
+
+/// A character, or its replacement if a terminal would obey it.
+pub(super) fn harmless(c: char) -> char {
+    if c.is_control() { char::REPLACEMENT_CHARACTER } else { c }
 }
 
 /// Characters of a name that are shown. Chosen: one line of a terminal.

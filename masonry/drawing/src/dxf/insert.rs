@@ -126,7 +126,7 @@ impl<'a> Expansion<'a> {
         }
         let name = record.text(2).unwrap_or_default();
         let Some((first, inside)) = self.blocks.get(name).and_then(|it| it.split_first()) else {
-            return Err(DrawingErrorKind::UnknownBlock { name: name.to_owned() }.at(&place));
+            return Err(DrawingErrorKind::UnknownBlock { name: shown(name) }.at(&place));
         };
         let to_base = Matrix3::new_translation(&-first.point(10)?.coords);
         let layer = if record.layer() == "0" { frame.layer } else { record.layer() };
