@@ -16,7 +16,8 @@ use super::{Drawing, DrawingError, DrawingErrorKind, Place, Unit};
 /// The parts of a file that matter.
 #[derive(Default)]
 struct File<'a> {
-    unit: Option<Unit>,
+    /// The number of the unit.
+    unit: Option<i64>,
     /// Blocks by name: their first record, which has the base point, and those inside.
     blocks: BTreeMap<&'a str, Vec<Record<'a>>>,
     entities: Vec<Record<'a>>,
@@ -24,7 +25,8 @@ struct File<'a> {
 
 pub(super) fn read(text: &str) -> Result<Drawing, DrawingError> {
     let file = File::of(records(text)?)?;
-    let mut drawing = Drawing::in_unit(file.unit);
+    let mut drawing = Drawing::in_unit(file.unit.and_then(Unit::of_dxf));
+    drawing.unknown_unit = file.unit.filter(|_| drawing.unit.is_none());
     Expansion { blocks: &file.blocks, drawing: &mut drawing }.all(&file.entities)?;
     Ok(drawing)
 }
@@ -69,9 +71,8 @@ impl<'a> File<'a> {
     }
 }
 
-/// The unit of the header, if it gives one.
-fn unit(header: &Record) -> Option<Unit> {
+/// The number of the unit in the header; zero is none.
+fn unit(header: &Record) -> Option<i64> {
     let at = header.pairs.iter().position(|pair| pair.value == "$INSUNITS")?;
-    let number = header.pairs.get(at + 1)?.value.trim().parse().ok()?;
-    Unit::of_dxf(number)
+    header.pairs.get(at + 1)?.value.parse().ok().filter(|number| *number != 0)
 }

@@ -18,6 +18,8 @@ pub(super) const MOST_POINTS: usize = 2_000_000;
 pub struct Drawing {
     /// The unit of length, if the file gives it.
     pub unit: Option<Unit>,
+    /// The number of the unit in `$INSUNITS`, if it is none of [`Unit`].
+    pub unknown_unit: Option<i64>,
     /// The extent across the plane, if the file has bodies.
     pub thickness: Option<f64>,
     /// Closed outlines.

@@ -96,6 +96,14 @@ pub enum ImportErrorKind {
         "dozens of outlines lie over each other here: draw each block once, or leave their layer out by --ignore"
     )]
     Crowded,
+    /// The unit of the file is none of those that are known.
+    #[error(
+        "the unit {number} of $INSUNITS is not known: give --unit, or --unit m and the metres in one unit as --scale"
+    )]
+    UnknownUnit {
+        /// The number of the unit.
+        number: i64,
+    },
     /// Blocks have a size that no stone has.
     #[error(
         "half of all blocks are larger than {size} m, with {unit} as the unit ({from}): {remedy}"

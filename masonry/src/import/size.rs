@@ -15,8 +15,12 @@ const LARGEST: f64 = 25.0;
 /// The unit of a drawing: that of the options, of the file, or the metre.
 ///
 /// # Errors
-/// No stones have the size that half of the blocks would have, and the unit is none that was asked for.
+/// The unit of the file is not known, or no stones have the size that half of the blocks would have in it; never for a
+/// unit of the options.
 pub(super) fn unit(drawing: &Drawing, options: &Options) -> Result<Unit, ImportError> {
+    if let (None, Some(number)) = (options.unit, drawing.unknown_unit) {
+        return Err(ImportErrorKind::UnknownUnit { number }.at(&[]));
+    }
     let (unit, from) = match (options.unit, drawing.unit) {
         (Some(unit), _) => return Ok(unit),
         (None, Some(unit)) => (unit, "as the file says"),
