@@ -20,7 +20,7 @@ pub(super) fn read(text: &str) -> Result<Drawing, DrawingError> {
     let mut search = Search { path: Vec::new(), meshes: Vec::new() };
     search.look(&value, &About { name: None, is_fixed: false })?;
     let mut drawing = Drawing::default();
-    mesh::add(&mut drawing, &search.meshes)?;
+    mesh::add(&mut drawing, search.meshes)?;
     Ok(drawing)
 }
 

@@ -33,24 +33,25 @@ struct Plane {
     across: Vector3<f64>,
 }
 
-/// Adds bodies to a drawing.
+/// Adds bodies to a drawing; those without faces are none.
 ///
 /// # Errors
 /// The body that is no prism across a plane that all share.
-pub(super) fn add(drawing: &mut Drawing, meshes: &[Mesh]) -> Result<(), DrawingError> {
-    if meshes.iter().all(|mesh| mesh.faces.is_empty()) {
+pub(super) fn add(drawing: &mut Drawing, mut meshes: Vec<Mesh>) -> Result<(), DrawingError> {
+    meshes.retain(|mesh| !mesh.faces.is_empty());
+    if meshes.is_empty() {
         return Ok(());
     }
-    if let Some(plane) = flat(meshes) {
+    if let Some(plane) = flat(&meshes) {
         return meshes.iter().try_for_each(|mesh| add_faces(drawing, mesh, plane));
     }
-    let plane = shared_plane(meshes)?;
+    let plane = shared_plane(&meshes)?;
     let [from, to] = meshes[0].extent(plane.across);
     drawing.thickness = Some(to - from);
     for mesh in meshes {
         let corners =
             mesh.section(plane).ok_or_else(|| DrawingErrorKind::NotPlane.at(&mesh.place))?;
-        let Mesh { name, layer, is_fixed, place, .. } = mesh.clone();
+        let Mesh { name, layer, is_fixed, place, .. } = mesh;
         drawing.add_outline(Outline { corners, layer, name, is_fixed, place })?;
     }
     Ok(())

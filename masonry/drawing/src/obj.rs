@@ -26,8 +26,8 @@ pub(super) fn read(text: &str) -> Result<Drawing, DrawingError> {
         reader.line(line, number)?;
     }
     let mut drawing = Drawing::default();
-    let meshes: Vec<Mesh> = reader.bodies.iter().map(|body| body.own(&reader.corners)).collect();
-    mesh::add(&mut drawing, &meshes)?;
+    let meshes = reader.bodies.iter().map(|body| body.own(&reader.corners)).collect();
+    mesh::add(&mut drawing, meshes)?;
     reader.lines.into_iter().try_for_each(|line| drawing.add_line(line))?;
     Ok(drawing)
 }
