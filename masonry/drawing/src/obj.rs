@@ -4,7 +4,7 @@ use nalgebra::{Point2, Point3};
 
 use super::error::shown;
 use super::mesh::{self, Mesh};
-use super::shapes::MOST_POINTS;
+use super::shapes::{MOST_POINTS, MOST_SHAPES};
 use super::{Drawing, DrawingError, DrawingErrorKind, Line, Place};
 
 /// The material of faces that name none.
@@ -50,13 +50,14 @@ impl Reader {
                 let points =
                     points.iter().map(|k| self.corners[*k].xy()).collect::<Vec<Point2<_>>>();
                 let layer = self.material.clone().unwrap_or_else(|| MATERIAL.into());
-                self.lines.push(Line { points, layer, place });
+                push(&mut self.lines, Line { points, layer, place: place.clone() }, &place)?;
             }
             "o" | "g" => {
                 let place = Place::new(format!("{keyword} {}", shown(rest)), Some(number));
                 let layer = self.material.clone().unwrap_or_else(|| MATERIAL.into());
                 let name = Some(shown(rest)).filter(|it| !it.is_empty());
-                self.bodies.push(Mesh { name, layer, place, ..Mesh::default() });
+                let body = Mesh { name, layer, place: place.clone(), ..Mesh::default() };
+                push(&mut self.bodies, body, &place)?;
             }
             "usemtl" => {
                 self.material = Some(shown(rest));
@@ -65,7 +66,8 @@ impl Reader {
                     body.layer = layer;
                 } else {
                     let place = Place::new(format!("usemtl {layer}"), Some(number));
-                    self.bodies.push(Mesh { layer, place, ..Mesh::default() });
+                    let body = Mesh { layer, place: place.clone(), ..Mesh::default() };
+                    push(&mut self.bodies, body, &place)?;
                 }
             }
             // Normals, textures and smoothing do not matter; a file of another kind has no faces, which is an error later.
@@ -125,6 +127,16 @@ impl Reader {
         let last = self.bodies.len() - 1;
         &mut self.bodies[last]
     }
+}
+
+/// Adds a body or a line, of which there are not too many.
+fn push<T>(list: &mut Vec<T>, item: T, place: &Place) -> Result<(), DrawingError> {
+    if list.len() == MOST_SHAPES {
+        let kind = DrawingErrorKind::TooMany { what: "bodies or lines", limit: MOST_SHAPES };
+        return Err(kind.at(place));
+    }
+    list.push(item);
+    Ok(())
 }
 
 impl Mesh {
