@@ -162,9 +162,18 @@ impl Mesh {
         sum.fold(Vector3::zeros(), |sum, it| sum + it).try_normalize(0.0)
     }
 
+    /// Whether all faces are along a direction, or at one of the two ends across it.
     fn is_prism(&self, across: Vector3<f64>) -> bool {
-        self.normals().all(|normal| {
-            normal.dot(&across).abs() <= TURNED || normal.cross(&across).norm() <= TURNED
+        let [from, to] = self.extent(across);
+        let is_at_end = |k: &usize| {
+            let at = self.corners[*k].coords.dot(&across);
+            (at - from).min(to - at) <= UNEVEN * (to - from)
+        };
+        self.faces.iter().all(|face| {
+            self.normal(face).is_none_or(|normal| {
+                let is_end = normal.cross(&across).norm() <= TURNED && face.iter().all(is_at_end);
+                is_end || normal.dot(&across).abs() <= TURNED
+            })
         })
     }
 
