@@ -72,6 +72,13 @@ impl<'a> Expansion<'a> {
         /// The flags of polylines that are meshes.
         const MESH: i64 = 16 | 64;
         let shape = match record.kind {
+            // The ends of lists, and what blocks carry along.
+            "SEQEND" | "ATTRIB" | "ATTDEF" | "VIEWPORT" => return Ok(()),
+            _ if record.flags(60) == 1 => {
+                let what = "invisible entities were left out";
+                self.drawing.changes.push(Change::new(what, &frame.place(record)));
+                return Ok(());
+            }
             "LINE" => shapes::line(record)?,
             "ARC" => shapes::arc(record)?,
             "CIRCLE" => shapes::circle(record)?,
@@ -79,8 +86,6 @@ impl<'a> Expansion<'a> {
             "LWPOLYLINE" => shapes::light_polyline(record)?,
             "POLYLINE" if record.flags(70) & MESH == 0 => shapes::polyline(record, vertices)?,
             "INSERT" => return self.insert(record, frame, entities),
-            // The ends of lists, and what blocks carry along.
-            "SEQEND" | "ATTRIB" | "ATTDEF" | "VIEWPORT" => return Ok(()),
             kind => {
                 let kind = shown(kind);
                 let what =
@@ -131,11 +136,11 @@ impl<'a> Expansion<'a> {
         let to_base = Matrix3::new_translation(&-first.point(10)?.coords);
         let layer = if record.layer() == "0" { frame.layer } else { record.layer() };
         let depth = frame.depth + 1;
-        let of = format!(" in block {} of {place}", shown(name));
+        let inserted = Place::new(format!("{}{}", record.place(), frame.inside), None);
+        let of = format!(" in block {} of {inserted}", shown(name));
         for cell in cells(record, &place)? {
             let map = frame.map * placement(record, cell)? * to_base;
-            let of = of.clone() + &frame.inside;
-            self.add(inside, &Frame { map, layer, depth, inside: of }, entities)?;
+            self.add(inside, &Frame { map, layer, depth, inside: of.clone() }, entities)?;
             *entities += 1;
         }
         Ok(())
