@@ -36,7 +36,9 @@ pub(super) fn read(text: &str) -> Result<Drawing, DrawingError> {
     let (unit, scale) = size_of_unit(root);
     let mut drawing = Drawing::in_unit(unit);
     let upright = Matrix3::new_nonuniform_scaling(&Vector2::new(scale, -scale));
-    Reader { drawing: &mut drawing }.inside(root, &Frame { map: upright, layer: "0", depth: 0 })?;
+    let line_ends = text.match_indices('\n').map(|(at, _)| at).collect();
+    let mut reader = Reader { drawing: &mut drawing, line_ends };
+    reader.inside(root, &Frame { map: upright, layer: "0", depth: 0 })?;
     Ok(drawing)
 }
 
@@ -56,6 +58,8 @@ fn size_of_unit(root: Node) -> (Option<Unit>, f64) {
 
 struct Reader<'a> {
     drawing: &'a mut Drawing,
+    /// Where lines of the file end.
+    line_ends: Vec<usize>,
 }
 
 /// What holds for all that is inside of a group.
@@ -78,12 +82,17 @@ impl Reader<'_> {
         if is_hidden(node) {
             return Ok(());
         }
-        let place = place(node);
+        let place = self.place(node);
         if frame.depth == DEEPEST {
             return Err(DrawingErrorKind::Nested { depth: DEEPEST }.at(&place));
         }
         let map = frame.map * transform(node, &place)?;
         let parts = match node.tag_name().name() {
+            "svg" if has_own_coordinates(node) => {
+                let what = "<svg> with x, y or viewBox was left out: move its objects into a group";
+                self.drawing.changes.push(Change::new(what, &place));
+                return Ok(());
+            }
             "g" | "a" | "svg" | "switch" => {
                 let label = node.attribute((INKSCAPE, "label")).or_else(|| node.attribute("id"));
                 let layer = label.unwrap_or(frame.layer);
@@ -124,12 +133,19 @@ impl Reader<'_> {
             self.drawing.add_line(Line { points, layer, place })
         }
     }
+
+    fn place(&self, node: Node) -> Place {
+        let id = node.attribute("id").map_or(String::new(), |id| format!(" id \"{}\"", shown(id)));
+        let start = node.range().start;
+        let line = 1 + self.line_ends.partition_point(|end| *end < start);
+        Place::new(format!("<{}>{id}", shown(node.tag_name().name())), Some(line))
+    }
 }
 
-fn place(node: Node) -> Place {
-    let id = node.attribute("id").map_or(String::new(), |id| format!(" id \"{}\"", shown(id)));
-    let row = node.document().text_pos_at(node.range().start).row;
-    Place::new(format!("<{}>{id}", shown(node.tag_name().name())), usize::try_from(row).ok())
+/// Whether a drawing in a drawing has its own origin or size.
+fn has_own_coordinates(node: Node) -> bool {
+    let is_moved = |name| node.attribute(name).is_some_and(|text| text.trim() != "0");
+    node.has_attribute("viewBox") || ["x", "y"].into_iter().any(is_moved)
 }
 
 fn is_hidden(node: Node) -> bool {
