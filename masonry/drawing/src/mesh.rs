@@ -26,24 +26,25 @@ pub(super) struct Mesh {
 
 /// The plane of a drawing in space.
 #[derive(Debug, Clone, Copy)]
-struct Plane {
+pub(super) struct Plane {
     right: Vector3<f64>,
     up: Vector3<f64>,
     /// The direction across the plane.
     across: Vector3<f64>,
 }
 
-/// Adds bodies to a drawing; those without faces are none.
+/// Adds bodies to a drawing, and gives its plane, that of x and y without bodies; bodies without faces are none.
 ///
 /// # Errors
 /// The body that is no prism across a plane that all share.
-pub(super) fn add(drawing: &mut Drawing, mut meshes: Vec<Mesh>) -> Result<(), DrawingError> {
+pub(super) fn add(drawing: &mut Drawing, mut meshes: Vec<Mesh>) -> Result<Plane, DrawingError> {
     meshes.retain(|mesh| !mesh.faces.is_empty());
     if meshes.is_empty() {
-        return Ok(());
+        return Ok(Plane::GROUND);
     }
     if let Some(plane) = flat(&meshes) {
-        return meshes.iter().try_for_each(|mesh| add_faces(drawing, mesh, plane));
+        meshes.iter().try_for_each(|mesh| add_faces(drawing, mesh, plane))?;
+        return Ok(plane);
     }
     let plane = shared_plane(&meshes)?;
     let [from, to] = meshes[0].extent(plane.across);
@@ -54,7 +55,7 @@ pub(super) fn add(drawing: &mut Drawing, mut meshes: Vec<Mesh>) -> Result<(), Dr
         let Mesh { name, layer, is_fixed, place, .. } = mesh;
         drawing.add_outline(Outline { corners, layer, name, is_fixed, place })?;
     }
-    Ok(())
+    Ok(plane)
 }
 
 /// Each face of a flat mesh is an outline.
@@ -74,7 +75,7 @@ fn flat(meshes: &[Mesh]) -> Option<Plane> {
     let extent = |along: Vector3<f64>| extent(corners(), along);
     let [z, y, x] = [Vector3::z(), Vector3::y(), Vector3::x()];
     let planes = [
-        Plane { right: x, up: y, across: z },
+        Plane::GROUND,
         Plane { right: x, up: z, across: -y },
         Plane { right: y, up: z, across: x },
     ];
@@ -136,6 +137,13 @@ fn extent<'a>(corners: impl Iterator<Item = &'a Point3<f64>>, along: Vector3<f64
 }
 
 impl Plane {
+    /// The plane of x and y, seen from above.
+    const GROUND: Self = Self {
+        right: Vector3::new(1.0, 0.0, 0.0),
+        up: Vector3::new(0.0, 1.0, 0.0),
+        across: Vector3::new(0.0, 0.0, 1.0),
+    };
+
     /// The upright plane with a normal, x to the right where that is possible.
     fn across(normal: Vector3<f64>) -> Self {
         let right = Vector3::new(-normal.y, normal.x, 0.0).normalize();
@@ -144,7 +152,7 @@ impl Plane {
         Self { right, up: Vector3::z(), across: right.cross(&Vector3::z()) }
     }
 
-    fn project(self, point: Point3<f64>) -> Point2<f64> {
+    pub(super) fn project(self, point: Point3<f64>) -> Point2<f64> {
         Point2::new(point.coords.dot(&self.right), point.coords.dot(&self.up))
     }
 }

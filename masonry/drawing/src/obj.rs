@@ -1,6 +1,6 @@
 //! Wavefront OBJ: faces in a plane, or bodies that are prisms; lines.
 
-use nalgebra::{Point2, Point3};
+use nalgebra::Point3;
 
 use super::error::shown;
 use super::mesh::{self, Mesh};
@@ -16,8 +16,16 @@ struct Reader {
     corners: Vec<Point3<f64>>,
     /// Bodies, whose faces have numbers of corners of the whole file so far.
     bodies: Vec<Mesh>,
-    lines: Vec<Line>,
+    lines: Vec<SpaceLine>,
     material: Option<String>,
+}
+
+/// A line that has no plane yet.
+struct SpaceLine {
+    /// Numbers of corners.
+    points: Vec<usize>,
+    layer: String,
+    place: Place,
 }
 
 pub(super) fn read(text: &str) -> Result<Drawing, DrawingError> {
@@ -27,8 +35,11 @@ pub(super) fn read(text: &str) -> Result<Drawing, DrawingError> {
     }
     let mut drawing = Drawing::default();
     let meshes = reader.bodies.iter().map(|body| body.own(&reader.corners)).collect();
-    mesh::add(&mut drawing, meshes)?;
-    reader.lines.into_iter().try_for_each(|line| drawing.add_line(line))?;
+    let plane = mesh::add(&mut drawing, meshes)?;
+    for SpaceLine { points, layer, place } in reader.lines {
+        let points = points.iter().map(|k| plane.project(reader.corners[*k])).collect();
+        drawing.add_line(Line { points, layer, place })?;
+    }
     Ok(drawing)
 }
 
@@ -47,10 +58,8 @@ impl Reader {
             }
             "l" => {
                 let points = self.indices(words, &place)?;
-                let points =
-                    points.iter().map(|k| self.corners[*k].xy()).collect::<Vec<Point2<_>>>();
                 let layer = self.material.clone().unwrap_or_else(|| MATERIAL.into());
-                push(&mut self.lines, Line { points, layer, place: place.clone() }, &place)?;
+                push(&mut self.lines, SpaceLine { points, layer, place: place.clone() }, &place)?;
             }
             "o" | "g" => {
                 let place = Place::new(format!("{keyword} {}", shown(rest)), Some(number));
