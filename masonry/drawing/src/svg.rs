@@ -8,6 +8,7 @@ use nalgebra::{Matrix3, Point2, Vector2};
 use roxmltree::{Document, Node, ParsingOptions};
 use svgtypes::{PointsParser, Transform, ViewBox};
 
+use self::path::Part;
 use super::curve::{Arc, Chords};
 use super::error::shown;
 use super::shapes::MOST_SHAPES;
@@ -16,14 +17,6 @@ use super::{Change, Drawing, DrawingError, DrawingErrorKind, Line, Outline, Plac
 /// Groups in groups. Chosen: as blocks in blocks of other formats, with room for those of editors; a stack holds them.
 const DEEPEST: usize = 64;
 const INKSCAPE: &str = "http://www.inkscape.org/namespaces/inkscape";
-
-/// Points of one part of a shape.
-struct Part {
-    points: Vec<Point2<f64>>,
-    is_closed: bool,
-    /// How far chords are from curves.
-    off: f64,
-}
 
 pub(super) fn read(text: &str) -> Result<Drawing, DrawingError> {
     let nodes_limit = u32::try_from(4 * MOST_SHAPES).unwrap_or(u32::MAX);

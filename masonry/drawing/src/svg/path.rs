@@ -3,10 +3,17 @@
 use nalgebra::Point2;
 use svgtypes::{SimplePathSegment, SimplifyingPathParser};
 
-use super::Part;
 use crate::curve::{Chords, cubic};
 use crate::shapes::MOST_CORNERS;
 use crate::{DrawingError, DrawingErrorKind, Place};
+
+/// Points of one part of a shape.
+pub(super) struct Part {
+    pub(super) points: Vec<Point2<f64>>,
+    pub(super) is_closed: bool,
+    /// How far chords are from curves.
+    pub(super) off: f64,
+}
 
 pub(super) fn parts(text: &str, place: &Place) -> Result<Vec<Part>, DrawingError> {
     let mut parts: Vec<Part> = Vec::new();
