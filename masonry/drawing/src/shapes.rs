@@ -3,7 +3,7 @@
 use nalgebra::Point2;
 
 use super::error::{DrawingError, DrawingErrorKind};
-use super::place::Place;
+use super::place::{Place, harmless};
 use super::unit::Unit;
 
 /// Outlines and lines of a drawing, after blocks were inserted. Chosen: a hundred times a wall of 1500 stones.
@@ -96,6 +96,7 @@ impl Drawing {
         if outline.corners.len() > 1 && outline.corners.first() == outline.corners.last() {
             outline.corners.pop();
         }
+        outline.name = outline.name.map(|name| name.chars().map(harmless).collect());
         shorten(&mut outline.layer, &mut outline.place);
         self.count(&outline.corners, &outline.place)?;
         self.outlines.push(outline);
