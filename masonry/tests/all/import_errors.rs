@@ -184,6 +184,69 @@ fn bodies_that_are_not_plane_are_refused() {
 }
 
 #[test]
+fn bodies_with_steps_across_the_plane_are_refused() {
+    let section = [[0.0, 0.0], [1.0, 0.0], [1.0, 0.1], [0.5, 0.1], [0.5, 0.2], [0.0, 0.2]];
+    let mut text = "o step\n".to_owned();
+    for z in [0.0, 0.5] {
+        for [x, y] in section {
+            let _ = writeln!(text, "v {x} {y} {z}");
+        }
+    }
+    text += "f 6 5 4 3 2 1\nf 7 8 9 10 11 12\n";
+    for k in 0..6 {
+        let next = (k + 1) % 6;
+        let _ = writeln!(text, "f {} {} {} {}", k + 1, next + 1, next + 7, k + 7);
+    }
+    assert_refused(
+        &text,
+        Format::Obj,
+        "o step (line 1): it is no prism across one plane with the others: the model is plane; cut it with a plane \
+         and draw the section",
+    );
+}
+
+#[test]
+fn bodies_and_lines_of_obj_are_limited() {
+    assert_refused(
+        &"o a\n".repeat(150_001),
+        Format::Obj,
+        "o a (line 150001): there are more than 150000 bodies or lines: save only the layers with the blocks",
+    );
+    assert_refused(
+        &("v 0 0 0\n".to_owned() + &"l 1 1\n".repeat(150_001)),
+        Format::Obj,
+        "l (line 150002): there are more than 150000 bodies or lines: save only the layers with the blocks",
+    );
+}
+
+#[test]
+fn names_cannot_command_the_terminal() {
+    assert_refused(
+        &Dxf::new(6).insert("\u{1b}[31m", [0.0, 0.0], "").text(),
+        Format::Dxf,
+        "INSERT 1 (line 22): it inserts the block \"\u{fffd}[31m\", which the file does not have: bind external \
+         references",
+    );
+    let list = r#"[{ "name": "a\nb", "material": "stone", "corners": [[0, 0], [1, 0], [1, 1]] }]"#;
+    let drawing = Drawing::read(list.as_bytes(), Format::List).unwrap();
+    assert_eq!(drawing.outlines[0].name.as_deref(), Some("a\u{fffd}b"));
+    let ray = Dxf::new(6).entity("RAY\u{7}", "0", "").polygons("0", &[square(0.0, 0.0)]).read();
+    assert!(ray.changes[0].what.starts_with("RAY\u{fffd} was left out"), "{:?}", ray.changes);
+}
+
+#[test]
+fn a_unit_that_is_not_known_must_be_given() {
+    let wall = Dxf::new(14).polygons("brick", &wall(4, 4, 0.0));
+    assert_not_imported(
+        &wall,
+        &Options::default(),
+        "the unit 14 of $INSUNITS is not known: give --unit, or --unit m and the metres in one unit as --scale",
+    );
+    let unit = Some(masonry::drawing::Unit::Metre);
+    assert!(import(&wall.read(), &Options { unit, ..Options::default() }).is_ok());
+}
+
+#[test]
 fn a_unit_that_cannot_be_is_noticed() {
     let scaled: Vec<Polygon> = wall(4, 4, 0.0)
         .into_iter()

@@ -10,7 +10,7 @@ use masonry::import::{Imported, Options, import};
 use masonry::{Model, Verdict, solve};
 use serde_json::{Value, json};
 
-use crate::common::drawings::{BRICK, Polygon, changes, mapped, turned, wall};
+use crate::common::drawings::{BRICK, Dxf, Polygon, changes, mapped, turned, wall};
 
 #[track_caller]
 fn imported(text: &str, format: Format) -> Imported {
@@ -227,4 +227,85 @@ fn faces_and_bodies_of_obj_are_blocks() {
     assert_eq!(found.scene.thickness, Some(0.3));
     assert_eq!(found.scene.blocks[1].name, "stone1");
     assert_eq!(Model::from_scene(&found.scene).unwrap().joints.len(), 3);
+}
+
+#[test]
+fn lines_of_dxf_are_in_world_coordinates_whatever_their_direction() {
+    let seen_from_behind = "230\n-1\n";
+    let line = format!("10\n0\n20\n0\n11\n3\n21\n1\n{seen_from_behind}");
+    let drawing = Dxf::new(6)
+        .entity("LINE", "support", &line)
+        .entity("POLYLINE", "support", &format!("70\n8\n{seen_from_behind}"))
+        .entity("VERTEX", "support", "10\n0\n20\n0\n")
+        .entity("VERTEX", "support", "10\n3\n20\n1\n")
+        .entity("POLYLINE", "support", &format!("70\n0\n{seen_from_behind}"))
+        .entity("VERTEX", "support", "10\n0\n20\n0\n")
+        .entity("VERTEX", "support", "10\n3\n20\n1\n")
+        .read();
+    let ends: Vec<f64> = drawing.lines.iter().map(|line| line.points[1].x).collect();
+    assert_eq!(ends, [3.0, 3.0, -3.0]);
+}
+
+#[test]
+fn an_arc_of_360_degrees_is_a_circle() {
+    let circle = "10\n1\n20\n2\n40\n0.5\n";
+    let drawing = Dxf::new(6)
+        .entity("CIRCLE", "0", circle)
+        .entity("ARC", "0", &format!("{circle}50\n0\n51\n360\n"))
+        .read();
+    assert_eq!(drawing.outlines[0].corners, drawing.outlines[1].corners);
+}
+
+#[test]
+fn invisible_entities_are_left_out() {
+    let line = "10\n0\n20\n0\n11\n1\n21\n0\n";
+    let drawing = Dxf::new(6)
+        .entity("LINE", "support", line)
+        .entity("LINE", "support", &format!("60\n1\n{line}"))
+        .read();
+    assert_eq!((drawing.lines.len(), drawing.changes.len()), (1, 1));
+    assert_eq!(drawing.changes[0].what, "invisible entities were left out");
+}
+
+#[test]
+fn an_entity_names_each_insertion_once() {
+    let dxf = Dxf::new(6).line("0", [0.0, 0.0], [1.0, 0.0]).into_block("inner", [0.0, 0.0]);
+    let dxf = dxf.insert("inner", [0.0, 0.0], "").into_block("middle", [0.0, 0.0]);
+    let dxf = dxf.insert("middle", [0.0, 0.0], "").into_block("outer", [0.0, 0.0]);
+    let place = dxf.insert("outer", [0.0, 0.0], "").read().lines[0].place.entity.clone();
+    let at = |name: &str| place.match_indices(name).map(|(at, _)| at).collect::<Vec<_>>();
+    let blocks = ["block inner", "block middle", "block outer"].map(at);
+    assert!(blocks.iter().all(|it| it.len() == 1) && blocks.is_sorted(), "{place}");
+}
+
+#[test]
+fn drawings_in_a_drawing_of_svg_are_left_out_if_they_are_moved() {
+    let svg = r#"<svg xmlns="http://www.w3.org/2000/svg">
+      <svg x="0"><rect width="1" height="1"/></svg>
+      <svg x="5"><rect width="1" height="1"/></svg>
+      <svg viewBox="0 0 9 9"><rect width="1" height="1"/></svg>
+    </svg>"#;
+    let drawing = Drawing::read(svg.as_bytes(), Format::Svg).unwrap();
+    assert_eq!((drawing.outlines.len(), drawing.changes.len()), (1, 2));
+    assert_eq!(drawing.changes[1].place.to_string(), "<svg> (line 4)");
+}
+
+#[test]
+fn lines_of_obj_are_in_the_plane_of_the_faces() {
+    let obj = "v 0 0 0\nv 1 0 0\nv 1 0 1\nv 0 0 1\nf 1 2 3 4\nl 2 4\n";
+    let drawing = Drawing::read(obj.as_bytes(), Format::Obj).unwrap();
+    let corners = &drawing.outlines[0].corners;
+    assert_eq!(drawing.lines[0].points, [corners[1], corners[3]]);
+}
+
+#[test]
+fn bodies_without_faces_are_passed_over() {
+    let face = "v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n";
+    let prism = "o prism\nv 0 0 0\nv 1 0 0\nv 0 0 1\nv 0 2 0\nv 1 2 0\nv 0 2 1\n\
+                 f 1 2 3\nf 6 5 4\nf 1 4 5 2\nf 2 5 6 3\nf 3 6 4 1\n";
+    for obj in [face, prism] {
+        let obj = format!("g root\n{obj}g end\n");
+        let drawing = Drawing::read(obj.as_bytes(), Format::Obj).unwrap();
+        assert_eq!(drawing.outlines.len(), 1);
+    }
 }
