@@ -22,6 +22,12 @@ pub(crate) struct Answer {
 }
 
 impl Answer {
+    /// The answer with the variables of its pairs.
+    pub(crate) fn of_pairs<P>(py: Python<'_>, mut solution: Solution<P>) -> Self {
+        let pairs = [&mut solution.t, &mut solution.y].map(std::mem::take);
+        Self::new(py, solution, pairs.into())
+    }
+
     pub(crate) fn new<P>(py: Python<'_>, solution: Solution<P>, point: Vec<Vec<f64>>) -> Self {
         let arrays = point.into_iter().map(|it| PyArray1::from_vec(py, it).unbind()).collect();
         let Solution { status, residuals, certificate, info, condition, .. } = solution;

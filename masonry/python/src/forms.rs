@@ -49,12 +49,11 @@ pub(crate) fn solve_standard(
     options: Options,
 ) -> PyResult<Answer> {
     let problem = Lcp::new(m.matrix()?, vector(&q)).map_err(|error| refused(&error))?;
-    let mut solution = by_method!(
+    let solution = by_method!(
         py, options, &problem,
         Newton => newton, Interior => interior, QuadraticProgram => program, GaussSeidel => sweeps
     )?;
-    let point = vec![std::mem::take(&mut solution.t), std::mem::take(&mut solution.y)];
-    Ok(Answer::new(py, solution, point))
+    Ok(Answer::of_pairs(py, solution))
 }
 
 /// `A t + B y = c`
@@ -68,12 +67,11 @@ pub(crate) fn solve_horizontal(
 ) -> PyResult<Answer> {
     let problem = HorizontalLcp::new(a.matrix()?, b.matrix()?, vector(&c));
     let problem = problem.map_err(|error| refused(&error))?;
-    let mut solution = by_method!(
+    let solution = by_method!(
         py, options, &problem,
         Newton => newton, Interior => interior, QuadraticProgram => program, GaussSeidel => sweeps
     )?;
-    let point = vec![std::mem::take(&mut solution.t), std::mem::take(&mut solution.y)];
-    Ok(Answer::new(py, solution, point))
+    Ok(Answer::of_pairs(py, solution))
 }
 
 /// `w = M z + q` with free variables.
@@ -185,9 +183,7 @@ pub(crate) fn solve_many(
     let solver = options.auto()?;
     let answers = py.detach(|| solver.solve_all(&problems));
     let answer = |answer: Result<Solution<Lcp>, lcp::Error>| {
-        let mut solution = answer.map_err(|error| refused(&error))?;
-        let point = vec![std::mem::take(&mut solution.t), std::mem::take(&mut solution.y)];
-        Ok(Answer::new(py, solution, point))
+        Ok(Answer::of_pairs(py, answer.map_err(|error| refused(&error))?))
     };
     answers.into_iter().map(answer).collect()
 }
@@ -219,7 +215,6 @@ impl Sequence {
             sequence.solve(&q).cloned()
         };
         let solution = py.detach(solved).map_err(|error| refused(&error))?;
-        let point = vec![solution.t.clone(), solution.y.clone()];
-        Ok(Answer::new(py, solution, point))
+        Ok(Answer::of_pairs(py, solution))
     }
 }
