@@ -34,7 +34,6 @@
 //! | [`law`] | the law of a joint: friction, cohesion, tensile strength |
 //! | [`scene`] | the input in its own units: text, checks, builders, bonds of bricks |
 //! | [`model`] | blocks, joints, contact points and meshes, in SI units |
-//! | `drawing`, `import` | with the feature `import`: files of drawings, and the scenes that they become |
 //! | `system` | stiffness, loads, contact rows (3.2), rigid motions |
 //! | `forms` | the forms of the problem (3.27) and its reduction (3.18), (3.23) |
 //! | `recover` | from contact forces to displacements, stresses, reactions |
@@ -62,8 +61,6 @@ pub mod forms;
 pub mod geometry;
 pub mod history;
 pub mod ids;
-#[cfg(feature = "import")]
-pub mod import;
 pub mod law;
 pub mod material;
 #[doc(hidden)]
@@ -82,9 +79,6 @@ pub mod scene;
 pub mod system;
 pub mod units;
 pub mod verify;
-
-#[cfg(feature = "import")]
-pub use masonry_drawing as drawing;
 
 pub use analysis::checkpoint::Checkpoint;
 pub use analysis::limit::{

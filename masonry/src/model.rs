@@ -14,7 +14,8 @@ mod classes;
 mod dry;
 mod forces;
 mod from_scene;
-pub(crate) mod heal;
+#[doc(hidden)]
+pub mod heal;
 pub mod joints;
 pub mod loads;
 pub mod mesh;

@@ -5,7 +5,6 @@ use serde::{Deserialize, Serialize};
 /// A route to the solution: a form of the equations and a method.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
-#[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
 #[serde(rename_all = "lowercase")]
 pub enum Route {
     /// Forces within friction that balance the loads, by one convex program; for rigid blocks without gaps, or a
@@ -25,6 +24,10 @@ pub enum Route {
 }
 
 impl Route {
+    /// All routes, as `masonry solve --help` lists them.
+    pub const ALL: [Self; 6] =
+        [Self::Forces, Self::Lemke, Self::Interior, Self::Qp, Self::Pgs, Self::Alm];
+
     /// The name in scenes and reports.
     pub fn name(self) -> &'static str {
         match self {

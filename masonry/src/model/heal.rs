@@ -31,14 +31,14 @@ pub struct Healed {
 }
 
 /// Why corners cannot be healed, in words that follow the tolerance.
-pub(crate) type Unhealed = &'static str;
+pub type Unhealed = &'static str;
 
 /// Moves corners of the last blocks, so many, by as little as possible, so that each that is nearer than the tolerance \[m\] to a
 /// corner or an edge of another block, or to a support, lies on it. `None` if nothing had to be moved.
 ///
 /// # Errors
 /// Blocks stay as they were if the tolerance is too large for them, or if not all that is near can meet.
-pub(crate) fn heal(
+pub fn heal(
     blocks: &mut [Block],
     count: usize,
     supports: &[Support],

@@ -97,31 +97,6 @@ impl<'de> Deserialize<'de> for RouteSetting {
     }
 }
 
-#[cfg(feature = "cli")]
-impl clap::ValueEnum for RouteSetting {
-    fn value_variants<'a>() -> &'a [Self] {
-        &[
-            Self::Auto,
-            Self::Only(Route::Forces),
-            Self::Only(Route::Lemke),
-            Self::Only(Route::Interior),
-            Self::Only(Route::Qp),
-            Self::Only(Route::Pgs),
-            Self::Only(Route::Alm),
-        ]
-    }
-
-    fn to_possible_value(&self) -> Option<clap::builder::PossibleValue> {
-        match self {
-            Self::Auto => {
-                let value = clap::builder::PossibleValue::new(self.name());
-                Some(value.help("The fastest route for the scene, and further ones if it fails"))
-            }
-            Self::Only(route) => route.to_possible_value(),
-        }
-    }
-}
-
 fn default_tolerance() -> f64 {
     1e-10
 }

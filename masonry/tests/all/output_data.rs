@@ -1,6 +1,5 @@
 //! Numbers in the CSV, JSON, VTU and text reports are those of the outcome.
 
-use crate::common::BALANCE;
 use crate::output::synthetic;
 
 use masonry::analysis::outcome::ContactStatus;
@@ -10,6 +9,19 @@ use masonry::units::{ForceUnit, LengthUnit, Units};
 use roxmltree::Document;
 use serde_json::Value;
 use synthetic::Wall;
+
+/// The checks of a state in `result.json`.
+const BALANCE: [&str; 9] = [
+    "force",
+    "moment",
+    "uncarried_load",
+    "nodal",
+    "cone_violation",
+    "penetration",
+    "complementarity",
+    "energy",
+    "deformation",
+];
 
 /// Fields of CSV text, quotes undone.
 fn records(text: &str) -> Vec<Vec<String>> {

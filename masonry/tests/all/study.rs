@@ -1,7 +1,6 @@
 //! What accuracy costs: a record for every combination, errors against a reference, what fails included; and
 //! the program that writes it all.
 
-mod program;
 mod words;
 
 use std::collections::BTreeSet;

@@ -3,9 +3,7 @@
 #![allow(dead_code, reason = "every test binary uses its own part of this module")]
 #![allow(unreachable_pub, reason = "a module of helpers, compiled into each test binary")]
 
-pub mod drawings;
 pub mod enumerate;
-pub mod quoted;
 pub mod reference;
 pub mod walls;
 
@@ -142,16 +140,3 @@ pub fn panel(aspect: usize, floors: &[[f64; 2]]) -> Model {
     supports.extend(floors.iter().map(|[x0, x1]| support("floor", [*x0, 0.0], [*x1, 0.0])));
     model(blocks, supports, 1.0)
 }
-
-/// The checks of a state in `result.json`.
-pub const BALANCE: [&str; 9] = [
-    "force",
-    "moment",
-    "uncarried_load",
-    "nodal",
-    "cone_violation",
-    "penetration",
-    "complementarity",
-    "energy",
-    "deformation",
-];

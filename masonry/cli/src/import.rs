@@ -1,0 +1,147 @@
+//! `masonry import`: a scene of a drawing.
+
+use std::io::Read;
+use std::path::{Path, PathBuf};
+
+use clap::{Args, ValueEnum};
+
+use crate::end::{Failure, SOLVED, is_same, listing, print};
+use masonry::files::write_atomically;
+use masonry_drawing::{Drawing, Format, LARGEST_FILE, Unit};
+use masonry_import::{Joints, Options, import};
+
+#[derive(Debug, Args)]
+pub(super) struct ImportArgs {
+    /// The drawing: DXF, SVG, OBJ, or JSON (COMPAS, or a list of blocks).
+    file: PathBuf,
+    /// The scene file; by default it is printed.
+    #[arg(long)]
+    out: Option<PathBuf>,
+    /// A picture (SVG) of the drawing under the blocks.
+    #[arg(long)]
+    picture: Option<PathBuf>,
+    /// What is nearer than this belongs together [m]; by default a part of the shortest edge.
+    #[arg(long)]
+    tolerance: Option<f64>,
+    /// The unit of the drawing, in place of that of the file.
+    #[arg(long, value_enum)]
+    unit: Option<UnitName>,
+    /// A factor of all lengths.
+    #[arg(long, default_value_t = 1.0)]
+    scale: f64,
+    /// Thickness out of the plane [m].
+    #[arg(long)]
+    thickness: Option<f64>,
+    /// What becomes of joints that are drawn open.
+    #[arg(long, value_enum)]
+    joints: Option<JointsName>,
+    /// Density of the blocks [kg/m3].
+    #[arg(long, default_value_t = Options::default().density)]
+    density: f64,
+    /// Coefficient of friction of all joints.
+    #[arg(long, default_value_t = Options::default().mu)]
+    mu: f64,
+    /// A layer that is left out; may be given several times.
+    #[arg(long, value_name = "LAYER")]
+    ignore: Vec<String>,
+}
+
+#[derive(Debug, Clone, Copy, ValueEnum)]
+enum UnitName {
+    Mm,
+    Cm,
+    M,
+    In,
+    Ft,
+}
+
+#[derive(Debug, Clone, Copy, ValueEnum)]
+enum JointsName {
+    /// Gaps of one width are filled with mortar.
+    Mortar,
+    /// Blocks grow until they meet.
+    Close,
+    /// Gaps stay.
+    Open,
+}
+
+pub(super) fn run(args: &ImportArgs) -> Result<u8, Failure> {
+    for (file, option) in [(&args.out, "--out"), (&args.picture, "--picture")] {
+        if let Some(file) = file.as_ref().filter(|file| is_same(file, &args.file)) {
+            let file = file.display();
+            return Err(format!("{file} is the drawing: choose another {option}").into());
+        }
+    }
+    let name = args.file.display();
+    let of_file = |error: &dyn std::error::Error| format!("{name}: {error}");
+    let drawing = read(&args.file)?;
+    let imported = import(&drawing, &args.options()).map_err(|error| of_file(&error))?;
+    let text = imported.to_toml()?;
+    let mut written = Vec::new();
+    for (file, text) in [(&args.out, &text), (&args.picture, &imported.picture())] {
+        if let Some(file) = file {
+            write_atomically(file, text.as_bytes())
+                .map_err(|error| format!("cannot write {}: {error}", file.display()))?;
+            written.push(file.clone());
+        }
+    }
+    // A scene that is printed has the report at its top, and nothing follows it.
+    let shown = if args.out.is_some() { imported.report() + &listing(&written) } else { text };
+    print(&shown)?;
+    Ok(SOLVED)
+}
+
+fn read(path: &Path) -> Result<Drawing, Failure> {
+    let name = path.display();
+    let ending = path.extension().map_or_else(String::new, |it| it.to_string_lossy().into_owned());
+    let format = Format::of_ending(&ending).ok_or_else(|| {
+        format!("{name}: drawings end in .dxf, .svg, .obj or .json: save it as one of these")
+    })?;
+    let mut bytes = Vec::new();
+    // One more byte than is allowed shows that the file is too large.
+    let limit = LARGEST_FILE as u64 + 1;
+    std::fs::File::open(path)
+        .and_then(|file| file.take(limit).read_to_end(&mut bytes))
+        .map_err(|error| format!("cannot read {name}: {error}"))?;
+    Ok(Drawing::read(&bytes, format).map_err(|error| format!("{name}: {error}"))?)
+}
+
+impl ImportArgs {
+    fn options(&self) -> Options {
+        let title =
+            self.file.file_stem().map_or_else(String::new, |it| it.to_string_lossy().into());
+        Options {
+            title,
+            unit: self.unit.map(UnitName::unit),
+            scale: self.scale,
+            tolerance: self.tolerance,
+            thickness: self.thickness,
+            joints: self.joints.map(JointsName::joints),
+            density: self.density,
+            mu: self.mu,
+            ignore: self.ignore.clone(),
+        }
+    }
+}
+
+impl UnitName {
+    fn unit(self) -> Unit {
+        match self {
+            Self::Mm => Unit::Millimetre,
+            Self::Cm => Unit::Centimetre,
+            Self::M => Unit::Metre,
+            Self::In => Unit::Inch,
+            Self::Ft => Unit::Foot,
+        }
+    }
+}
+
+impl JointsName {
+    fn joints(self) -> Joints {
+        match self {
+            Self::Mortar => Joints::Mortar,
+            Self::Close => Joints::Close,
+            Self::Open => Joints::Open,
+        }
+    }
+}

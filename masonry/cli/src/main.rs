@@ -1,0 +1,125 @@
+//! The command-line program `masonry`.
+//!
+//! `--json` prints one JSON object on standard output and nothing else there; progress and errors
+//! go to standard error. The exit code is 0 when solved, 1 when not solved, 2 for bad input.
+
+mod completions;
+mod end;
+mod import;
+mod interrupt;
+mod limit;
+mod new;
+mod out_dir;
+mod page;
+mod progress;
+mod route;
+mod solve;
+mod study;
+
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use clap::{Args, CommandFactory, Parser, Subcommand};
+
+use crate::end::{BAD_INPUT, Failure, SOLVED, keep_scene, print, without_controls};
+use crate::route::RouteValue;
+use masonry::files::write_atomically;
+use masonry::model::Model;
+use masonry::plan::Plan;
+use masonry::report::{svg, table};
+use masonry::scene::Scene;
+
+/// How a wall or an arch of blocks carries its load.
+#[derive(Debug, Parser)]
+#[command(name = "masonry", version, about, arg_required_else_help = true)]
+struct Cli {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// Show what a scene needs: effects, unknowns, memory, and the method.
+    Plan(PlanArgs),
+    /// Solve a scene: print the report, and write pictures, tables and a mesh.
+    Solve(solve::SolveArgs),
+    /// Find the factor of a load at which the structure fails.
+    Limit(limit::LimitArgs),
+    /// Measure error and cost of routes, tolerances and meshes.
+    Study(study::StudyArgs),
+    /// Make a scene of a drawing: DXF, SVG, OBJ, COMPAS JSON.
+    Import(import::ImportArgs),
+    /// Print or write a commented scene to begin with.
+    New(new::NewArgs),
+    /// Print the JSON schema of scene files, for editors.
+    Schema,
+    /// Draw a scene: blocks, supports, loads and contact points.
+    Draw(DrawArgs),
+    /// Print a script for the completion of commands and options in a shell.
+    Completions(completions::CompletionsArgs),
+}
+
+#[derive(Debug, Args)]
+struct PlanArgs {
+    /// The scene file (TOML).
+    scene: PathBuf,
+    /// The route to the solution, in place of that of the scene.
+    #[arg(long)]
+    route: Option<RouteValue>,
+    /// Print one JSON object instead of the report.
+    #[arg(long)]
+    json: bool,
+}
+
+#[derive(Debug, Args)]
+struct DrawArgs {
+    /// The scene file (TOML).
+    scene: PathBuf,
+    /// The picture; by default next to the scene, with the extension `.svg`.
+    #[arg(long)]
+    out: Option<PathBuf>,
+}
+
+fn main() -> ExitCode {
+    let result = match Cli::parse().command {
+        Command::Plan(args) => plan(&args),
+        Command::Solve(args) => solve::run(&args),
+        Command::Limit(args) => limit::run(&args),
+        Command::Study(args) => study::run(&args),
+        Command::Import(args) => import::run(&args),
+        Command::New(args) => new::run(&args),
+        Command::Schema => print(Scene::schema()).map(|()| SOLVED),
+        Command::Draw(args) => draw(&args),
+        Command::Completions(args) => completions::run(&args, Cli::command()),
+    };
+    ExitCode::from(result.unwrap_or_else(|failure| {
+        eprintln!("error: {}", without_controls(&failure.to_string()));
+        BAD_INPUT
+    }))
+}
+
+fn plan(args: &PlanArgs) -> Result<u8, Failure> {
+    let mut scene = Scene::read(&args.scene)?;
+    if let Some(route) = args.route {
+        scene = scene.route(route.0);
+    }
+    let model = Model::from_scene(&scene)?;
+    let plan = Plan::of(&scene, &model);
+    if args.json {
+        print(&(serde_json::to_string_pretty(&plan)? + "\n"))?;
+    } else {
+        print(&format!("{}\n\n{}\n", scene.title, table::plan(&plan)))?;
+    }
+    Ok(SOLVED)
+}
+
+fn draw(args: &DrawArgs) -> Result<u8, Failure> {
+    let scene = Scene::read(&args.scene)?;
+    let model = Model::from_scene(&scene)?;
+    let out = args.out.clone().unwrap_or_else(|| args.scene.with_extension("svg"));
+    keep_scene(&scene, &out, "--out")?;
+    write_atomically(&out, svg::scene(&scene.title, &model).as_bytes())
+        .map_err(|error| format!("cannot write {}: {error}", out.display()))?;
+    print(&format!("{}\n", out.display()))?;
+    Ok(SOLVED)
+}

@@ -1,0 +1,182 @@
+//! `masonry solve`.
+
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use lcp::Status;
+
+use crate::end::{Failure, NOT_SOLVED, SOLVED, listing, names, print};
+use crate::interrupt;
+use crate::out_dir::OutDir;
+use crate::page;
+use crate::progress::Progress;
+use crate::route::RouteValue;
+use masonry::Verdict;
+use masonry::analysis::checkpoint::{Checkpoint, CheckpointError};
+use masonry::analysis::outcome::{Frame, Outcome};
+use masonry::analysis::solve::Run;
+use masonry::report::svg::ReferenceLines;
+use masonry::report::{self, Options, json, table};
+use masonry::scene::Scene;
+
+/// The state after the last step, in the directory of a load history.
+const CHECKPOINT: &str = "checkpoint.json";
+
+#[derive(Debug, Args)]
+pub(super) struct SolveArgs {
+    /// The scene file (TOML).
+    scene: PathBuf,
+    /// Directory for pictures, tables and a mesh; created if it does not exist.
+    #[arg(long)]
+    out: Option<PathBuf>,
+    /// The route to the solution, in place of that of the scene.
+    #[arg(long)]
+    route: Option<RouteValue>,
+    /// Continue a load history from `checkpoint.json` in the directory of `--out`.
+    #[arg(long, requires = "out")]
+    resume: bool,
+    /// Leave out the second loading of a load history, which says how far its answer is unique.
+    #[arg(long)]
+    no_spread: bool,
+    /// Also write the report with its pictures as one page of HTML.
+    #[arg(long, value_name = "FILE")]
+    report: Option<PathBuf>,
+    /// Print one JSON object instead of the report.
+    #[arg(long)]
+    json: bool,
+}
+
+pub(super) fn run(args: &SolveArgs) -> Result<u8, Failure> {
+    let mut scene = Scene::read(&args.scene)?;
+    if let Some(route) = args.route {
+        scene = scene.route(route.0);
+    }
+    interrupt::listen();
+    let from = args.resume.then_some(CHECKPOINT);
+    let mut out = args.out.as_deref().map(|out| OutDir::open(out, "solve", from)).transpose()?;
+    page::check(args.report.as_deref(), &scene, args.out.as_deref())?;
+    let Ran { outcome, frames, files: mut in_out, end } = run_steps(&scene, args, out.as_mut())?;
+    let options = Options { reference: ReferenceLines::of(&scene), ..Options::default() };
+    let written = match &out {
+        Some(out) => report::write_all(&outcome, out.path(), &options),
+        None => Ok(Vec::new()),
+    };
+    // What was computed is printed even when a file could not be written.
+    in_out.extend_from_slice(written.as_deref().unwrap_or_default());
+    let mut files = in_out.clone();
+    let page = || report::page::solved(&outcome, &frames, options.reference.as_ref());
+    let page = page::write(args.report.as_deref(), page, &mut files);
+    if args.json {
+        print(&json::result(&outcome, &names(&files))?)?;
+    } else {
+        print(&format!("{}\n{}", table::report(&outcome), listing(&files)))?;
+    }
+    let is_cancelled = outcome.solve.status == Status::Cancelled;
+    out.map_or(Ok(()), |out| out.finish(&in_out, is_cancelled))?;
+    if is_cancelled {
+        say_how_to_go_on(args, &outcome);
+    }
+    written?;
+    page?;
+    end?;
+    Ok(if outcome.judgement.verdict == Verdict::Stands { SOLVED } else { NOT_SOLVED })
+}
+
+/// What became of all steps.
+struct Ran {
+    outcome: Outcome,
+    /// The steps that a page has pictures of, with `--report`.
+    frames: Vec<Frame>,
+    /// The checkpoint, if one was written.
+    files: Vec<PathBuf>,
+    /// What went wrong after a step that was solved.
+    end: Result<(), Failure>,
+}
+
+fn run_steps(
+    scene: &Scene,
+    args: &SolveArgs,
+    mut out: Option<&mut OutDir>,
+) -> Result<Ran, Failure> {
+    let path = out.as_ref().map(|out| out.path().join(CHECKPOINT));
+    let mut progress = Progress::new();
+    let mut run = Run::new(scene, &mut |event| progress.show(event))?;
+    if let (true, Some(out), Some(path)) = (args.resume, &mut out, &path) {
+        if !run.has_history() {
+            return Err(CheckpointError::OneStep.into());
+        }
+        run = run.resume(&Checkpoint::read(path)?)?;
+        out.claim(CHECKPOINT)?;
+    }
+    let (mut frames, mut files, mut end) = (Vec::new(), Vec::new(), Ok(()));
+    loop {
+        let solved = run.solved_steps();
+        match run.advance(&mut |event| progress.show(event)) {
+            Ok(true) => {}
+            Ok(false) => break,
+            Err(error) if run.solved_steps() == 0 => return Err(error.into()),
+            Err(error) => {
+                end = Err(error.into());
+                break;
+            }
+        }
+        let is_new = run.solved_steps() > solved;
+        if args.report.is_some() && is_new {
+            let is_shown = |it: &Frame| report::page::is_framed(it.position, run.steps());
+            frames.extend(run.frame().filter(is_shown));
+        }
+        let checkpoint = run.checkpoint().filter(|_| is_new);
+        let (Some(checkpoint), Some(out), Some(path)) = (checkpoint, &mut out, &path) else {
+            continue;
+        };
+        let claimed = out.claim(CHECKPOINT);
+        match claimed.and_then(|()| Ok(checkpoint.write(path)?)) {
+            Ok(()) => files = vec![path.clone()],
+            Err(error) => end = Err(error),
+        }
+    }
+    if !args.no_spread && end.is_ok() {
+        end = run.compare(scene, &mut |event| progress.show(event)).map_err(Failure::from);
+    }
+    progress.clear();
+    Ok(Ran { outcome: run.finish(), frames, files, end })
+}
+
+/// After an interruption: the command that continues from the last step, on standard error.
+fn say_how_to_go_on(args: &SolveArgs, outcome: &Outcome) {
+    let Some(history) = &outcome.history else { return };
+    let (solved, steps) = (history.records.len(), history.steps);
+    match &args.out {
+        _ if solved == 0 => {
+            eprintln!("interrupted in the first of {steps} steps: nothing to continue from");
+        }
+        None => eprintln!(
+            "interrupted after step {solved} of {steps}; with --out a run can continue from there"
+        ),
+        Some(out) => {
+            let [scene, out] = [&args.scene, out].map(|path| quoted(path));
+            let route =
+                args.route.map_or(String::new(), |route| format!(" --route {}", route.0.name()));
+            let report = args
+                .report
+                .as_ref()
+                .map_or(String::new(), |path| format!(" --report {}", quoted(path)));
+            let json = if args.json { " --json" } else { "" };
+            eprintln!(
+                "interrupted after step {solved} of {steps}; this goes on from there:\n  \
+                 masonry solve {scene} --out {out} --resume{route}{report}{json}"
+            );
+        }
+    }
+}
+
+/// A path as shells read it.
+fn quoted(path: &Path) -> String {
+    let text = path.display().to_string();
+    let is_plain = |c: char| c.is_alphanumeric() || "/._-+:,@".contains(c);
+    if !text.is_empty() && text.chars().all(is_plain) {
+        text
+    } else {
+        format!("'{}'", text.replace('\'', "'\\''"))
+    }
+}

@@ -1,0 +1,97 @@
+//! `masonry import` from a file to a scene, a report and a picture.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+use masonry::Scene;
+
+/// A drawing in a directory of its own.
+fn written(name: &str, text: &str) -> PathBuf {
+    let directory = Path::new(env!("CARGO_TARGET_TMPDIR")).join("import").join(name);
+    fs::create_dir_all(&directory).unwrap();
+    let path = directory.join("wall.dxf");
+    fs::write(&path, text).unwrap();
+    path
+}
+
+fn masonry(arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_masonry")).args(arguments).output().unwrap()
+}
+
+/// Three courses of bricks, turned by five degrees, with corners rounded to millimetres.
+const DRAWING: &str = include_str!("import_command/wall.dxf");
+
+#[test]
+fn a_drawing_becomes_a_scene_that_is_solved() {
+    let path = written("good", DRAWING);
+    let [scene, picture] = ["scene.toml", "picture.svg"].map(|name| path.with_file_name(name));
+    let [drawing, scene, picture] = [&path, &scene, &picture].map(|it| it.to_str().unwrap());
+    let output =
+        masonry(&["import", drawing, "--out", scene, "--picture", picture, "--thickness", "0.5"]);
+    let report = String::from_utf8(output.stdout).unwrap();
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    assert!(
+        report.starts_with("10 blocks, 1 support; unit of the drawing: m; tolerance: 0.00"),
+        "{report}"
+    );
+    assert!(
+        report.contains("10 x corners were moved so that blocks meet exactly, by up to 0.000"),
+        "{report}"
+    );
+    assert!(report.ends_with(&format!("wrote {scene}\nwrote {picture}\n")), "{report}");
+
+    let text = fs::read_to_string(scene).unwrap();
+    assert!(text.contains("[[blocks]]  # LWPOLYLINE 1 (line 22)\nname = \"brick/1\"\n"), "{text}");
+    assert_eq!(Scene::from_toml(&text).unwrap().thickness, Some(0.5));
+    let solved = masonry(&["solve", scene]);
+    assert!(String::from_utf8(solved.stdout).unwrap().starts_with("The wall stands"));
+    let picture = fs::read_to_string(picture).unwrap();
+    let document = roxmltree::Document::parse(&picture).unwrap();
+    let groups =
+        document.descendants().filter(|it| it.has_tag_name(("http://www.w3.org/2000/svg", "g")));
+    let counts: Vec<_> = groups
+        .map(|it| {
+            (
+                it.attribute("class").unwrap(),
+                it.children().filter(roxmltree::Node::is_element).count(),
+            )
+        })
+        .collect();
+    assert_eq!(counts, [("drawing", 10), ("blocks", 10), ("supports", 1)]);
+}
+
+#[test]
+fn a_scene_without_a_file_is_printed() {
+    let path = written("printed", DRAWING);
+    let output = masonry(&["import", path.to_str().unwrap()]);
+    let scene = Scene::from_toml(&String::from_utf8(output.stdout).unwrap()).unwrap();
+    assert_eq!((scene.title.as_str(), scene.blocks.len()), ("wall", 10));
+}
+
+#[test]
+fn what_cannot_be_imported_ends_with_code_2() {
+    let path = written("refused", DRAWING);
+    let drawing = path.to_str().unwrap();
+    let refused = |arguments: &[&str]| {
+        let output = masonry(arguments);
+        assert_eq!((output.status.code(), output.stdout.len()), (Some(2), 0));
+        String::from_utf8(output.stderr).unwrap()
+    };
+    let error = refused(&["import", drawing, "--out", drawing]);
+    assert_eq!(error, format!("error: {drawing} is the drawing: choose another --out\n"));
+    assert!(fs::read_to_string(&path).unwrap().starts_with("0\nSECTION"));
+    let error = refused(&["import", drawing, "--tolerance", "0.05"]);
+    assert!(error.contains("is shorter than four times the tolerance of 0.05 m"), "{error}");
+    let scene = path.with_extension("dwg");
+    let scene = scene.to_str().unwrap();
+    let error = refused(&["import", scene]);
+    assert_eq!(
+        error,
+        format!(
+            "error: {scene}: drawings end in .dxf, .svg, .obj or .json: save it as one of these\n"
+        )
+    );
+    let error = refused(&["import", &drawing.replace("wall.dxf", "none.dxf")]);
+    assert!(error.contains("none.dxf: No such file"), "{error}");
+}

@@ -1,0 +1,50 @@
+//! What the names of layers mean.
+
+/// The material of what is on no named layer.
+const MATERIAL: &str = "stone";
+
+/// What is on a layer.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) enum Meaning {
+    /// Blocks of a material.
+    Blocks(String),
+    /// Supports with a name.
+    Supports(String),
+    /// Lines along joints of a class.
+    Joints(String),
+    /// Nothing for the scene.
+    Ignored,
+}
+
+impl Meaning {
+    /// The meaning of a layer: `support` and `joint` at its beginning say what it holds, other names are materials.
+    pub(crate) fn of(layer: &str, ignored: &[String]) -> Self {
+        let is = |name: &str| layer.eq_ignore_ascii_case(name);
+        // Layers of that name are not printed.
+        if is("defpoints") || ignored.iter().any(|name| is(name)) {
+            return Self::Ignored;
+        }
+        let name = plain(layer);
+        let lower = name.to_ascii_lowercase();
+        let after = |word: &str| {
+            let rest = lower.strip_prefix(word)?;
+            let rest = rest.strip_prefix('s').unwrap_or(rest);
+            let ends = rest.is_empty() || rest.starts_with(|c: char| "_-".contains(c));
+            ends.then(|| name[name.len() - rest.len()..].trim_matches(['_', '-']).to_owned())
+        };
+        match (after("support"), after("joint")) {
+            (Some(rest), _) if rest.is_empty() => Self::Supports("support".to_owned()),
+            (Some(rest), _) => Self::Supports(rest),
+            (_, Some(rest)) if rest.is_empty() => Self::Joints("joint".to_owned()),
+            (_, Some(rest)) => Self::Joints(rest),
+            _ if name.is_empty() || name == "0" => Self::Blocks(MATERIAL.to_owned()),
+            _ => Self::Blocks(name),
+        }
+    }
+}
+
+/// A name of letters and digits, with `_` for all else.
+fn plain(layer: &str) -> String {
+    let kept = |c: char| if c.is_ascii_alphanumeric() || c == '-' { c } else { '_' };
+    layer.trim().chars().map(kept).collect()
+}

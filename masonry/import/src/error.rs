@@ -1,0 +1,206 @@
+//! Why a drawing does not become a scene, and where.
+
+use std::fmt;
+
+use masonry::scene::SceneError;
+use masonry_drawing::{Place, Unit};
+
+/// Something of a drawing does not become a scene: what, where, and how to mend it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ImportError {
+    places: Vec<Place>,
+    kind: Box<ImportErrorKind>,
+}
+
+impl ImportError {
+    /// What is wrong.
+    pub fn kind(&self) -> &ImportErrorKind {
+        &self.kind
+    }
+
+    /// Where it is in the drawing: one place, or those of two blocks.
+    pub fn places(&self) -> &[Place] {
+        &self.places
+    }
+
+    /// The tolerance that did not suffice \[m\].
+    pub(crate) fn tolerance(&self) -> Option<f64> {
+        match *self.kind {
+            ImportErrorKind::Overlap { tolerance, .. }
+            | ImportErrorKind::NotHealed { tolerance, .. } => Some(tolerance),
+            _ => None,
+        }
+    }
+
+    /// The same with a tolerance that suffices, if there is one.
+    pub(crate) fn with_remedy(mut self, sufficient: Option<f64>) -> Self {
+        if let ImportErrorKind::Overlap { remedy, .. } | ImportErrorKind::NotHealed { remedy, .. } =
+            &mut *self.kind
+        {
+            *remedy = sufficient.map_or_else(
+                || "no tolerance mends that: correct the drawing there".to_owned(),
+                |it| format!("--tolerance {} would do", super::report::metres(it)),
+            );
+        }
+        self
+    }
+}
+
+impl std::error::Error for ImportError {}
+
+impl fmt::Display for ImportError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let places: Vec<String> = self.places.iter().map(Place::to_string).collect();
+        if !places.is_empty() {
+            write!(f, "{}: ", places.join(" and "))?;
+        }
+        write!(f, "{}", self.kind)
+    }
+}
+
+/// Why a drawing does not become a scene.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum ImportErrorKind {
+    /// A value of the options is out of range.
+    #[error("{option} is {value}: give a positive number")]
+    Option {
+        /// The option.
+        option: &'static str,
+        /// Its value.
+        value: f64,
+    },
+    /// No outline bounds a block.
+    #[error(
+        "no outline bounds a block{dropped}: draw blocks as closed polylines, on other layers than \"support\" and \"joint\""
+    )]
+    NoBlocks {
+        /// The last outline that was dropped, and why.
+        dropped: String,
+    },
+    /// No support is drawn, and no block rests on a line below all.
+    #[error(
+        "no support is drawn, and no block rests with an edge on a line below all others: draw supports on a layer \"support\""
+    )]
+    NoFloor,
+    /// There is more than can be treated.
+    #[error("there are more than {limit} {what}: import parts of the drawing")]
+    TooMany {
+        /// What there is too much of.
+        what: &'static str,
+        /// How many there may be.
+        limit: usize,
+    },
+    /// Outlines lie over each other by the dozen.
+    #[error(
+        "dozens of outlines lie over each other here: draw each block once, or leave their layer out by --ignore"
+    )]
+    Crowded,
+    /// The unit of the file is none of those that are known.
+    #[error(
+        "the unit {number} of $INSUNITS is not known: give --unit, or --unit m and the metres in one unit as --scale"
+    )]
+    UnknownUnit {
+        /// The number of the unit.
+        number: i64,
+    },
+    /// Blocks have a size that no stone has.
+    #[error(
+        "half of all blocks are larger than {size} m, with {unit} as the unit ({from}): {remedy}"
+    )]
+    Size {
+        /// The median size \[m\].
+        size: String,
+        /// The unit that was taken.
+        unit: Unit,
+        /// Where it comes from.
+        from: &'static str,
+        /// What to do.
+        remedy: String,
+    },
+    /// The tolerance is too large for a block.
+    #[error(
+        "its edge of {edge} m is shorter than four times the tolerance of {tolerance} m: give --tolerance {most} or less"
+    )]
+    ShortEdge {
+        /// The length of the edge \[m\].
+        edge: String,
+        /// The tolerance \[m\].
+        tolerance: String,
+        /// The largest tolerance for it \[m\].
+        most: String,
+    },
+    /// A block has a corner that points inwards.
+    #[error(
+        "the corner at ({x}, {y}) m points inwards: blocks are convex; divide the block there, and give the joint between its parts cohesion and tension"
+    )]
+    NotConvex {
+        /// The place of the corner \[m\].
+        x: String,
+        /// The place of the corner \[m\].
+        y: String,
+    },
+    /// The edges of an outline cross each other.
+    #[error(
+        "its edges cross each other: draw it with the corners in the order in which they follow each other"
+    )]
+    Crossing,
+    /// Joints are drawn open, and nobody says what they are.
+    #[error(
+        "{count} joints are open, the first by {width} m: give --joints close if they are thin, --joints mortar if they are filled, or --joints open if they are gaps"
+    )]
+    OpenJoints {
+        /// How many.
+        count: usize,
+        /// The width of the first \[m\].
+        width: String,
+    },
+    /// A joint has another width than the others, so that no mortar fits all.
+    #[error(
+        "the joint is {width} m wide and others are {usual} m: correct the drawing, or give --joints close"
+    )]
+    UnevenMortar {
+        /// The width \[m\].
+        width: String,
+        /// That of most others \[m\].
+        usual: String,
+    },
+    /// Blocks overlap by more than the tolerance.
+    #[error(
+        "the blocks overlap by {depth} m, more than the tolerance of {shown} m closes: {remedy}"
+    )]
+    Overlap {
+        /// How deep \[m\].
+        depth: String,
+        /// The tolerance \[m\].
+        tolerance: f64,
+        /// The tolerance in digits.
+        shown: String,
+        /// What to do.
+        remedy: String,
+    },
+    /// Corners that are near cannot all meet.
+    #[error(
+        "not all corners nearer to each other than the tolerance of {shown} m can meet ({reason}): {remedy}"
+    )]
+    NotHealed {
+        /// The tolerance \[m\].
+        tolerance: f64,
+        /// The tolerance in digits.
+        shown: String,
+        /// Why not.
+        reason: &'static str,
+        /// What to do.
+        remedy: String,
+    },
+    /// What the scene says of itself.
+    #[error("{0}")]
+    Scene(SceneError),
+}
+
+impl ImportErrorKind {
+    pub(crate) fn at(self, places: &[&Place]) -> ImportError {
+        let places = places.iter().map(|place| (*place).clone()).collect();
+        ImportError { places, kind: Box::new(self) }
+    }
+}

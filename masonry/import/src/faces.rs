@@ -1,0 +1,189 @@
+//! Blocks that are drawn by single lines: the smallest loops that the lines of a layer make.
+//!
+//! Lines may be drawn once for two blocks or once for each, and may end on the middle of another.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use nalgebra::Point2;
+
+use super::outline::distance;
+use super::{ImportError, ImportErrorKind};
+use masonry::geometry;
+use masonry_drawing::{Change, Line, Outline, Place};
+
+/// Pieces of lines. Theory: four for each of the blocks that are allowed, and as many again for arcs.
+const MOST_PIECES: usize = 160_000;
+
+/// The outlines that lines make, layer by layer.
+pub(crate) fn of(
+    lines: &[Line],
+    tolerance: f64,
+    changes: &mut Vec<Change>,
+) -> Result<Vec<Outline>, ImportError> {
+    let mut layers: BTreeMap<&str, Vec<&Line>> = BTreeMap::new();
+    for line in lines {
+        layers.entry(&line.layer).or_default().push(line);
+    }
+    let mut outlines = Vec::new();
+    for (layer, lines) in layers {
+        let mut graph = Graph::default();
+        for line in &lines {
+            for pair in line.points.windows(2) {
+                graph.add([pair[0], pair[1]], &line.place, tolerance);
+            }
+            if graph.pieces.len() > MOST_PIECES {
+                return Err(ImportErrorKind::TooMany { what: "lines", limit: MOST_PIECES }
+                    .at(&[&line.place]));
+            }
+        }
+        let mut net = graph.net(tolerance)?;
+        for place in net.prune() {
+            changes.push(Change::new("lines that end freely were dropped", &place));
+        }
+        for (corners, place) in net.faces() {
+            changes.push(Change::new("blocks were joined from lines", &place));
+            let (layer, name) = (layer.to_owned(), None);
+            outlines.push(Outline { corners, layer, name, is_fixed: false, place });
+        }
+    }
+    Ok(outlines)
+}
+
+/// Lines between points that are apart.
+#[derive(Default)]
+struct Graph {
+    points: Vec<Point2<f64>>,
+    /// Points by the cell of a grid that is as wide as the tolerance.
+    cells: BTreeMap<[i64; 2], Vec<usize>>,
+    pieces: Vec<([usize; 2], Place)>,
+}
+
+impl Graph {
+    fn add(&mut self, ends: [Point2<f64>; 2], place: &Place, tolerance: f64) {
+        let ends = ends.map(|end| self.point(end, tolerance));
+        if ends[0] != ends[1] {
+            self.pieces.push((ends, place.clone()));
+        }
+    }
+
+    /// The point that is nearer than the tolerance, or a new one.
+    fn point(&mut self, at: Point2<f64>, tolerance: f64) -> usize {
+        // Far from the origin cells have no digits left; points are compared in any case.
+        #[allow(clippy::cast_possible_truncation, reason = "saturates")]
+        let [x, y] = [at.x, at.y].map(|it| (it / tolerance).floor() as i64);
+        let around = |x: i64| [x.saturating_sub(1), x, x.saturating_add(1)];
+        for cell in around(x).into_iter().flat_map(|x| around(y).map(|y| [x, y])) {
+            let here = self.cells.get(&cell).into_iter().flatten();
+            let mut near = here.filter(|k| (self.points[**k] - at).norm() <= tolerance);
+            if let Some(found) = near.next() {
+                return *found;
+            }
+        }
+        self.cells.entry([x, y]).or_default().push(self.points.len());
+        self.points.push(at);
+        self.points.len() - 1
+    }
+
+    /// The lines, divided at the points that lie on them, each once.
+    ///
+    /// # Errors
+    /// A line has far more points beside it than lines of blocks have.
+    fn net(self, tolerance: f64) -> Result<Net, ImportError> {
+        /// Points abreast of a line, on average. Chosen: those of a bed joint through a wall of 20 000 stones.
+        const MOST: usize = 1000;
+        let mut order: Vec<usize> = (0..self.points.len()).collect();
+        order.sort_by(|a, b| self.points[*a].x.total_cmp(&self.points[*b].x));
+        let xs: Vec<f64> = order.iter().map(|k| self.points[*k].x).collect();
+        let mut sides = BTreeMap::new();
+        let mut left = MOST * self.pieces.len();
+        for (ends, place) in self.pieces {
+            let [from, to] = ends.map(|end| self.points[end]);
+            let low = xs.partition_point(|x| *x < from.x.min(to.x) - tolerance);
+            let high = xs.partition_point(|x| *x <= from.x.max(to.x) + tolerance);
+            left = left
+                .checked_sub(high.saturating_sub(low))
+                .ok_or_else(|| ImportErrorKind::Crowded.at(&[&place]))?;
+            let along = |k: &usize| (self.points[*k] - from).dot(&(to - from));
+            let mut on: Vec<usize> = order[low..high.max(low)].to_vec();
+            on.retain(|k| ends.contains(k) || distance(self.points[*k], [from, to]) <= tolerance);
+            on.sort_by(|a, b| along(a).total_cmp(&along(b)));
+            for pair in on.windows(2) {
+                let side = [pair[0].min(pair[1]), pair[0].max(pair[1])];
+                sides.entry(side).or_insert_with(|| place.clone());
+            }
+        }
+        Ok(Net::of(self.points, sides))
+    }
+}
+
+/// Points, the neighbours of each, and the lines between them.
+struct Net {
+    points: Vec<Point2<f64>>,
+    around: Vec<BTreeSet<usize>>,
+    sides: BTreeMap<[usize; 2], Place>,
+}
+
+impl Net {
+    fn of(points: Vec<Point2<f64>>, sides: BTreeMap<[usize; 2], Place>) -> Self {
+        let mut around = vec![BTreeSet::new(); points.len()];
+        for [a, b] in sides.keys() {
+            around[*a].insert(*b);
+            around[*b].insert(*a);
+        }
+        Self { points, around, sides }
+    }
+
+    /// Takes away lines that end freely, again and again; their places.
+    fn prune(&mut self) -> BTreeSet<Place> {
+        let mut gone = BTreeSet::new();
+        let mut free: Vec<usize> =
+            (0..self.points.len()).filter(|k| self.around[*k].len() == 1).collect();
+        while let Some(end) = free.pop() {
+            let Some(other) = self.around[end].pop_first() else { continue };
+            self.around[other].remove(&end);
+            gone.extend(self.sides.remove(&[end.min(other), end.max(other)]));
+            if self.around[other].len() == 1 {
+                free.push(other);
+            }
+        }
+        gone
+    }
+
+    /// The faces that lines go around counter-clockwise, each with the place of its first line.
+    fn faces(&self) -> Vec<(Vec<Point2<f64>>, Place)> {
+        let turned: Vec<Vec<usize>> = (0..self.points.len()).map(|k| self.by_angle(k)).collect();
+        let mut open: BTreeSet<[usize; 2]> =
+            self.sides.keys().flat_map(|[a, b]| [[*a, *b], [*b, *a]]).collect();
+        let mut faces = Vec::new();
+        while let Some(first) = open.pop_first() {
+            let mut corners = vec![self.points[first[0]]];
+            let mut side = first;
+            loop {
+                let [from, at] = side;
+                // The sharpest turn to the left: clockwise, the next line after the one back.
+                let around = &turned[at];
+                let back = around.iter().position(|k| *k == from).unwrap_or(0);
+                side = [at, around[(back + around.len() - 1) % around.len()]];
+                if !open.remove(&side) {
+                    break;
+                }
+                corners.push(self.points[at]);
+            }
+            if geometry::area(&corners) > 0.0 {
+                let place = self.sides.get(&[first[0].min(first[1]), first[0].max(first[1])]);
+                faces.push((corners, place.cloned().unwrap_or_default()));
+            }
+        }
+        faces
+    }
+
+    fn by_angle(&self, k: usize) -> Vec<usize> {
+        let angle = |other: &usize| {
+            let way = self.points[*other] - self.points[k];
+            way.y.atan2(way.x)
+        };
+        let mut around: Vec<usize> = self.around[k].iter().copied().collect();
+        around.sort_by(|a, b| angle(a).total_cmp(&angle(b)));
+        around
+    }
+}

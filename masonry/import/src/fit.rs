@@ -1,0 +1,131 @@
+//! Blocks that meet exactly: joints closed or filled, corners moved onto others, and no overlap left.
+
+use nalgebra::Point2;
+
+use super::gaps::{self, Grown};
+use super::report::metres;
+use super::sheet::Sheet;
+use super::stones::{Stone, near_pairs};
+use super::{ImportError, ImportErrorKind, Options, floor};
+use masonry::geometry;
+use masonry::model::heal::heal;
+use masonry::model::{Block, Movement, Support};
+use masonry_drawing::Change;
+
+/// Overlaps below this part of the smaller block are rounding errors, as in the checks of a model.
+const TOUCHING: f64 = 1e-9;
+
+/// What was done to make blocks meet.
+pub(crate) struct Fitted {
+    pub(crate) grown: Grown,
+    /// What was assumed of supports.
+    pub(crate) assumed: Option<String>,
+}
+
+impl Fitted {
+    /// Makes the blocks of a sheet meet.
+    ///
+    /// # Errors
+    /// What cannot meet or still overlaps.
+    pub(crate) fn of(sheet: &mut Sheet, options: &Options) -> Result<Self, ImportError> {
+        let assumed = floor::add(sheet)?;
+        let grown = gaps::grow(sheet, options.joints)?;
+        move_together(sheet)?;
+        check_overlaps(sheet)?;
+        gaps::shrink(sheet, &grown);
+        round(sheet);
+        Ok(Self { grown, assumed })
+    }
+}
+
+/// Moves corners onto those and onto edges that are nearer than the tolerance.
+fn move_together(sheet: &mut Sheet) -> Result<(), ImportError> {
+    let mut blocks: Vec<Block> = sheet.stones.iter().map(block).collect();
+    let supports: Vec<Support> = sheet
+        .supports
+        .iter()
+        .map(|it| {
+            let [from, to] = it.ends;
+            Support { name: it.name.clone(), from, to, movement: Movement::default() }
+        })
+        .collect();
+    let (count, tolerance) = (blocks.len(), sheet.tolerance);
+    heal(&mut blocks, count, &supports, Some(tolerance)).map_err(|reason| {
+        let (shown, remedy) = (metres(tolerance), String::new());
+        ImportErrorKind::NotHealed { tolerance, shown, reason, remedy }.at(&[])
+    })?;
+    for (stone, block) in sheet.stones.iter_mut().zip(blocks) {
+        let moved = stone.corners.iter().zip(&block.corners).map(|(from, to)| (to - from).norm());
+        let by = moved.fold(0.0, f64::max);
+        if by > TOUCHING * geometry::size(&stone.corners) {
+            let what = "corners were moved so that blocks meet exactly";
+            sheet.changes.push(Change::by(what, &stone.place, by));
+        }
+        stone.corners = block.corners;
+    }
+    Ok(())
+}
+
+fn block(stone: &Stone) -> Block {
+    Block {
+        name: String::new(),
+        corners: stone.corners.clone(),
+        elasticity: None,
+        density: None,
+        mesh: None,
+        loads: Vec::new(),
+    }
+}
+
+fn check_overlaps(sheet: &Sheet) -> Result<(), ImportError> {
+    let stones = &sheet.stones;
+    for [first, second] in near_pairs(stones, 0.0)? {
+        let [a, b] = [first, second].map(|k| &stones[k].corners);
+        let area = geometry::overlap_area(a, b);
+        let size = geometry::size(a).min(geometry::size(b));
+        if area > TOUCHING * size * size {
+            let tolerance = sheet.tolerance;
+            let depth = metres(depth(a, b).min(depth(b, a)));
+            let (shown, remedy) = (metres(tolerance), String::new());
+            let kind = ImportErrorKind::Overlap { depth, tolerance, shown, remedy };
+            return Err(kind.at(&[&stones[first].place, &stones[second].place]));
+        }
+    }
+    Ok(())
+}
+
+/// How far one polygon reaches into another, across the edge of the other where that is least.
+fn depth(one: &[Point2<f64>], other: &[Point2<f64>]) -> f64 {
+    let across = |k: usize| {
+        let normal = geometry::outward_normal(other, k);
+        let inside = one.iter().map(|corner| (other[k] - corner).dot(&normal));
+        inside.fold(f64::NEG_INFINITY, f64::max)
+    };
+    (0..other.len()).map(across).fold(f64::INFINITY, f64::min)
+}
+
+/// Cuts digits that say nothing, so that corners at one place are written alike.
+fn round(sheet: &mut Sheet) {
+    /// Digits that are kept, relative to the size of the drawing. Theory: joints are found to 1e-9 of a block.
+    const DIGITS: f64 = 1e-13;
+    let corners = sheet.stones.iter().flat_map(|stone| &stone.corners);
+    let largest = corners.map(|it| it.x.abs().max(it.y.abs())).fold(0.0, f64::max);
+    // Divisors that are powers of ten leave numbers with few digits.
+    let per_metre = 10.0_f64.powf(-(DIGITS * largest).log10().ceil()).round();
+    if !(per_metre.is_finite() && per_metre >= 1.0) {
+        return;
+    }
+    let round = |it: f64| (it * per_metre).round() / per_metre + 0.0;
+    for corner in sheet.stones.iter_mut().flat_map(|stone| &mut stone.corners) {
+        *corner = Point2::new(round(corner.x), round(corner.y));
+    }
+}
+
+/// A tolerance that suffices, as it is written in a message.
+pub(crate) fn sufficient(tolerance: f64, does: impl Fn(f64) -> bool) -> Option<f64> {
+    /// Factors of the tolerance that did not suffice, the next ones first. Chosen: a larger one joins what is apart, a
+    /// smaller one leaves apart what cannot be joined.
+    const FACTORS: [f64; 12] = [1.5, 2.0, 3.0, 4.0, 6.0, 8.0, 12.0, 0.5, 0.25, 0.1, 0.03, 0.01];
+    let written = |factor: f64| metres(tolerance * factor).parse().ok();
+    FACTORS.into_iter().filter_map(written).find(|tolerance| does(*tolerance))
+}

@@ -1,0 +1,212 @@
+//! Joints that are drawn open: blocks grow into them until they meet, and shrink again where mortar lies between them.
+
+use std::collections::BTreeMap;
+
+use nalgebra::Point2;
+
+use super::report::metres;
+use super::sheet::Sheet;
+use super::size::{self, median};
+use super::stones::near_pairs;
+use super::{ImportError, ImportErrorKind, Joints};
+use masonry::geometry;
+use masonry_drawing::Change;
+
+/// The widest gap between blocks that is a joint, relative to the shortest edge. Chosen: joints of 10 mm beside bricks of
+/// 52 mm have a fifth; wider gaps are openings.
+const WIDEST: f64 = 0.35;
+
+/// An edge of a stone.
+type Edge = (usize, usize);
+
+/// A gap between an edge of a stone and another or a support.
+struct Gap {
+    edges: [Option<Edge>; 2],
+    support: Option<usize>,
+    /// The stones, the same twice at a support.
+    stones: [usize; 2],
+    width: f64,
+    length: f64,
+    is_bed: bool,
+}
+
+/// Which edges were moved outwards, and the widths of mortar.
+#[derive(Debug, Default)]
+pub(crate) struct Grown {
+    edges: Vec<(Edge, f64)>,
+    /// The mortar of bed joints \[m\].
+    pub(crate) bed: Option<f64>,
+    /// The mortar of head joints \[m\].
+    pub(crate) head: Option<f64>,
+    /// The widest gap that stays open \[m\].
+    pub(crate) open: f64,
+    /// Supports below mortar, and whether that is a bed joint.
+    pub(crate) supports: BTreeMap<usize, bool>,
+}
+
+/// Moves edges along open joints outwards, so that blocks meet in the middle.
+///
+/// # Errors
+/// Joints are open, and nobody says what they are, or no mortar of one width fits.
+pub(crate) fn grow(sheet: &mut Sheet, joints: Option<Joints>) -> Result<Grown, ImportError> {
+    let gaps = gaps(sheet)?;
+    let mut grown = Grown::default();
+    let Some(first) = gaps.first() else { return Ok(grown) };
+    match joints {
+        None => {
+            let (count, width) = (gaps.len(), metres(first.width));
+            let places = first.stones.map(|k| &sheet.stones[k].place);
+            return Err(ImportErrorKind::OpenJoints { count, width }.at(&places));
+        }
+        Some(Joints::Open) => {
+            let widest = gaps.iter().map(|gap| gap.width).fold(0.0, f64::max);
+            // Corners move by less than the tolerance each.
+            grown.open = widest + 2.0 * sheet.tolerance;
+            return Ok(grown);
+        }
+        Some(Joints::Close) => {}
+        Some(Joints::Mortar) => {
+            let of = |is_bed| mortar(gaps.iter().filter(|gap| gap.is_bed == is_bed), sheet);
+            (grown.bed, grown.head) = (of(true)?, of(false)?);
+            let at_supports = gaps.iter().filter_map(|gap| Some((gap.support?, gap.is_bed)));
+            grown.supports = at_supports.collect();
+        }
+    }
+    grown.edges = shares(&gaps, &grown);
+    note(sheet, &gaps, joints);
+    move_edges(sheet, &grown.edges, 1.0);
+    Ok(grown)
+}
+
+/// Makes room for the mortar again.
+pub(crate) fn shrink(sheet: &mut Sheet, grown: &Grown) {
+    if grown.bed.is_some() || grown.head.is_some() {
+        move_edges(sheet, &grown.edges, -1.0);
+    }
+}
+
+fn note(sheet: &mut Sheet, gaps: &[Gap], joints: Option<Joints>) {
+    let is_mortar = joints == Some(Joints::Mortar);
+    let what = if is_mortar { "open joints became mortar" } else { "open joints were closed" };
+    for gap in gaps {
+        let place = &sheet.stones[gap.stones[0]].place;
+        sheet.changes.push(Change::by(what, place, gap.width));
+    }
+}
+
+/// All gaps that are wider than the tolerance.
+fn gaps(sheet: &Sheet) -> Result<Vec<Gap>, ImportError> {
+    let (stones, tolerance) = (&sheet.stones, sheet.tolerance);
+    let edges = stones.iter().flat_map(|stone| size::edges(&stone.corners));
+    let reach = WIDEST * edges.fold(f64::INFINITY, f64::min);
+    let mut gaps = Vec::new();
+    for pair in near_pairs(stones, reach)? {
+        let [a, b] = pair.map(|k| &stones[k].corners);
+        for (i, j) in (0..a.len()).flat_map(|i| (0..b.len()).map(move |j| (i, j))) {
+            let edges = [geometry::edge(a, i), geometry::edge(b, j)];
+            if let Some(found) = between(edges, tolerance, reach) {
+                gaps.push(Gap {
+                    edges: [Some((pair[0], i)), Some((pair[1], j))],
+                    stones: pair,
+                    ..found
+                });
+            }
+        }
+    }
+    for (k, stone) in stones.iter().enumerate() {
+        let edges = (0..stone.corners.len()).map(|i| (i, geometry::edge(&stone.corners, i)));
+        for (s, (i, edge)) in
+            (0..sheet.supports.len()).flat_map(|s| edges.clone().map(move |it| (s, it)))
+        {
+            let [from, to] = sheet.supports[s].ends;
+            let mut lines = [[from, to], [to, from]].into_iter();
+            let found = lines.find_map(|line| between([edge, line], tolerance, reach));
+            let at =
+                |it| Gap { edges: [Some((k, i)), None], stones: [k, k], support: Some(s), ..it };
+            gaps.extend(found.map(at));
+        }
+    }
+    Ok(gaps)
+}
+
+/// The gap between two edges, if it is as wide at both ends.
+fn between(edges: [[Point2<f64>; 2]; 2], tolerance: f64, reach: f64) -> Option<Gap> {
+    let overlap = geometry::facing_overlap(edges[0], edges[1], tolerance, reach)?;
+    let [low, high] = [overlap.gap[0].min(overlap.gap[1]), overlap.gap[0].max(overlap.gap[1])];
+    let is_even = high - low <= 2.0 * tolerance;
+    let width = 0.5 * (low + high);
+    let [from, to] = overlap.on_first;
+    let length = (to - from) * (edges[0][1] - edges[0][0]).norm();
+    let is_bed = overlap.normal.y.abs() >= overlap.normal.x.abs();
+    (is_even && width > tolerance && length > width).then_some(Gap {
+        edges: [None; 2],
+        support: None,
+        stones: [0; 2],
+        width,
+        length,
+        is_bed,
+    })
+}
+
+/// The width of mortar that fits gaps: that of half of them, if all others have it.
+fn mortar<'a>(
+    gaps: impl Iterator<Item = &'a Gap>,
+    sheet: &Sheet,
+) -> Result<Option<f64>, ImportError> {
+    /// Mortar is laid in tenths of millimetres \[m\]. Chosen: no mason works finer.
+    const STEP: f64 = 1e-4;
+    let gaps: Vec<&Gap> = gaps.collect();
+    let Some(width) = median(gaps.iter().map(|gap| gap.width).collect()) else { return Ok(None) };
+    if let Some(gap) = gaps.iter().find(|gap| (gap.width - width).abs() > 2.0 * sheet.tolerance) {
+        let [width, usual] = [gap.width, width].map(metres);
+        let places = gap.stones.map(|k| &sheet.stones[k].place);
+        return Err(ImportErrorKind::UnevenMortar { width, usual }.at(&places));
+    }
+    // The quotient is exact where the number of tenths is written with few digits.
+    let rounded = (width / STEP).round() / STEP.recip();
+    let is_same = (rounded - width).abs() <= 0.5 * sheet.tolerance && rounded > 0.0;
+    Ok(Some(if is_same { rounded } else { width }))
+}
+
+/// How far each edge moves outwards: half of the mortar, or of the gap along most of it; all of it at a support.
+fn shares(gaps: &[Gap], grown: &Grown) -> Vec<(Edge, f64)> {
+    let mut of_edges: BTreeMap<Edge, (f64, f64)> = BTreeMap::new();
+    for gap in gaps {
+        let mortar = if gap.is_bed { grown.bed } else { grown.head };
+        let width = mortar.unwrap_or(gap.width);
+        let share = if gap.edges[1].is_some() { 0.5 * width } else { width };
+        for edge in gap.edges.into_iter().flatten() {
+            let (length, of_edge) = of_edges.entry(edge).or_insert((0.0, share));
+            if gap.length > *length {
+                (*length, *of_edge) = (gap.length, share);
+            }
+        }
+    }
+    of_edges.into_iter().map(|(edge, (_, share))| (edge, share)).collect()
+}
+
+/// Moves edges outwards by their shares times a factor, in their order: by stones.
+fn move_edges(sheet: &mut Sheet, shares: &[(Edge, f64)], factor: f64) {
+    for of_stone in shares.chunk_by(|a, b| a.0.0 == b.0.0) {
+        let stone = &mut sheet.stones[of_stone[0].0.0];
+        let mut by = vec![0.0; stone.corners.len()];
+        for ((_, edge), share) in of_stone {
+            by[*edge] = factor * share;
+        }
+        stone.corners = offset(&stone.corners, &by);
+    }
+}
+
+/// The polygon with each edge moved outwards.
+fn offset(corners: &[Point2<f64>], by: &[f64]) -> Vec<Point2<f64>> {
+    let count = corners.len();
+    let corner = |k: usize| {
+        let before = (k + count - 1) % count;
+        let [m, n] = [before, k].map(|edge| geometry::outward_normal(corners, edge));
+        // The corner moves by d with d . m and d . n given.
+        let determinant = geometry::cross(m, n);
+        let (a, b) = (by[before], by[k]);
+        corners[k] + nalgebra::Vector2::new(a * n.y - b * m.y, b * m.x - a * n.x) / determinant
+    };
+    (0..count).map(corner).collect()
+}

@@ -1,0 +1,58 @@
+//! Scenes from drawings: outlines become blocks that meet exactly, lines become supports, and a report says what was changed.
+//!
+//! ```
+//! use masonry_drawing::{Drawing, Format};
+//! use masonry_import::{Options, import};
+//! // Two stones, the upper one a millimetre too low.
+//! let text = r#"[{ "material": "stone", "corners": [[0, 0], [2, 0], [2, 1], [0, 1]] },
+//!                { "material": "stone", "corners": [[0, 0.999], [2, 0.999], [2, 2], [0, 2]] }]"#;
+//! let drawing = Drawing::read(text.as_bytes(), Format::List)?;
+//! let imported = import(&drawing, &Options::default())?;
+//! assert_eq!(imported.scene.blocks[1].corners[0], [0.0, 0.9995]);
+//! assert!(imported.report().contains("corners were moved"));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+mod build;
+mod classes;
+mod error;
+mod faces;
+mod fit;
+mod floor;
+mod gaps;
+mod imported;
+mod near;
+mod options;
+mod outline;
+mod picture;
+mod report;
+mod sheet;
+mod size;
+mod stones;
+mod supports;
+mod text;
+
+pub use self::error::{ImportError, ImportErrorKind};
+use self::fit::Fitted;
+pub use self::imported::Imported;
+pub use self::options::{Joints, Options};
+use self::sheet::Sheet;
+use masonry_drawing::Drawing;
+
+/// Makes a scene of a drawing.
+///
+/// # Errors
+/// What cannot be mended, with its place in the drawing and the remedy, such as the tolerance that would suffice.
+pub fn import(drawing: &Drawing, options: &Options) -> Result<Imported, ImportError> {
+    let attempt = |tolerance| {
+        let mut sheet = Sheet::of(drawing, options, tolerance)?;
+        let fitted = Fitted::of(&mut sheet, options)?;
+        build::scene(sheet, fitted, options)
+    };
+    attempt(options.tolerance).map_err(|error| match error.tolerance() {
+        Some(tolerance) => {
+            error.with_remedy(fit::sufficient(tolerance, |it| attempt(Some(it)).is_ok()))
+        }
+        None => error,
+    })
+}

@@ -1,0 +1,142 @@
+//! Single outlines: near corners become one, nearly straight ones vanish, and the direction is counter-clockwise.
+
+use nalgebra::Point2;
+
+use masonry::geometry;
+use masonry_drawing::{Change, Place};
+
+/// Distances below this part of the tolerance are rounding errors. Chosen: far above those of coordinates, far below all
+/// that a report should tell.
+const EXACT: f64 = 1e-6;
+
+/// What is left of an outline.
+pub(crate) enum Cleaned {
+    /// A polygon whose edges and corners are larger than the tolerance.
+    Polygon(Vec<Point2<f64>>),
+    /// Nothing: it is thinner than the tolerance.
+    Sliver,
+}
+
+/// Cleans an outline, and notes what that changes.
+pub(crate) fn clean(
+    outline: &[Point2<f64>],
+    place: &Place,
+    tolerance: f64,
+    changes: &mut Vec<Change>,
+) -> Cleaned {
+    let mut corners = outline.to_vec();
+    if let Some(by) = without_near(&mut corners, tolerance) {
+        changes.push(Change::by("near corners became one", place, by));
+    }
+    // Corners on straight edges, where other blocks begin, are no change.
+    let straight = without_straight(&mut corners, tolerance);
+    if let Some(by) = straight.filter(|by| *by > EXACT * tolerance) {
+        changes.push(Change::by("nearly straight corners vanished", place, by));
+    }
+    if corners.len() < 3 || width(&corners) <= tolerance {
+        return Cleaned::Sliver;
+    }
+    if geometry::area(&corners) < 0.0 {
+        // It begins where it began.
+        corners[1..].reverse();
+        changes.push(Change::new("clockwise outlines were turned", place));
+    }
+    Cleaned::Polygon(corners)
+}
+
+/// Twice the area by half of the perimeter: of a long rectangle, its width.
+fn width(corners: &[Point2<f64>]) -> f64 {
+    let perimeter: f64 = super::size::edges(corners).sum();
+    2.0 * geometry::area(corners).abs() / perimeter
+}
+
+/// Leaves out corners that are nearer than the tolerance to the one before; the largest such distance.
+fn without_near(corners: &mut Vec<Point2<f64>>, tolerance: f64) -> Option<f64> {
+    let mut largest: Option<f64> = None;
+    let mut kept: Vec<Point2<f64>> = Vec::with_capacity(corners.len());
+    let mut is_near = |a: &Point2<f64>, b: &Point2<f64>| {
+        let apart = (a - b).norm();
+        let near = apart <= tolerance;
+        if near && apart > 0.0 {
+            largest = Some(apart.max(largest.unwrap_or(0.0)));
+        }
+        near
+    };
+    for corner in corners.iter() {
+        if !kept.last().is_some_and(|last| is_near(last, corner)) {
+            kept.push(*corner);
+        }
+    }
+    while kept.len() > 1 && is_near(&kept[0], &kept[kept.len() - 1]) {
+        kept.pop();
+    }
+    *corners = kept;
+    largest
+}
+
+/// Leaves out the straightest corner again and again, as long as all that were left out stay within the tolerance of
+/// the edges; the largest distance.
+fn without_straight(corners: &mut Vec<Point2<f64>>, tolerance: f64) -> Option<f64> {
+    let mut largest: Option<f64> = None;
+    let mut ring = Ring::of(corners);
+    while ring.corners.len() >= 3 {
+        let offs = ring.offs.iter().copied().enumerate();
+        let straightest = offs.min_by(|(_, a), (_, b)| a.total_cmp(b));
+        let Some((k, by)) = straightest.filter(|(_, by)| *by <= tolerance) else { break };
+        ring.leave_out(k);
+        largest = Some(by.max(largest.unwrap_or(0.0)));
+    }
+    *corners = ring.corners;
+    largest
+}
+
+/// The corners of an outline that are left.
+struct Ring {
+    corners: Vec<Point2<f64>>,
+    /// For every corner those that were left out after it.
+    out: Vec<Vec<Point2<f64>>>,
+    /// For every corner how far it, and what was left out beside it, is from the edge that would take its place.
+    offs: Vec<f64>,
+}
+
+impl Ring {
+    fn of(corners: &[Point2<f64>]) -> Self {
+        let out = vec![Vec::new(); corners.len()];
+        let mut ring = Self { corners: corners.to_vec(), out, offs: Vec::new() };
+        ring.offs = (0..corners.len()).map(|k| ring.off(k)).collect();
+        ring
+    }
+
+    fn off(&self, k: usize) -> f64 {
+        let (before, after) = self.beside(k);
+        let ends = [self.corners[before], self.corners[after]];
+        let passed = self.out[before].iter().chain(&self.out[k]).chain([&self.corners[k]]);
+        passed.map(|it| distance(*it, ends)).fold(0.0, f64::max)
+    }
+
+    fn beside(&self, k: usize) -> (usize, usize) {
+        let count = self.corners.len();
+        ((k + count - 1) % count, (k + 1) % count)
+    }
+
+    fn leave_out(&mut self, k: usize) {
+        let (before, _) = self.beside(k);
+        let gone = [self.corners[k]].into_iter().chain(std::mem::take(&mut self.out[k]));
+        self.out[before].extend(gone);
+        self.corners.remove(k);
+        self.out.remove(k);
+        self.offs.remove(k);
+        let before = if before > k { before - 1 } else { before };
+        for beside in [before, (before + 1) % self.corners.len()] {
+            self.offs[beside] = self.off(beside);
+        }
+    }
+}
+
+/// The distance of a point from a segment.
+pub(crate) fn distance(point: Point2<f64>, [from, to]: [Point2<f64>; 2]) -> f64 {
+    let along = to - from;
+    let square = along.norm_squared();
+    let place = if square > 0.0 { (point - from).dot(&along) / square } else { 0.0 };
+    (point - (from + along * place.clamp(0.0, 1.0))).norm()
+}

@@ -1,0 +1,106 @@
+//! The table of what was changed and left out.
+
+use std::collections::BTreeMap;
+use std::fmt::Write as _;
+
+use super::Imported;
+use masonry_drawing::Change;
+
+/// Places that a row names; others are counted. Chosen: what fits a line.
+const NAMED: usize = 3;
+
+impl Imported {
+    /// What the scene holds, what was assumed, and a table of what was changed and left out, with its places.
+    pub fn report(&self) -> String {
+        let scene = &self.scene;
+        let mut text = format!(
+            "{}, {}; unit of the drawing: {}; tolerance: {} m\n",
+            counted(scene.blocks.len(), "block"),
+            counted(scene.supports.len(), "support"),
+            self.unit,
+            metres(self.tolerance),
+        );
+        for assumption in &self.assumed {
+            let _ = writeln!(text, "assumed: {assumption}");
+        }
+        for (what, row) in self.rows() {
+            let _ = writeln!(text, "{row} {what}{}", row.places());
+        }
+        text
+    }
+
+    /// Changes of one kind together, in the order of the first of each.
+    fn rows(&self) -> Vec<(&str, Row<'_>)> {
+        let mut rows: Vec<(&str, Row)> = Vec::new();
+        let mut found: BTreeMap<&str, usize> = BTreeMap::new();
+        for change in &self.changes {
+            let at = *found.entry(&change.what).or_insert(rows.len());
+            if at == rows.len() {
+                rows.push((&change.what, Row::default()));
+            }
+            rows[at].1.add(change);
+        }
+        rows
+    }
+}
+
+/// Changes of one kind.
+#[derive(Default)]
+struct Row<'a> {
+    count: usize,
+    first: Vec<&'a Change>,
+    has_more: bool,
+    largest: Option<f64>,
+}
+
+impl<'a> Row<'a> {
+    fn add(&mut self, change: &'a Change) {
+        self.count += 1;
+        self.largest = change.by.map(|by| by.max(self.largest.unwrap_or(0.0))).or(self.largest);
+        // One entity may be changed several times.
+        let is_new = self.first.iter().all(|it| it.place != change.place);
+        if is_new && self.first.len() < NAMED {
+            self.first.push(change);
+        } else {
+            self.has_more |= is_new;
+        }
+    }
+
+    fn places(&self) -> String {
+        let by = self.largest.map_or(String::new(), |by| format!(", by up to {} m", metres(by)));
+        let mut places: Vec<String> = self.first.iter().map(|it| it.place.to_string()).collect();
+        if self.has_more {
+            places.push("...".to_owned());
+        }
+        format!("{by}: {}", places.join(", "))
+    }
+}
+
+impl std::fmt::Display for Row<'_> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "{:>6} x", self.count)
+    }
+}
+
+/// A length with three digits, as small ones have in a message.
+pub(crate) fn metres(length: f64) -> String {
+    if length == 0.0 {
+        return "0".to_owned();
+    }
+    let digits = -length.abs().max(f64::MIN_POSITIVE).log10().floor() + 2.0;
+    if !(0.0..=9.0).contains(&digits) {
+        return format!("{length:.2e}");
+    }
+    // Between 0 and 9.
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "checked above")]
+    let text = format!("{length:.*}", digits as usize);
+    if text.contains('.') {
+        text.trim_end_matches('0').trim_end_matches('.').to_owned()
+    } else {
+        text
+    }
+}
+
+fn counted(count: usize, what: &str) -> String {
+    if count == 1 { format!("1 {what}") } else { format!("{count} {what}s") }
+}

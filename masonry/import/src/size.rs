@@ -1,0 +1,75 @@
+//! The unit of a drawing, and whether the blocks have a size that stones have in it.
+
+use nalgebra::Point2;
+
+use super::report::metres;
+use super::{ImportError, ImportErrorKind, Options};
+use masonry::geometry;
+use masonry_drawing::{Drawing, Unit};
+
+/// Sizes of the median block \[m\]. Chosen: tiles of a mosaic have a centimetre, the blocks of Baalbek 20 m; a drawing in
+/// millimetres read as metres has bricks of 200 m, and one in metres read as millimetres has stones below 2 mm.
+const SMALLEST: f64 = 3e-3;
+const LARGEST: f64 = 25.0;
+
+/// The unit of a drawing: that of the options, of the file, or the metre.
+///
+/// # Errors
+/// The unit of the file is not known, or no stones have the size that half of the blocks would have in it; never for a
+/// unit of the options.
+pub(crate) fn unit(drawing: &Drawing, options: &Options) -> Result<Unit, ImportError> {
+    if let (None, Some(number)) = (options.unit, drawing.unknown_unit) {
+        return Err(ImportErrorKind::UnknownUnit { number }.at(&[]));
+    }
+    let (unit, from) = match (options.unit, drawing.unit) {
+        (Some(unit), _) => return Ok(unit),
+        (None, Some(unit)) => (unit, "as the file says"),
+        (None, None) => (Unit::Metre, "which the file does not say"),
+    };
+    let Some(size) = median_size(drawing) else { return Ok(unit) };
+    let metres_of = |unit: Unit| size * unit.metres() * options.scale;
+    let fits = |unit: &Unit| (SMALLEST..=LARGEST).contains(&metres_of(*unit));
+    if fits(&unit) {
+        return Ok(unit);
+    }
+    let others: Vec<String> =
+        Unit::ALL.iter().filter(|it| fits(it)).map(|it| format!("--unit {it}")).collect();
+    let remedy = if others.is_empty() {
+        "give --scale".to_owned()
+    } else {
+        format!("give {}, or --unit {unit} if that is right", others.join(" or "))
+    };
+    // In the sentence "larger than": rounding to three digits does not matter.
+    let size = metres(metres_of(unit));
+    Err(ImportErrorKind::Size { size, unit, from, remedy }.at(&[]))
+}
+
+/// The median of the sizes of outlines, or of lines without these, in the unit of the drawing.
+fn median_size(drawing: &Drawing) -> Option<f64> {
+    let extent = |points: &[Point2<f64>]| {
+        let first = points.first()?;
+        Some(points.iter().map(|it| (it - first).norm()).fold(0.0, f64::max))
+    };
+    let of_outlines = drawing.outlines.iter().map(|it| &it.corners[..]);
+    let of_outlines: Vec<f64> = of_outlines.filter_map(extent).filter(|it| *it > 0.0).collect();
+    let sizes = if of_outlines.is_empty() {
+        drawing.lines.iter().filter_map(|it| extent(&it.points)).collect()
+    } else {
+        of_outlines
+    };
+    median(sizes)
+}
+
+/// The median of some numbers.
+pub(crate) fn median(mut values: Vec<f64>) -> Option<f64> {
+    values.sort_by(f64::total_cmp);
+    values.get(values.len() / 2).copied()
+}
+
+/// The lengths of the edges of a polygon.
+pub(crate) fn edges(corners: &[Point2<f64>]) -> impl Iterator<Item = f64> {
+    (0..corners.len()).map(|k| {
+        let [from, to] = geometry::edge(corners, k);
+        (to - from).norm()
+    })
+}

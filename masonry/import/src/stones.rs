@@ -1,0 +1,83 @@
+//! Blocks, supports and marked joints of a drawing, in metres.
+
+use nalgebra::Point2;
+
+use super::near;
+use super::{ImportError, ImportErrorKind};
+use masonry::geometry::{self, PolygonError};
+use masonry_drawing::{Change, Place};
+
+/// A block.
+#[derive(Debug, Clone)]
+pub(crate) struct Stone {
+    pub(crate) name: Option<String>,
+    pub(crate) material: String,
+    pub(crate) corners: Vec<Point2<f64>>,
+    pub(crate) place: Place,
+}
+
+/// A piece of a line on a layer of supports or joints, or an edge of what does not move.
+#[derive(Debug, Clone)]
+pub(crate) struct Piece {
+    /// The name of the support, or the class of the joint.
+    pub(crate) name: String,
+    pub(crate) ends: [Point2<f64>; 2],
+    pub(crate) place: Place,
+}
+
+/// The corners of all stones.
+pub(crate) fn shapes(stones: &[Stone]) -> Vec<&[Point2<f64>]> {
+    stones.iter().map(|stone| &stone.corners[..]).collect()
+}
+
+/// Pairs of stones whose boxes come nearer than `reach`.
+pub(crate) fn near_pairs(stones: &[Stone], reach: f64) -> Result<Vec<[usize; 2]>, ImportError> {
+    let crowded = |k: usize| ImportErrorKind::Crowded.at(&[&stones[k].place]);
+    near::pairs(&shapes(stones), reach).map_err(crowded)
+}
+
+/// Drops stones that are drawn again: whose corners all lie near corners of one before, and its corners near theirs.
+pub(crate) fn without_duplicates(
+    stones: &mut Vec<Stone>,
+    tolerance: f64,
+    changes: &mut Vec<Change>,
+) -> Result<(), ImportError> {
+    let mut is_again = vec![false; stones.len()];
+    for [first, second] in near_pairs(stones, tolerance)? {
+        let [a, b] = [first, second].map(|k| &stones[k].corners);
+        if !is_again[first] && covers(a, b, tolerance) && covers(b, a, tolerance) {
+            is_again[second] = true;
+        }
+    }
+    let mut again = is_again.into_iter();
+    stones.retain(|stone| {
+        let is_again = again.next().unwrap_or(false);
+        if is_again {
+            changes.push(Change::new("blocks drawn twice were dropped", &stone.place));
+        }
+        !is_again
+    });
+    Ok(())
+}
+
+/// Whether each corner of one polygon is near to a corner of the other.
+fn covers(one: &[Point2<f64>], other: &[Point2<f64>], tolerance: f64) -> bool {
+    other.iter().all(|corner| one.iter().any(|it| (it - corner).norm() <= tolerance))
+}
+
+/// Refuses blocks that are not convex, with the place of the corner.
+pub(crate) fn check_convex(stones: &[Stone]) -> Result<(), ImportError> {
+    for stone in stones {
+        let kind = match geometry::check_convex(&stone.corners) {
+            Ok(()) => continue,
+            Err(PolygonError::NotConvex { corner }) => {
+                let [x, y] = stone.corners[corner].coords.into();
+                let [x, y] = [x, y].map(|it: f64| super::report::metres(it));
+                ImportErrorKind::NotConvex { x, y }
+            }
+            Err(_) => ImportErrorKind::Crossing,
+        };
+        return Err(kind.at(&[&stone.place]));
+    }
+    Ok(())
+}

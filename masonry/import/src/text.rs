@@ -1,0 +1,69 @@
+//! The scene as a file to read and to change, with comments.
+
+use std::fmt::Write as _;
+
+use super::Imported;
+use masonry::scene::{Block, Contact, Scene, SceneError, Support};
+
+impl Imported {
+    /// The scene as TOML text, with the report at the top and the place in the drawing beside each block.
+    ///
+    /// # Errors
+    /// Those of [`Scene::to_toml`](masonry::Scene::to_toml).
+    pub fn to_toml(&self) -> Result<String, SceneError> {
+        let mut rest = self.scene.clone();
+        let (blocks, supports) =
+            (std::mem::take(&mut rest.blocks), std::mem::take(&mut rest.supports));
+        let mut text = String::new();
+        for line in self.report().lines() {
+            let _ = writeln!(text, "# {line}");
+        }
+        text.push('\n');
+        text.push_str(&without_defaults(&rest)?);
+        for support in &supports {
+            text.push_str(&support_text(support));
+        }
+        for (block, place) in blocks.iter().zip(&self.places) {
+            text.push_str(&block_text(block, &place.to_string()));
+        }
+        Ok(text)
+    }
+}
+
+/// The text of a scene, less the tables that say what would hold without them.
+fn without_defaults(scene: &Scene) -> Result<String, SceneError> {
+    let mut defaults = vec!["[solver]", "[output]"];
+    defaults.extend((scene.contact == Contact::default()).then_some("[contact]"));
+    let text = scene.to_toml()?;
+    let is_default = |it: &&str| defaults.iter().any(|name| it.starts_with(name));
+    let kept: Vec<&str> = text.split("\n\n").filter(|it| !is_default(it)).collect();
+    Ok(kept.join("\n\n").trim_end().to_owned() + "\n")
+}
+
+fn block_text(block: &Block, place: &str) -> String {
+    let corners: Vec<String> = block.corners.iter().map(|it| pair(*it)).collect();
+    format!(
+        "\n[[blocks]]  # {place}\nname = {}\nmaterial = {}\ncorners = [{}]\n",
+        quoted(&block.name),
+        quoted(&block.material),
+        corners.join(", ")
+    )
+}
+
+fn support_text(support: &Support) -> String {
+    format!(
+        "\n[[supports]]\nname = {}\nfrom = {}\nto = {}\njoint = {}\n",
+        quoted(&support.name),
+        pair(support.from),
+        pair(support.to),
+        quoted(&support.joint)
+    )
+}
+
+fn pair([x, y]: [f64; 2]) -> String {
+    format!("[{x:?}, {y:?}]")
+}
+
+fn quoted(text: &str) -> String {
+    toml::Value::from(text).to_string()
+}
