@@ -1,6 +1,7 @@
 //! Analyses of a scene: one solution, a load history step by step, a limit load, a study of the cost of accuracy.
 
 pub mod checkpoint;
+mod clock;
 pub mod limit;
 pub mod outcome;
 pub mod solve;

@@ -1,4 +1,4 @@
-//! What modules tell one another: plain data, built on numbers of parts alone.
+//! The data that modules pass to one another: plain, built on numbers of parts alone.
 //!
 //! | module | content |
 //! |---|---|

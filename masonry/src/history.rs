@@ -37,7 +37,7 @@ pub struct Actions {
     pub gravity: f64,
     /// Factors of the loads \[-\], in addition to their own, in the order of the scene.
     pub loads: Vec<f64>,
-    /// Where the supports are, in the order of the scene; lengths in metres.
+    /// The places of the supports, in the order of the scene; lengths in metres.
     pub movements: Vec<Movement>,
 }
 
@@ -204,7 +204,7 @@ pub struct StepRecord {
     pub way: Way,
     /// Number of factorised matrices.
     pub factorisations: usize,
-    /// Its residuals.
+    /// The residuals of the step.
     pub residuals: lcp::Residuals,
     /// Work of loads and of moving supports in this step \[J\], by the trapezoidal rule.
     pub work: f64,

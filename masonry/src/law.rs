@@ -149,9 +149,9 @@ pub struct Cone {
 /// A force of one along an edge of a cone.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Edge {
-    /// Its normal part \[-\].
+    /// The normal part \[-\].
     pub normal: f64,
-    /// Its tangential part \[-\].
+    /// The tangential part \[-\].
     pub tangential: f64,
 }
 

@@ -9,7 +9,8 @@
 //! | [`pgs`] | [`Sparse`](crate::forms::Sparse) | projected Gauss-Seidel on the contacts of blocks on springs |
 //! | `paper::alm` | [`Sparse`](crate::forms::Sparse), or whole films | the augmented Lagrangian method of the paper |
 //!
-//! All of them give an [`Answer`] to a [`Request`]. The [`Plan`](crate::plan::Plan) says which ones a scene uses.
+//! All of them give an [`Answer`] to a [`Request`], and the error of the solver for a tolerance out of range, for data that are
+//! not finite, and for a problem that the method does not treat. The [`Plan`](crate::plan::Plan) says which ones a scene uses.
 
 use std::ops::ControlFlow;
 
@@ -20,7 +21,6 @@ use crate::forms::Start;
 use crate::scene::Form;
 
 pub(crate) mod auto;
-mod error;
 pub mod forces;
 pub mod interior;
 pub mod lemke;
@@ -29,8 +29,6 @@ pub mod pgs;
 pub mod qp;
 pub(crate) mod sparse;
 pub mod statics;
-
-pub use error::RouteError;
 
 /// The settings of a route.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -102,35 +100,34 @@ impl Answer {
     }
 }
 
-/// Progress of a route.
+/// How far a solve has come.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum RouteProgress {
-    /// Pivots.
-    Pivots(lcp::lemke::Progress),
-    /// Iterations.
-    Iteration {
-        /// Steps, iterations, programs, or re-centrings of springs, done so far.
+pub enum Event {
+    /// A step of the load history begins.
+    Step {
+        /// The step, from 1.
         number: usize,
-        /// The residual that controls the route.
+        /// The steps of the scene.
+        of: usize,
+    },
+    /// A phase begins.
+    Phase(&'static str),
+    /// The solver pivots.
+    Pivots(lcp::lemke::Progress),
+    /// The solver iterates.
+    Iteration {
+        /// Steps, iterations, programs, or re-centrings of springs so far.
+        number: usize,
+        /// The residual by which the solver stops.
         residual: f64,
     },
 }
 
-impl From<&lcp::Iteration> for RouteProgress {
+impl From<&lcp::Iteration> for Event {
     fn from(at: &lcp::Iteration) -> Self {
         Self::Iteration { number: at.iteration, residual: at.residual }
     }
 }
 
 /// Follows the progress of a solve; `Break` cancels it.
-pub type Observer<'a> = &'a mut dyn FnMut(RouteProgress) -> ControlFlow<()>;
-
-/// A route with the problem that it works on.
-pub trait Method {
-    /// Looks for a solution.
-    ///
-    /// # Errors
-    /// [`RouteError`] for a tolerance out of range, for data that are not finite, and for a problem that
-    /// the method does not treat.
-    fn solve(&self, request: &Request, observer: Observer<'_>) -> Result<Answer, RouteError>;
-}
+pub type Observer<'a> = &'a mut dyn FnMut(Event) -> ControlFlow<()>;

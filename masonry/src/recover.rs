@@ -1,5 +1,7 @@
 //! The state of the structure from contact forces and relative displacements.
 
+use std::borrow::Cow;
+
 use nalgebra::{SVector, Vector2};
 
 use crate::data::state::{
@@ -11,7 +13,8 @@ use crate::forms::reduction::Reduction;
 use crate::ids::{BlockId, ContactId};
 use crate::material::constitutive;
 use crate::model::{Anchor, Body, ContactPoint, Model};
-use crate::system::{BodySystem, Direction, System, displaced_nodes};
+use crate::system::kinematics::{Term, shares, stretched, terms};
+use crate::system::{Direction, System, displaced_nodes};
 
 /// Gaps and slips below this part of the largest displacement, or compression of a joint, are zero; and their rates below this
 /// part of the largest rate.
@@ -22,8 +25,8 @@ const REST: f64 = 1e-9;
 
 mod motion;
 
-pub(crate) use motion::flow;
 pub use motion::mechanism;
+pub(crate) use motion::{flow, largest, of_corners};
 
 /// The state that belongs to the contact forces and relative displacements `rows`: rigid amplitudes
 /// from the isostatic rows, then `u = K^+ (f + C^T t + L^T q) + N alpha` block by block.
@@ -36,16 +39,68 @@ pub fn recover(
     rows: &RowState,
     with_stresses: bool,
 ) -> State {
-    let amplitudes = reduction.amplitudes(system, &rows.t, &rows.y);
+    let amplitudes = reduction.amplitudes(&rows.t, &rows.y);
     let bar_forces = reduction.bar_forces(&rows.t);
+    let motions = system.bodies.iter().zip(amplitudes.chunks(3)).map(|(body, alpha)| BlockMotion {
+        rigid: alpha,
+        elastic: Cow::Owned(system.elastic_displacements(body, &rows.t, &bar_forces)),
+    });
+    of_motions(model, system, rows, motions, with_stresses)
+}
+
+/// The state that belongs to forces and displacements of the sparse problem, solved to `tolerance`.
+///
+/// Displacements have no natural size if all blocks are rigid and nothing has an initial gap or gives way. Rounding errors
+/// around zero are then taken for zero.
+pub fn from_displacements(
+    model: &Model,
+    system: &System,
+    sparse: &Sparse,
+    rows: &RowState,
+    u: &[f64],
+    tolerance: f64,
+    with_stresses: bool,
+) -> State {
+    let rest = vec![0.0; u.len()];
+    let at_rest = RowState { t: rows.t.clone(), y: vec![0.0; rows.y.len()] };
+    let (u, rows) = if is_at_rest(system, u, tolerance) { (&*rest, &at_rest) } else { (u, rows) };
+    let motions = system.bodies.iter().enumerate().map(|(b, body)| {
+        let (u, none): (_, &[f64]) = (sparse.of_block(b, u), &[]);
+        let (rigid, elastic) = if body.stiffness.is_some() { (none, u) } else { (u, none) };
+        BlockMotion { rigid, elastic: Cow::Borrowed(elastic) }
+    });
+    of_motions(model, system, rows, motions, with_stresses)
+}
+
+fn is_at_rest(system: &System, u: &[f64], tolerance: f64) -> bool {
+    let size = system.bodies.iter().map(|body| body.modes.length).fold(0.0, f64::max);
+    let rest = tolerance.max(REST) * size;
+    system.is_at_rest() && u.iter().all(|u| u.abs() <= rest)
+}
+
+/// The motion of a block.
+struct BlockMotion<'a> {
+    /// Amplitudes \[m\] of its rigid motions; none are zeros.
+    rigid: &'a [f64],
+    /// Displacements \[m\] of its nodes besides; empty for a rigid block.
+    elastic: Cow<'a, [f64]>,
+}
+
+fn of_motions<'a>(
+    model: &Model,
+    system: &System,
+    rows: &RowState,
+    motions: impl Iterator<Item = BlockMotion<'a>>,
+    with_stresses: bool,
+) -> State {
     let mut strain_energy = 0.0;
     let mut displacements = Vec::with_capacity(model.blocks.len());
-    for (b, (body, alpha)) in system.bodies.iter().zip(amplitudes.chunks(3)).enumerate() {
-        let elastic = system.elastic_displacements(body, &rows.t, &bar_forces);
-        strain_energy += energy(system, body, &elastic);
+    for (b, (body, BlockMotion { rigid, elastic })) in system.bodies.iter().zip(motions).enumerate()
+    {
+        strain_energy += body.stiffness.map_or(0.0, |k| system.stiffnesses[k].energy(&elastic));
         let nodes = displaced_nodes(model, BlockId::new(b)).iter().enumerate();
         let moved = nodes.map(|(n, place)| {
-            let rigid = body.modes.displacement(*place, alpha);
+            let rigid = body.modes.displacement(*place, rigid);
             elastic.get(2 * n..2 * n + 2).map_or(rigid, |u| rigid + Vector2::new(u[0], u[1]))
         });
         displacements.push(moved.collect());
@@ -68,64 +123,6 @@ pub(crate) fn wanted_stresses(
     } else {
         (Vec::new(), Vec::new())
     }
-}
-
-/// The state that belongs to forces and displacements of the sparse problem, solved to `tolerance`.
-///
-/// Where all blocks are rigid and nothing has an initial gap or gives way, no displacement has a natural
-/// size, and rounding errors around zero are taken for zero.
-pub fn from_displacements(
-    model: &Model,
-    system: &System,
-    sparse: &Sparse,
-    rows: &RowState,
-    u: &[f64],
-    tolerance: f64,
-    with_stresses: bool,
-) -> State {
-    if is_at_rest(system, u, tolerance) {
-        let rest = vec![0.0; u.len()];
-        let rows = RowState { t: rows.t.clone(), y: vec![0.0; rows.y.len()] };
-        return of_blocks(model, system, sparse, &rows, &rest, with_stresses);
-    }
-    of_blocks(model, system, sparse, rows, u, with_stresses)
-}
-
-fn is_at_rest(system: &System, u: &[f64], tolerance: f64) -> bool {
-    let size = system.bodies.iter().map(|body| body.modes.length).fold(0.0, f64::max);
-    let rest = tolerance.max(REST) * size;
-    system.is_at_rest() && u.iter().all(|u| u.abs() <= rest)
-}
-
-fn of_blocks(
-    model: &Model,
-    system: &System,
-    sparse: &Sparse,
-    rows: &RowState,
-    u: &[f64],
-    with_stresses: bool,
-) -> State {
-    let mut strain_energy = 0.0;
-    let mut displacements = Vec::with_capacity(model.blocks.len());
-    for (b, body) in system.bodies.iter().enumerate() {
-        let u = sparse.of_block(b, u);
-        strain_energy += energy(system, body, u);
-        displacements.push(if body.stiffness.is_some() {
-            u.chunks_exact(2).map(|u| Vector2::new(u[0], u[1])).collect()
-        } else {
-            let places = displaced_nodes(model, BlockId::new(b)).iter();
-            places.map(|place| body.modes.displacement(*place, u)).collect::<Vec<_>>()
-        });
-    }
-    let contacts = contact_states(model, system, rows, &displacements);
-    strain_energy += joints_energy(model, system, &contacts, &displacements);
-    let (stresses, films) = wanted_stresses(model, &displacements, &contacts, with_stresses);
-    State { displacements, contacts, films, stresses, strain_energy }
-}
-
-/// `u.K u / 2` of one block \[J\].
-fn energy(system: &System, body: &BodySystem, u: &[f64]) -> f64 {
-    body.stiffness.map_or(0.0, |k| system.stiffnesses[k].energy(u))
 }
 
 /// The energy of all joints and films \[J\]: of their compression and shear, and of the elongation of strips.
@@ -175,14 +172,9 @@ pub fn displacement_at(
     displacements: &[Vec<Vector2<f64>>],
     anchor: Anchor,
 ) -> Vector2<f64> {
-    let block = &model.blocks[anchor.block.index()];
     let u = &displacements[anchor.block.index()];
-    match (&block.mesh, block.elasticity) {
-        (Some(mesh), Some(_)) => {
-            mesh.interpolate(anchor.edge, anchor.at).iter().map(|(n, share)| u[*n] * *share).sum()
-        }
-        _ => u[anchor.edge] * (1.0 - anchor.at) + u[(anchor.edge + 1) % u.len()] * anchor.at,
-    }
+    let shares = shares(&model.blocks[anchor.block.index()], anchor);
+    shares.iter().map(|(node, part)| u[*node] * *part).sum()
 }
 
 /// `u_b - u_a` \[m\] at a contact point: across a film, of its two faces as they and their mean
@@ -192,31 +184,24 @@ pub fn relative_displacement(
     displacements: &[Vec<Vector2<f64>>],
     contact: &ContactPoint,
 ) -> Vector2<f64> {
-    let side = |anchor| displacement_at(model, displacements, anchor);
-    let apart = side(contact.b) - contact.a.map_or_else(Vector2::zeros, side);
-    let Some(film) = &contact.film else { return apart };
     let joint = &model.joints[contact.joint.index()];
-    let turned = |[start, end]: [Anchor; 2]| (side(end) - side(start)).dot(&joint.normal);
-    let turned = turned(film.b) + film.a.map_or(0.0, turned);
-    let opened = film.gap_per_elongation() * film_elongation(model, displacements, contact);
-    apart + joint.tangent() * (turned * film.half / film.length) + joint.normal * opened
+    let [mut opened, mut slid] = [0.0; 2];
+    for Term { anchor, normal, tangent } in terms(model, contact) {
+        let u = displacement_at(model, displacements, anchor);
+        opened += u.dot(&normal);
+        slid += u.dot(&tangent);
+    }
+    joint.normal * opened + joint.tangent() * slid
 }
 
-/// Elongation \[m\] of the part of a film that a contact point stands for: the mean of its two faces, of which those
-/// on supports and rigid blocks do not stretch. Zero in a dry joint.
+/// Elongation \[m\] of the part of a strip that a contact point stands for, the mean of its two faces; zero in a dry joint.
 pub fn film_elongation(
     model: &Model,
     displacements: &[Vec<Vector2<f64>>],
     contact: &ContactPoint,
 ) -> f64 {
-    let Some(film) = &contact.film else { return 0.0 };
-    let tangent = model.joints[contact.joint.index()].tangent();
-    let is_elastic = |face: &[Anchor; 2]| model.blocks[face[0].block.index()].elasticity.is_some();
-    let of_face = |[start, end]: [Anchor; 2]| {
-        let [start, end] = [start, end].map(|end| displacement_at(model, displacements, end));
-        0.5 * (end - start).dot(&tangent)
-    };
-    film.faces().into_iter().flatten().filter(is_elastic).map(of_face).sum()
+    let ends = stretched(model, contact).into_iter();
+    ends.map(|(anchor, along)| displacement_at(model, displacements, anchor).dot(&along)).sum()
 }
 
 fn contact_states(
@@ -245,7 +230,7 @@ fn contact_states(
     }
     let relative = states.iter().map(|s| s.y_n.abs().max(s.y_t.abs())).fold(0.0, f64::max);
     let absolute = displacements.iter().flatten().map(nalgebra::Matrix::amax).fold(0.0, f64::max);
-    // Where no block moves and none is deformed, joints may be.
+    // Joints may be compressed although no block moves and none is deformed.
     let pressed = system.rows.iter().zip(&rows.t).map(|(row, t)| row.compliance * t.abs());
     let zero = STILL * pressed.fold(relative.max(absolute), f64::max);
     for state in &mut states {

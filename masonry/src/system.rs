@@ -19,12 +19,13 @@ use crate::geometry;
 use crate::ids::{BlockId, ContactId};
 use crate::law::Friction;
 use crate::model::mesh::BlockMesh;
-use crate::model::{Block, Elasticity, FilmPoint, Joint, Model};
+use crate::model::{Block, Elasticity, Joint, Model};
 use crate::rounding::cleared;
 use crate::system::rigid::Modes;
 
 mod body;
 mod error;
+pub(crate) mod kinematics;
 mod loads;
 pub(crate) mod mass;
 pub mod rigid;
@@ -46,6 +47,16 @@ pub enum Direction {
     Normal,
     /// Along the joint's tangent.
     Tangent,
+}
+
+impl Direction {
+    /// The unit vector of the direction in a joint.
+    pub fn of(self, joint: &Joint) -> Vector2<f64> {
+        match self {
+            Self::Normal => joint.normal,
+            Self::Tangent => joint.tangent(),
+        }
+    }
 }
 
 /// One row of `C`, and of the contact forces `t` and relative displacements `y`.
@@ -175,26 +186,6 @@ impl System {
         }
     }
 
-    /// The nodal loads \[N\] of a block without what is there for tensile strength ([`Row::tension`]).
-    pub(crate) fn external_load(&self, body: &BodySystem) -> Vec<f64> {
-        let mut load = body.load.clone();
-        for row in &body.rows {
-            let tension = self.rows[row.row].tension;
-            row.entries.iter().for_each(|(dof, c)| load[*dof] += c * tension);
-        }
-        load
-    }
-
-    /// The work of these loads in the rigid motions \[N\].
-    pub(crate) fn external_resultant(&self, body: &BodySystem) -> [f64; 3] {
-        let mut resultant = body.resultant;
-        for row in &body.rows {
-            let tension = self.rows[row.row].tension;
-            resultant.iter_mut().zip(row.modes).for_each(|(r, mode)| *r += mode * tension);
-        }
-        resultant
-    }
-
     /// Number of contact points, and of normal rows.
     pub fn points(&self) -> usize {
         self.rows.len() - self.friction.len()
@@ -277,44 +268,24 @@ fn elastic_part(block: &Block) -> Result<Option<(&BlockMesh, Elasticity)>, Syste
 fn add_row(model: &Model, bodies: &mut [BodySystem], k: usize, row: &Row) {
     let contact = &model.contacts[row.contact.index()];
     let joint = &model.joints[contact.joint.index()];
-    let direction = match row.direction {
-        Direction::Normal => joint.normal,
-        Direction::Tangent => joint.tangent(),
-    };
-    let film = contact.film.as_ref();
-    let spans = [film.map(|film| film.b), film.and_then(|film| film.a)];
-    let sides = [(Some(contact.b), 1.0), (contact.a, -1.0)];
-    for ((anchor, sign), span) in sides.into_iter().zip(spans) {
+    let terms = kinematics::terms(model, contact);
+    for (anchor, sign) in [(Some(contact.b), 1.0), (contact.a, -1.0)] {
         let Some(anchor) = anchor else { continue };
-        let direction = direction * sign;
+        let direction = row.direction.of(joint) * sign;
         let block = &model.blocks[anchor.block.index()];
         let body = &mut bodies[anchor.block.index()];
         let face = geometry::on_edge(&block.corners, anchor.edge, anchor.at);
         // From the face to the middle of the film, against the normal on side `b`.
-        let place = face - joint.normal * (sign * film.map_or(0.0, |film| film.half));
+        let place = face - joint.normal * (sign * contact.film.map_or(0.0, |film| film.half));
         let modes = body.modes.at(place).map(|mode| cleared(mode.dot(&direction), 1.0));
         let entries = match (&block.mesh, body.stiffness) {
             (Some(mesh), Some(_)) => {
-                let mut entries = entries(mesh, anchor, direction);
-                if let Some((film, [start, end])) = film.zip(span) {
-                    let apart = along_film(film, joint, row.direction);
-                    entries.extend(self::entries(mesh, end, apart));
-                    entries.extend(self::entries(mesh, start, -apart));
-                }
-                entries
+                let of_block = terms.iter().filter(|term| term.anchor.block == anchor.block);
+                of_block.flat_map(|it| entries(mesh, it.anchor, it.along(row.direction))).collect()
             }
             _ => Vec::new(),
         };
         body.rows.push(BodyRow { row: k, entries, modes });
-    }
-}
-
-/// How much each face of a film adds to a row by the relative displacement of the ends of the
-/// length that the point stands for: by the mean rotation to the shear, by the elongation to the gap.
-fn along_film(film: &FilmPoint, joint: &Joint, direction: Direction) -> Vector2<f64> {
-    match direction {
-        Direction::Normal => joint.tangent() * (0.5 * film.gap_per_elongation()),
-        Direction::Tangent => joint.normal * (film.half / film.length),
     }
 }
 

@@ -2,6 +2,10 @@
 //! of energy, bonded panels known from elsewhere, contact points as the limit of stiff bricks, and films that are
 //! brought up to date as printed.
 
+mod printed;
+#[path = "../../masonry/tests/all/common/updating.rs"]
+mod updating;
+
 use crate::common;
 
 use std::ops::ControlFlow;
@@ -15,13 +19,12 @@ use masonry::analysis::outcome::Reaction;
 use masonry::data::state::ContactStatus;
 use masonry::model::joints::PointRule;
 use masonry::model::{Model, Plane};
-use masonry::paper::alm::{
-    AlmError, Answer, AttachError, MortaredError, MortaredState, MortaredWall, Settings, Updates,
-};
-use masonry::paper::film::updating::{Settling, Updating};
+use masonry::paper::alm::{AlmError, Answer, MortaredState, MortaredWall, Settings};
 use masonry::report::summary;
-use masonry::scene::{Brick, Joint, Load, Material, Route, Scene, Support, Wall};
+use masonry::scene::{Brick, Films, Joint, Load, Material, Route, Scene, Support, Wall};
 use nalgebra::{DMatrix, DVector};
+use printed::{Updated, Updates};
+use updating::{Settling, Updating};
 
 const PANELS: [&str; 2] = ["panel_square_mortar", "panel_rectangular_mortar"];
 
@@ -29,6 +32,7 @@ const PANELS: [&str; 2] = ["panel_square_mortar", "panel_rectangular_mortar"];
 fn panel(name: &str, mesh: [u32; 2]) -> Model {
     let mut scene = panels::scene(name);
     scene.walls[0].mesh = Some(mesh);
+    let scene = scene.contact_points(PointRule::Gauss).films(Films::Strips);
     Model::from_scene(&scene).unwrap()
 }
 
@@ -191,7 +195,8 @@ fn contact_points_are_the_limit_of_stiff_bricks() {
     let errors = [5e7, 5e8].map(|brick| {
         let scene = stiff(brick);
         let by_points = solved(&scene.clone().route(Route::Interior));
-        let wall = MortaredWall::new(&by_points.model).unwrap();
+        let strips = Model::from_scene(&scene.films(Films::Strips)).unwrap();
+        let wall = MortaredWall::new(&strips).unwrap();
         let state = wall.state(&answer(&wall, 1e-8));
         let whole: Vec<f64> =
             state.state.displacements.iter().flatten().flat_map(|u| [u.x, u.y]).collect();
@@ -206,7 +211,7 @@ fn contact_points_are_the_limit_of_stiff_bricks() {
 fn films_updated_as_printed_do_not_settle() {
     let wall = MortaredWall::new(&panel(PANELS[1], [1, 1])).unwrap();
     let settings = Settings::default();
-    let by = |updates: Updates| wall.solve_by_parts(&settings, &updates).unwrap();
+    let by = |updates: Updates| Updated::of(&wall, &settings, &updates);
     let printed = by(Updates::default());
     assert_eq!(printed.settling, Settling::Cycle { period: 2 });
     assert_eq!((printed.status, printed.answer.status), (Status::Cycling, Status::Solved));
@@ -231,13 +236,9 @@ fn films_updated_as_printed_do_not_settle() {
 
 #[test]
 fn misuse_is_said() {
-    let wall = MortaredWall::new(&panel(PANELS[1], [1, 1])).unwrap();
-    let updates = Updates { relaxation: 0.0, ..Updates::default() };
-    let error = wall.solve_by_parts(&Settings::default(), &updates).unwrap_err();
-    assert_eq!(error, AlmError::Relaxation { relaxation: 0.0 });
     let mut rigid = stiff(5e7);
     rigid.materials.insert("brick".to_owned(), Material::rigid());
     let error = MortaredWall::new(&Model::from_scene(&rigid).unwrap()).unwrap_err();
-    assert!(matches!(error, MortaredError::Attach(AttachError::Rigid { .. })), "{error}");
+    assert!(matches!(error, AlmError::Rigid { .. }), "{error}");
     assert!(error.to_string().contains("elastic modulus"));
 }

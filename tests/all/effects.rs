@@ -58,7 +58,7 @@ fn rigid_blocks_have_no_mesh_no_stiffness_and_no_stress() {
     }
     let (_, _, system) = built(&scene, Route::Lemke);
     let reduction = Reduction::new(&system, None).unwrap();
-    assert_eq!((reduction.a.nrows(), reduction.flexibility(&system).nrows()), (0, 0));
+    assert_eq!(reduction.a.nrows(), 0);
     for route in routes_for(&scene) {
         let Some(outcome) = answer_by(&scene, route) else { continue };
         assert!(state(&outcome).stresses.is_empty());

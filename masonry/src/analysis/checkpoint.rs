@@ -17,7 +17,7 @@ use crate::scene::{Output, Scene, SceneError, Solver};
 
 /// The version of the format.
 const VERSION: u32 = 5;
-/// What stands between the data and their checksum.
+/// The text between the data and their checksum.
 const SEAL: &str = ",\"checksum\":\"";
 
 /// Why a checkpoint cannot be used.
@@ -29,7 +29,7 @@ pub enum CheckpointError {
     Read {
         /// The file.
         path: PathBuf,
-        /// What the system said.
+        /// The message of the system.
         source: std::io::Error,
     },
     /// The file cannot be written.
@@ -37,7 +37,7 @@ pub enum CheckpointError {
     Write {
         /// The file.
         path: PathBuf,
-        /// What the system said.
+        /// The message of the system.
         source: std::io::Error,
     },
     /// The text is no checkpoint.
@@ -48,7 +48,7 @@ pub enum CheckpointError {
     Syntax {
         /// The file.
         path: PathBuf,
-        /// What the reader said.
+        /// The message of the reader.
         source: serde_json::Error,
     },
     /// The file is not as it was written.
@@ -95,7 +95,7 @@ pub enum CheckpointError {
     /// Lists of wrong lengths.
     #[error("the checkpoint has {found} {what}, and the scene {wanted}: solve from the first step")]
     Size {
-        /// What there is too much or too little of.
+        /// The name of the list that is too long or too short.
         what: String,
         /// How many the checkpoint has.
         found: usize,
@@ -170,7 +170,7 @@ impl Checkpoint {
         Err(CheckpointError::NoEquilibrium)
     }
 
-    /// Where the pivots of the next step start, if that is a basis of a problem of this order.
+    /// The basis from which the pivots of the next step start, if it is one of a problem of this order.
     pub(crate) fn basis(&self, order: usize) -> Option<Start> {
         let sides = self.basis.as_ref().filter(|sides| sides.len() == order)?;
         Some(Start::last(sides.chars().map(|it| it == 't').collect()))
@@ -194,7 +194,7 @@ impl Checkpoint {
         let text = fs::read_to_string(path)
             .map_err(|source| CheckpointError::Read { path: path_buf(), source })?;
         let syntax = |source| CheckpointError::Syntax { path: path_buf(), source };
-        // What else another version has in it is not known.
+        // The rest of a file of another version is not known.
         let Version { version } = serde_json::from_str(&text).map_err(syntax)?;
         if version != VERSION {
             return Err(CheckpointError::Version { found: version });

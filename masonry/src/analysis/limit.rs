@@ -47,6 +47,7 @@ pub use range::{Extremes, Range, ranges};
 pub use thickness::{Thickness, least_thickness, least_thickness_observed};
 pub use watch::{Bracket, Observer};
 
+use crate::analysis::clock::Clock;
 use crate::data::info::PhaseTime;
 use crate::history::Actions;
 use crate::model::Model;
@@ -153,7 +154,8 @@ pub fn limit_observed<'a>(
     observer: &'a mut Observer<'a>,
 ) -> Result<Limit, LimitError> {
     let mut watch = Watch::new(observer);
-    let mut clock = Laps::new();
+    let mut clock = Clock::default();
+    let began = Instant::now();
     let group = group(scene)?;
     let given = Model::from_scene(scene)?;
     // Both laws solve sparse problems, whatever the route of the scene.
@@ -166,18 +168,18 @@ pub fn limit_observed<'a>(
     if growth.iter().all(|force| force.abs() <= 0.0) {
         return Err(if weight { LimitError::NoWeight } else { LimitError::NoForce { group } });
     }
-    clock.lap("model");
-    // Its bound ends the path.
+    clock.add("model", began);
+    let began = Instant::now();
+    // The bound of associated flow ends the path.
     let associative = associative::of(&structure, &growth, &mut watch)?;
-    clock.lap("associative");
-    let path = if laws == Laws::Associative {
-        None
-    } else {
-        let path =
-            path::of(&LoadedStructure { model: &given, ..structure }, &associative, &mut watch)?;
-        clock.lap("path");
-        Some(path)
-    };
+    clock.add("associative", began);
+    let mut path = None;
+    if laws != Laws::Associative {
+        let began = Instant::now();
+        let given = LoadedStructure { model: &given, ..structure };
+        path = Some(path::of(&given, &associative, &mut watch)?);
+        clock.add("path", began);
+    }
     let mut warnings = warnings(&model, laws);
     warnings.extend(path.as_ref().map(Path::warning));
     let carried = associative.load_factor.unwrap_or(1.0);
@@ -203,25 +205,6 @@ pub fn limit_observed<'a>(
         path,
         times: clock.times,
     })
-}
-
-/// Times of phases, one after the other.
-struct Laps {
-    began: Instant,
-    times: Vec<PhaseTime>,
-}
-
-impl Laps {
-    fn new() -> Self {
-        Self { began: Instant::now(), times: Vec::new() }
-    }
-
-    /// Ends a phase.
-    fn lap(&mut self, phase: &str) {
-        let seconds = self.began.elapsed().as_secs_f64();
-        self.times.push(PhaseTime { phase: phase.to_owned(), seconds });
-        self.began = Instant::now();
-    }
 }
 
 /// The group that grows: that which the scene names, else its only one, else the only one with a factor.

@@ -23,7 +23,7 @@ pub struct Outcome {
     pub title: String,
     /// The model that was solved.
     pub model: Model,
-    /// What was built, and why.
+    /// The effects and routes that were built, with reasons.
     pub plan: Plan,
     /// How the complementarity problem was solved.
     pub solve: SolveInfo,
@@ -57,7 +57,7 @@ impl Outcome {
 pub struct Frame {
     /// The step.
     pub step: Step,
-    /// Its position among all steps, from zero.
+    /// The position of the step among all, from zero.
     pub position: usize,
     /// The model under the actions of the step.
     pub model: Model,

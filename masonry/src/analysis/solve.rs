@@ -8,15 +8,15 @@ mod run;
 mod spread;
 
 use std::ops::ControlFlow;
-use web_time::Instant;
 
+pub use crate::method::Event;
 pub use run::Run;
 
 use crate::analysis::checkpoint::CheckpointError;
 use crate::analysis::outcome::Outcome;
-use crate::data::info::PhaseTime;
-use crate::method::RouteError;
 use crate::model::Model;
+#[cfg(feature = "paper")]
+use crate::paper::alm::AlmError;
 use crate::plan::TooLarge;
 use crate::scene::{Route, Scene, SceneError};
 use crate::system::SystemError;
@@ -76,11 +76,16 @@ pub enum SolveError {
     Checkpoint(#[from] CheckpointError),
 }
 
-impl From<RouteError> for SolveError {
-    fn from(error: RouteError) -> Self {
+#[cfg(feature = "paper")]
+impl From<AlmError> for SolveError {
+    fn from(error: AlmError) -> Self {
         match error {
-            RouteError::Solver(error) => Self::Solver(error),
-            RouteError::NotTreated { route, reason } => Self::NotTreated { route, reason },
+            AlmError::Tolerance { tolerance } => {
+                let range = "in (0, 1)";
+                lcp::Error::Setting { name: "tolerance", value: tolerance, range }.into()
+            }
+            AlmError::Data(error) => error.into(),
+            other => Self::NotTreated { route: Route::Alm, reason: other.to_string() },
         }
     }
 }
@@ -90,29 +95,6 @@ impl SolveError {
     pub fn is_refusal(&self) -> bool {
         matches!(self, Self::NotTreated { .. } | Self::Solver(lcp::Error::NotTreated { .. }))
     }
-}
-
-/// How far a solve has come.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Event {
-    /// A step of the load history begins.
-    Step {
-        /// The step, from 1.
-        number: usize,
-        /// The steps of the scene.
-        of: usize,
-    },
-    /// A phase begins.
-    Phase(&'static str),
-    /// The solver pivots.
-    Pivots(lcp::lemke::Progress),
-    /// The solver iterates.
-    Iteration {
-        /// Steps, programs or re-centrings of springs so far.
-        number: usize,
-        /// The residual by which the solver stops.
-        residual: f64,
-    },
 }
 
 /// Solves a scene.
@@ -158,34 +140,4 @@ pub fn solve_observed(
 fn named(error: RigidError, model: &Model) -> SolveError {
     let RigidError::Free { block, motion, free } = error;
     SolveError::Free { block: model.blocks[block].name.clone(), motion, free }
-}
-
-#[derive(Debug, Default)]
-struct Clock {
-    times: Vec<PhaseTime>,
-}
-
-impl Clock {
-    fn time<T>(
-        &mut self,
-        phase: &'static str,
-        observer: &mut dyn FnMut(Event) -> ControlFlow<()>,
-        work: impl FnOnce() -> T,
-    ) -> T {
-        // Only the solver is long enough to be cancelled.
-        let _ = observer(Event::Phase(phase));
-        let began = Instant::now();
-        let result = work();
-        self.add(phase, began);
-        result
-    }
-
-    fn add(&mut self, phase: &str, began: Instant) {
-        let seconds = began.elapsed().as_secs_f64();
-        // Several routes solve and recover.
-        match self.times.iter_mut().find(|time| time.phase == phase) {
-            Some(time) => time.seconds += seconds,
-            None => self.times.push(PhaseTime { phase: phase.to_owned(), seconds }),
-        }
-    }
 }

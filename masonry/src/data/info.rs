@@ -143,7 +143,7 @@ pub enum Attempt {
     Left {
         /// The route.
         route: Route,
-        /// Its steps up to there.
+        /// The steps of the route up to there.
         iterations: usize,
     },
 }
@@ -178,7 +178,7 @@ pub struct RouteEnd {
     pub route: Route,
     /// Why it was its turn.
     pub because: String,
-    /// Its status and result; or the reason of a refusal.
+    /// The status and result of the route; or the reason of a refusal.
     pub end: String,
     /// Wall-clock time \[s\].
     pub seconds: f64,

@@ -1,8 +1,8 @@
-//! What is known about forces that balance the loads.
+//! Forces that balance the loads, or the proof that there are none.
 
 use nalgebra::Vector2;
 
-/// What is known about forces that balance the loads.
+/// The decision on forces that balance the loads.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Statics {
     /// These do: of all rows of the system \[N\].

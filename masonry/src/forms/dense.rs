@@ -18,10 +18,8 @@ use crate::law::{Cone, Friction};
 use crate::rounding::{cleared, largest};
 use crate::system::System;
 
-mod coulomb;
 mod mixed;
 mod reduced;
-mod stewart_trinkle;
 
 /// Which variables are used.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -77,7 +75,7 @@ pub struct Form {
     pub kind: FormKind,
     /// `A`, `B` and `c`.
     pub problem: HorizontalLcp,
-    /// What one unit of force and of displacement is.
+    /// The units of force and of displacement.
     pub scale: Scale,
     /// Start bases for Lemke's method, the most promising first; empty if `y` itself is the natural start. Any of
     /// them may be singular for a certain `mu`.
@@ -123,8 +121,7 @@ impl Form {
     /// [`lcp::Error::NotFinite`] when the data of the scene overflow.
     pub fn new(kind: FormKind, system: &System, reduction: &Reduction) -> Result<Self, lcp::Error> {
         match kind {
-            FormKind::Coulomb => coulomb::build(system, reduction),
-            FormKind::StewartTrinkle => stewart_trinkle::build(system, reduction),
+            FormKind::Coulomb | FormKind::StewartTrinkle => reduced::build(kind, system, reduction),
             FormKind::Mixed => mixed::build(system, reduction),
         }
     }

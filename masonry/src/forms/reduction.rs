@@ -4,18 +4,25 @@
 //! `t_I = R t_E + t_0` (3.18), and the relative displacements follow from
 //! `y_E = A t_E - R^T y_I + c` (3.23), where `A = W^T F W`, `W` is the identity on `E` and `R` on `I`,
 //! and `F = C K^+ C^T`, with the compliance of joints and of mortar films on the diagonal. Any generalised inverse `K^+`
-//! gives the same `A` and `c`, because the columns of `W` and the loads with `t_0` balance on every block. Strips of mortar
-//! couple blocks; what that changes is in [`Bars`].
+//! gives the same `A` and `c`, because the columns of `W` and the loads with `t_0` balance on every block.
+//!
+//! Strips of mortar couple blocks. With their elongations `e = L u` and stiffnesses `D`, equilibrium is
+//! `(K + L^T D L) u = f + C^T t`. No rigid motion stretches a strip, so that the rows of `L` balance on every block, and
+//! with the forces `q = -D L u` of the bars on the blocks `u = K^+ (f + C^T t + L^T q) + N alpha` as before, and
+//!
+//! ```text
+//!  H q + F_LC t + L K^+ f = 0,      H = D^-1 + F_LL,    F_LC = L K^+ C^T,    F_LL = L K^+ L^T,
+//!
+//!  y = (F - F_CL H^-1 F_LC) t + C K^+ f - F_CL H^-1 L K^+ f + x + G alpha
+//! ```
+//!
+//! (Woodbury's identity). `H` is positive definite. It is the block of the bars in the [`Flexibility`] of rows and bars.
 
-use faer::linalg::solvers::Solve;
+use faer::linalg::solvers::{PartialPivLu, Solve};
 use faer::{Mat, MatRef};
 
-use crate::system::System;
 use crate::system::rigid::{self, Modes, RigidError, select_rows};
-
-mod bars;
-
-pub use bars::Bars;
+use crate::system::{BodySystem, System};
 
 /// The reduced problem: equilibrium and compatibility in the contact forces.
 #[derive(Debug, Clone)]
@@ -33,23 +40,12 @@ pub struct Reduction {
     pub a: Mat<f64>,
     /// `c` of (3.23) \[m\].
     pub c: Vec<f64>,
-    /// The compliance of every block, in the order of the model.
-    pub compliances: Vec<Compliance>,
-    /// The bars of mortar strips; `None` where there are none.
-    pub bars: Option<Bars>,
+    /// The flexibility of rows and bars, from which displacements follow.
+    pub(super) flexibility: Flexibility,
+    /// The factors of `H`; `None` without bars.
+    bars: Option<PartialPivLu<f64>>,
     /// `G_I`, rows `I` by three columns per block.
     g_isostatic: Mat<f64>,
-}
-
-/// The compliance of one block at its contact rows.
-#[derive(Debug, Clone)]
-pub struct Compliance {
-    /// The block's contact rows, increasing.
-    pub rows: Vec<usize>,
-    /// Its part of `F = C K^+ C^T` \[m/N\] on these rows; empty for a rigid block.
-    pub f: Mat<f64>,
-    /// Its part of `C K^+ f` \[m\]; empty for a rigid block.
-    pub v: Vec<f64>,
 }
 
 impl Reduction {
@@ -76,176 +72,161 @@ impl Reduction {
         let t0 = balance.solve(Mat::from_fn(resultants.len(), 1, |i, _| -resultants[i]));
         let t0 = t0.col_as_slice(0).to_vec();
 
-        let compliances = compliances(system);
-        let mut a = if system.gives_way() {
-            Flexibility::assemble(system, &compliances, &isostatic, &others).reduce(r.as_ref())
-        } else {
-            Mat::new()
-        };
-        let bars = Bars::of(system);
-        if let Some(bars) = &bars {
-            bars.stiffen(&mut a, &isostatic, &others, r.as_ref());
+        let flexibility = Flexibility::of(system);
+        let (a, c, bars) = (Mat::new(), Vec::new(), None);
+        let mut reduction = Self { isostatic, others, r, t0, a, c, flexibility, bars, g_isostatic };
+        if system.gives_way() {
+            let mut f = reduction.flexibility.matrix();
+            reduction.bars = eliminate_bars(&mut f, system.rows.len());
+            reduction.a = reduction.of_others(f.as_ref());
         }
-
+        let Self { isostatic, others, r, t0, .. } = &reduction;
         let mut t = vec![0.0; system.rows.len()];
-        isostatic.iter().zip(&t0).for_each(|(row, force)| t[*row] = *force);
-        let y = relative_displacements(system, &compliances, bars.as_ref(), &t);
+        isostatic.iter().zip(t0).for_each(|(row, force)| t[*row] = *force);
+        let y = reduction.elastic_gaps(&t);
         let y_isostatic = Mat::from_fn(isostatic.len(), 1, |i, _| y[isostatic[i]]);
         let carried = r.transpose() * y_isostatic;
         let c = others.iter().enumerate().map(|(k, row)| y[*row] + carried[(k, 0)]).collect();
-        Ok(Self { isostatic, others, r, t0, a, c, compliances, bars, g_isostatic })
-    }
-
-    /// Relative displacements `F t + C K^+ f + x` \[m\] of all rows for forces `t` \[N\], without the
-    /// rigid motions.
-    pub fn elastic_gaps(&self, system: &System, t: &[f64]) -> Vec<f64> {
-        relative_displacements(system, &self.compliances, self.bars.as_ref(), t)
-    }
-
-    /// The [`elastic_gaps`](Self::elastic_gaps) without the [`bars`](Self::bars) of mortar strips, whose
-    /// forces are unknowns of the mixed form.
-    pub fn block_gaps(&self, system: &System, t: &[f64]) -> Vec<f64> {
-        relative_displacements(system, &self.compliances, None, t)
-    }
-
-    /// The forces `q` \[N\] of the bars of strips on their blocks for forces `t` \[N\] of all rows.
-    pub fn bar_forces(&self, t: &[f64]) -> Vec<f64> {
-        self.bars.as_ref().map_or_else(Vec::new, |bars| bars.forces(t))
-    }
-
-    /// The rigid amplitudes \[m\], three per block, for the forces `t` \[N\] and the relative
-    /// displacements `y` \[m\] of all rows: those of the isostatic rows decide.
-    pub fn amplitudes(&self, system: &System, t: &[f64], y: &[f64]) -> Vec<f64> {
-        let elastic = self.elastic_gaps(system, t);
-        let rigid: Vec<f64> = y.iter().zip(&elastic).map(|(y, e)| y - e).collect();
-        self.rigid_amplitudes(&rigid)
-    }
-
-    /// The amplitudes \[m\] of the rigid motion with the relative displacements `y` \[m\] of all rows.
-    pub fn rigid_amplitudes(&self, y: &[f64]) -> Vec<f64> {
-        let rhs = Mat::from_fn(self.isostatic.len(), 1, |i, _| y[self.isostatic[i]]);
-        self.g_isostatic.partial_piv_lu().solve(rhs).col_as_slice(0).to_vec()
-    }
-
-    /// `F = C K^+ C^T` \[m/N\] of all rows, with the compliance of joints and films and without bars, dense; empty
-    /// where nothing gives way.
-    pub fn flexibility(&self, system: &System) -> Mat<f64> {
-        if !system.gives_way() {
-            return Mat::new();
-        }
-        let mut f = Mat::zeros(system.rows.len(), system.rows.len());
-        system.rows.iter().enumerate().for_each(|(k, row)| f[(k, k)] = row.compliance);
-        for block in &self.compliances {
-            scatter(&mut f, block, Some, Some);
-        }
-        f
-    }
-}
-
-/// The compliance of every block on its contact rows.
-fn compliances(system: &System) -> Vec<Compliance> {
-    let of_body = |body: &crate::system::BodySystem| {
-        let rows = body.rows.iter().map(|row| row.row).collect();
-        let Some(stiffness) = body.stiffness.map(|k| &system.stiffnesses[k]) else {
-            return Compliance { rows, f: Mat::new(), v: Vec::new() };
-        };
-        // The last column carries the loads.
-        let count = body.rows.len();
-        let mut rhs = Mat::zeros(body.load.len(), count + 1);
-        for (k, row) in body.rows.iter().enumerate() {
-            row.entries.iter().for_each(|(dof, c)| rhs[(*dof, k)] += c);
-        }
-        body.load.iter().enumerate().for_each(|(dof, f)| rhs[(dof, count)] = *f);
-        let solved = stiffness.solve(&rhs);
-        let on_row = |k: usize, column: usize| -> f64 {
-            body.rows[k].entries.iter().map(|(dof, c)| c * solved[(*dof, column)]).sum()
-        };
-        let f = Mat::from_fn(count, count, |i, j| 0.5 * (on_row(i, j) + on_row(j, i)));
-        let v = (0..count).map(|i| on_row(i, count)).collect();
-        Compliance { rows, f, v }
-    };
-    system.bodies.iter().map(of_body).collect()
-}
-
-fn relative_displacements(
-    system: &System,
-    blocks: &[Compliance],
-    bars: Option<&Bars>,
-    t: &[f64],
-) -> Vec<f64> {
-    let own = system.rows.iter().zip(t).map(|(row, t)| row.offset + row.compliance * t);
-    let mut y: Vec<f64> = own.collect();
-    for block in blocks {
-        for (i, (row, v)) in block.rows.iter().zip(&block.v).enumerate() {
-            let f_t: f64 =
-                block.rows.iter().enumerate().map(|(j, r)| block.f[(i, j)] * t[*r]).sum();
-            y[*row] += f_t + v;
-        }
-    }
-    if let Some(bars) = bars {
-        y.iter_mut().zip(bars.displacements(t)).for_each(|(y, more)| *y += more);
-    }
-    y
-}
-
-/// `F`, split into isostatic rows and others.
-struct Flexibility {
-    ee: Mat<f64>,
-    ie: Mat<f64>,
-    ii: Mat<f64>,
-}
-
-impl Flexibility {
-    fn assemble(
-        system: &System,
-        blocks: &[Compliance],
-        isostatic: &[usize],
-        others: &[usize],
-    ) -> Self {
-        let (i, e) = (isostatic.len(), others.len());
-        let place = |list: &[usize]| {
-            let mut place = vec![None; i + e];
-            list.iter().enumerate().for_each(|(k, row)| place[*row] = Some(k));
-            place
-        };
-        let (in_i, in_e) = (place(isostatic), place(others));
-        let mut parts = Self { ee: Mat::zeros(e, e), ie: Mat::zeros(i, e), ii: Mat::zeros(i, i) };
-        for (k, row) in isostatic.iter().enumerate() {
-            parts.ii[(k, k)] = system.rows[*row].compliance;
-        }
-        for (k, row) in others.iter().enumerate() {
-            parts.ee[(k, k)] = system.rows[*row].compliance;
-        }
-        for block in blocks {
-            scatter(&mut parts.ee, block, |row| in_e[row], |row| in_e[row]);
-            scatter(&mut parts.ie, block, |row| in_i[row], |row| in_e[row]);
-            scatter(&mut parts.ii, block, |row| in_i[row], |row| in_i[row]);
-        }
-        parts
+        Ok(Self { c, ..reduction })
     }
 
     /// `W^T F W = F_EE + S + S^T` with `S = R^T (F_IE + F_II R / 2)`: one large product, and
     /// symmetric to the last digit.
-    fn reduce(&self, r: MatRef<'_, f64>) -> Mat<f64> {
-        let half = &self.ie + faer::Scale(0.5) * (&self.ii * r);
+    fn of_others(&self, f: MatRef<'_, f64>) -> Mat<f64> {
+        let Self { isostatic, others, r, .. } = self;
+        let of_isostatic = |columns: &[usize]| {
+            Mat::from_fn(isostatic.len(), columns.len(), |i, j| f[(isostatic[i], columns[j])])
+        };
+        let half = of_isostatic(others) + faer::Scale(0.5) * (of_isostatic(isostatic) * r);
         let s = r.transpose() * half;
-        Mat::from_fn(s.nrows(), s.ncols(), |i, j| self.ee[(i, j)] + (s[(i, j)] + s[(j, i)]))
+        Mat::from_fn(s.nrows(), s.ncols(), |i, j| {
+            f[(others[i], others[j])] + (s[(i, j)] + s[(j, i)])
+        })
+    }
+
+    /// Relative displacements `F t + C K^+ f + x` \[m\] of all rows for forces `t` \[N\], without the
+    /// rigid motions.
+    pub fn elastic_gaps(&self, t: &[f64]) -> Vec<f64> {
+        let mut y = self.flexibility.gaps(&[t, &self.bar_forces(t)].concat());
+        y.truncate(t.len());
+        y
+    }
+
+    /// The forces `q` \[N\] of the bars of strips on their blocks for forces `t` \[N\] of all rows.
+    pub fn bar_forces(&self, t: &[f64]) -> Vec<f64> {
+        let Some(h) = &self.bars else { return Vec::new() };
+        let rest = vec![0.0; self.flexibility.own.len() - t.len()];
+        let elongations = &self.flexibility.gaps(&[t, &rest].concat())[t.len()..];
+        let rhs = Mat::from_fn(rest.len(), 1, |k, _| -elongations[k]);
+        h.solve(rhs).col_as_slice(0).to_vec()
+    }
+
+    /// The rigid amplitudes \[m\], three per block, for the forces `t` \[N\] and the relative
+    /// displacements `y` \[m\] of all rows: those of the isostatic rows decide.
+    pub fn amplitudes(&self, t: &[f64], y: &[f64]) -> Vec<f64> {
+        let elastic = self.elastic_gaps(t);
+        let rigid = self.isostatic.iter().map(|row| y[*row] - elastic[*row]);
+        let rigid: Vec<f64> = rigid.collect();
+        let rhs = Mat::from_fn(rigid.len(), 1, |i, _| rigid[i]);
+        self.g_isostatic.partial_piv_lu().solve(rhs).col_as_slice(0).to_vec()
     }
 }
 
-/// Adds the compliance of one block at the places that its rows have in a matrix.
-fn scatter(
-    matrix: &mut Mat<f64>,
-    block: &Compliance,
-    to_row: impl Fn(usize) -> Option<usize>,
-    to_column: impl Fn(usize) -> Option<usize>,
-) {
-    for (i, row) in block.rows.iter().enumerate().take(block.f.nrows()) {
-        let Some(p) = to_row(*row) else { continue };
-        for (j, column) in block.rows.iter().enumerate() {
-            if let Some(q) = to_column(*column) {
-                matrix[(p, q)] += block.f[(i, j)];
+/// `F - F_CL H^-1 F_LC` of the rows in the place of the flexibility of rows and bars, symmetric to the last digit, and the
+/// factors of `H`; `None` without bars.
+fn eliminate_bars(f: &mut Mat<f64>, rows: usize) -> Option<PartialPivLu<f64>> {
+    let bars = f.nrows() - rows;
+    if bars == 0 {
+        return None;
+    }
+    let h = f.submatrix(rows, rows, bars, bars).partial_piv_lu();
+    let on_rows = f.submatrix(rows, 0, bars, rows);
+    let taken = on_rows.transpose() * h.solve(on_rows);
+    *f = Mat::from_fn(rows, rows, |i, j| f[(i, j)] - 0.5 * (taken[(i, j)] + taken[(j, i)]));
+    Some(h)
+}
+
+/// How forces at the rows of a system, and at the bars of mortar strips after them, deform blocks, joints and films.
+#[derive(Debug, Clone)]
+pub(super) struct Flexibility {
+    blocks: Vec<Compliance>,
+    /// The compliance of every joint and film, and `D^-1` of every bar \[m/N\].
+    own: Vec<f64>,
+    /// `x` \[m\]; zero of bars.
+    offsets: Vec<f64>,
+}
+
+/// The compliance of one elastic block.
+#[derive(Debug, Clone)]
+struct Compliance {
+    /// The rows and bars that act on the block.
+    places: Vec<usize>,
+    /// The part of the block in `F` \[m/N\] there.
+    f: Mat<f64>,
+    /// The part of the block in `C K^+ f` and `L K^+ f` \[m\].
+    v: Vec<f64>,
+}
+
+impl Flexibility {
+    fn of(system: &System) -> Self {
+        let rows = system.rows.iter();
+        let bars = system.stretches.iter();
+        let own = rows.clone().map(|row| row.compliance);
+        Self {
+            blocks: system.bodies.iter().filter_map(|body| Compliance::of(system, body)).collect(),
+            own: own.chain(bars.clone().map(|bar| 1.0 / bar.stiffness)).collect(),
+            offsets: rows.map(|row| row.offset).chain(bars.map(|_| 0.0)).collect(),
+        }
+    }
+
+    /// `F`, dense.
+    pub(super) fn matrix(&self) -> Mat<f64> {
+        let mut f = Mat::zeros(self.own.len(), self.own.len());
+        self.own.iter().enumerate().for_each(|(k, own)| f[(k, k)] = *own);
+        for block in &self.blocks {
+            for (j, column) in block.places.iter().enumerate() {
+                for (i, row) in block.places.iter().enumerate() {
+                    f[(*row, *column)] += block.f[(i, j)];
+                }
             }
         }
+        f
+    }
+
+    /// `F t + C K^+ f + x` \[m\] for forces `t` \[N\], without the rigid motions.
+    pub(super) fn gaps(&self, t: &[f64]) -> Vec<f64> {
+        let own = self.offsets.iter().zip(&self.own).zip(t);
+        let mut y: Vec<f64> = own.map(|((offset, own), t)| offset + own * t).collect();
+        for Compliance { places, f, v } in &self.blocks {
+            for (i, (place, v)) in places.iter().zip(v).enumerate() {
+                let f_t: f64 = places.iter().enumerate().map(|(j, k)| f[(i, j)] * t[*k]).sum();
+                y[*place] += f_t + v;
+            }
+        }
+        y
+    }
+}
+
+impl Compliance {
+    /// `None` for a rigid block.
+    fn of(system: &System, body: &BodySystem) -> Option<Self> {
+        let stiffness = &system.stiffnesses[body.stiffness?];
+        let rows = body.rows.iter().map(|row| (row.row, &row.entries));
+        let bars = body.stretches.iter().map(|bar| (system.rows.len() + bar.row, &bar.entries));
+        let (places, entries): (Vec<_>, Vec<_>) = rows.chain(bars).unzip();
+        // The last column carries the loads.
+        let count = places.len();
+        let mut rhs = Mat::zeros(body.load.len(), count + 1);
+        for (k, entries) in entries.iter().enumerate() {
+            entries.iter().for_each(|(dof, c)| rhs[(*dof, k)] += c);
+        }
+        body.load.iter().enumerate().for_each(|(dof, f)| rhs[(dof, count)] = *f);
+        let solved = stiffness.solve(&rhs);
+        let at = |k: usize, column: usize| -> f64 {
+            entries[k].iter().map(|(dof, c)| c * solved[(*dof, column)]).sum()
+        };
+        let f = Mat::from_fn(count, count, |i, j| 0.5 * (at(i, j) + at(j, i)));
+        let v = (0..count).map(|i| at(i, count)).collect();
+        Some(Self { places, f, v })
     }
 }

@@ -22,7 +22,7 @@ pub struct Sparse {
     pub problem: Contact2d,
     /// The first displacement of every block, and one past the last.
     starts: Vec<usize>,
-    /// Who carries the forces of the tangential rows of the system.
+    /// The carriers of the forces of the tangential rows of the system.
     carriers: Vec<Carriers>,
     /// The rows of the system whose deformations are displacements.
     free_faces: Vec<usize>,

@@ -12,10 +12,10 @@
 use nalgebra::Vector2;
 
 use crate::data::state::{ContactState, ContactStatus, State};
-use crate::ids::BlockId;
 use crate::model::{Body, Model};
 use crate::recover;
-use crate::system::{System, displaced_nodes};
+use crate::system::rigid::Modes;
+use crate::system::{nodal_loads, resultant};
 
 /// The data for the work of loads and supports.
 #[derive(Debug, Clone, PartialEq)]
@@ -31,17 +31,16 @@ pub(crate) struct Snapshot {
 }
 
 impl Snapshot {
-    /// The state of a model, with the system that has its loads.
-    pub(crate) fn of(model: &Model, system: &System, state: &State) -> Self {
+    /// The state of a model that has its loads.
+    pub(crate) fn of(model: &Model, state: &State) -> Self {
         let (mut loads, mut displacements) = (Vec::new(), Vec::new());
-        for (b, (body, moved)) in system.bodies.iter().zip(&state.displacements).enumerate() {
-            if body.stiffness.is_some() {
-                loads.extend(system.external_load(body));
+        for (block, moved) in model.blocks.iter().zip(&state.displacements) {
+            if let (Some(mesh), Some(_)) = (&block.mesh, block.elasticity) {
+                loads.extend(nodal_loads(model, block, mesh));
                 displacements.extend(moved.iter().flat_map(|u| [u.x, u.y]));
             } else {
-                loads.extend(system.external_resultant(body));
-                let places = displaced_nodes(model, BlockId::new(b));
-                displacements.extend(body.modes.amplitudes(places, moved));
+                loads.extend(resultant(model, block));
+                displacements.extend(Modes::of(&block.corners).amplitudes(&block.corners, moved));
             }
         }
         let (mut pushes, mut movements) = (Vec::new(), Vec::new());
@@ -59,36 +58,22 @@ impl Snapshot {
         Self { loads, displacements, pushes, movements }
     }
 
-    /// The structure without loads, at rest.
-    #[must_use]
-    pub(crate) fn at_rest(&self) -> Self {
-        Self {
-            loads: vec![0.0; self.loads.len()],
-            displacements: vec![0.0; self.displacements.len()],
-            pushes: vec![Vector2::zeros(); self.pushes.len()],
-            movements: vec![Vector2::zeros(); self.movements.len()],
-        }
-    }
-
-    /// Work \[J\] of loads and supports on the way from this state to the next, by the trapezoidal rule.
+    /// Work \[J\] of loads and supports on the way to this state from one before, or from rest without loads, by the trapezoidal
+    /// rule.
     ///
     /// # Panics
     /// If the states are not of one structure.
-    pub(crate) fn work_to(&self, next: &Self) -> f64 {
-        assert_eq!(self.loads.len(), next.loads.len(), "states of one structure");
-        let of_loads: f64 = (0..self.loads.len())
-            .map(|i| {
-                let moved = next.displacements[i] - self.displacements[i];
-                0.5 * (self.loads[i] + next.loads[i]) * moved
-            })
-            .sum();
-        let of_supports: f64 = (0..self.pushes.len())
-            .map(|i| {
-                let moved = next.movements[i] - self.movements[i];
-                0.5 * (self.pushes[i] + next.pushes[i]).dot(&moved)
-            })
-            .sum();
-        of_loads + of_supports
+    pub(crate) fn work_from(&self, before: Option<&Self>) -> f64 {
+        let of_loads = (0..self.loads.len()).map(|i| {
+            let [load, u] = before.map_or([0.0; 2], |it| [it.loads[i], it.displacements[i]]);
+            0.5 * (load + self.loads[i]) * (self.displacements[i] - u)
+        });
+        let of_supports = (0..self.pushes.len()).map(|i| {
+            let rest = [Vector2::zeros(); 2];
+            let [push, place] = before.map_or(rest, |it| [it.pushes[i], it.movements[i]]);
+            0.5 * (push + self.pushes[i]).dot(&(self.movements[i] - place))
+        });
+        of_loads.sum::<f64>() + of_supports.sum::<f64>()
     }
 }
 

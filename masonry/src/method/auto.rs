@@ -25,7 +25,7 @@ const FEW: usize = 2000;
 /// Most walls are solved in so many steps of the interior points.
 pub(crate) const STEPS_BEFORE_PROOF: usize = 40;
 
-/// What decides between the routes.
+/// The facts that decide between the routes.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Facts {
     /// All blocks are rigid, no joint gives way, and all gaps are closed before supports move.

@@ -9,7 +9,7 @@ use lcp::{
 };
 
 use super::loading::{self, Led, Loading};
-use super::{Answer, Method, Observer, Request, RouteError, RouteProgress, sparse};
+use super::{Answer, Event, Observer, Request, sparse};
 use crate::data::info::{Attempt, SolveInfo, Way};
 use crate::data::motion::Motion;
 use crate::forms::Sparse;
@@ -28,8 +28,12 @@ pub struct Interior<'a> {
     pub reach: f64,
 }
 
-impl Method for Interior<'_> {
-    fn solve(&self, request: &Request, observer: Observer<'_>) -> Result<Answer, RouteError> {
+impl Interior<'_> {
+    /// Looks for a solution, or for where the loading leads.
+    ///
+    /// # Errors
+    /// As [`InteriorPoint`] and [`Evolution`](lcp::Evolution).
+    pub fn solve(&self, request: &Request, observer: Observer<'_>) -> Result<Answer, lcp::Error> {
         let problem = &self.sparse.problem;
         let Request { tolerance, max_steps, .. } = *request;
         let may_move = !problem.frictional().is_empty();
@@ -49,16 +53,14 @@ impl Method for Interior<'_> {
             matches!(path.info.status, Status::Solved | Status::Cancelled | Status::Infeasible);
         if is_over || !may_move { Ok(path) } else { self.led(Some(path), request, observer) }
     }
-}
 
-impl Interior<'_> {
-    /// Where the loading leads to, after a path that has no answer.
+    /// Follows the loading, after a path that has no answer.
     fn led(
         &self,
         path: Option<Answer>,
         request: &Request,
         observer: Observer<'_>,
-    ) -> Result<Answer, RouteError> {
+    ) -> Result<Answer, lcp::Error> {
         let Self { sparse, before, mass, reach } = *self;
         let problem = &sparse.problem;
         let tolerance = request.tolerance.min(request.step_tolerance);
@@ -76,7 +78,7 @@ impl Interior<'_> {
         Ok(answer)
     }
 
-    fn answer_of(&self, led: Led) -> Result<Answer, RouteError> {
+    fn answer_of(&self, led: Led) -> Result<Answer, lcp::Error> {
         let Led { ending, evolution, iterations } = led;
         let (state, slips) = (evolution.state().clone(), evolution.slips_before());
         let residuals = self.sparse.problem.slid(slips)?.residuals(&state);
@@ -100,6 +102,6 @@ impl Interior<'_> {
 }
 
 /// A step after so many others.
-fn step(at: &Iteration, before: usize) -> RouteProgress {
-    RouteProgress::Iteration { number: before + at.iteration, residual: at.residual }
+fn step(at: &Iteration, before: usize) -> Event {
+    Event::Iteration { number: before + at.iteration, residual: at.residual }
 }

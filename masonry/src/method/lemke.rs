@@ -9,7 +9,7 @@
 use lcp::lemke::{self, AttemptStart};
 use lcp::{Basis, Covering, Lemke, LemkeSettings, Residuals, Side, Status, WarmStart};
 
-use super::{Answer, Method, Observer, Request, RouteError, RouteProgress, auto};
+use super::{Answer, Event, Observer, Request, auto};
 use crate::data::info::{Attempt, SolveInfo};
 use crate::data::motion::Motion;
 use crate::data::route::Route;
@@ -33,14 +33,18 @@ const ROUNDING: f64 = 1e-14;
 pub struct Pivots<'a> {
     /// The system.
     pub system: &'a System,
-    /// Its reduction.
+    /// The reduction of the system.
     pub reduction: &'a Reduction,
     /// The last basis of a similar problem in the paper's form, which is tried first.
     pub start: Option<&'a Start>,
 }
 
-impl Method for Pivots<'_> {
-    fn solve(&self, request: &Request, observer: Observer<'_>) -> Result<Answer, RouteError> {
+impl Pivots<'_> {
+    /// Looks for a solution, form by form.
+    ///
+    /// # Errors
+    /// As [`Lemke`].
+    pub fn solve(&self, request: &Request, observer: Observer<'_>) -> Result<Answer, lcp::Error> {
         let Self { system, reduction, start } = *self;
         let mut search = Pivoting {
             request,
@@ -76,12 +80,11 @@ struct Pivoting<'a> {
 }
 
 impl Pivoting<'_> {
-    fn run(&mut self, form: Form, observer: Observer<'_>) -> Result<Answer, RouteError> {
+    fn run(&mut self, form: Form, observer: Observer<'_>) -> Result<Answer, lcp::Error> {
         let mut last = None;
         for (settings, start) in self.settings(&form) {
-            let solution = Lemke::new(settings).solve_with_progress(&form.problem, &mut |at| {
-                observer(RouteProgress::Pivots(*at))
-            })?;
+            let solution = Lemke::new(settings)
+                .solve_with_progress(&form.problem, &mut |at| observer(Event::Pivots(*at)))?;
             self.pivots += solution.info.pivots;
             self.factorisations += solution.info.factorisations;
             self.attempts.extend(solution.info.attempts.iter().map(|path| Attempt::Pivots {
@@ -149,7 +152,7 @@ impl Pivoting<'_> {
     fn against_coulomb(&self, form: &Form, rows: &RowState) -> Option<Residuals> {
         let coulomb = self.coulomb.as_ref().filter(|_| form.kind != FormKind::Coulomb)?;
         let (t, mut y) = coulomb.pairs(rows, &[], &[]);
-        // Where nothing moves, rounding errors must not be measured against each other.
+        // Rounding errors must not be measured against each other if nothing moves.
         y.iter_mut().filter(|y| y.abs() <= ROUNDING).for_each(|y| *y = 0.0);
         Some(coulomb.problem.residuals(&t, &y))
     }

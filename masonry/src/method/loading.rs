@@ -46,7 +46,7 @@ pub(crate) struct Loading<'a> {
     pub(crate) tolerance: f64,
 }
 
-/// Where blocks have come to.
+/// The end of a loading.
 pub(crate) struct Led {
     pub(crate) ending: Ending,
     /// The blocks after the last step.

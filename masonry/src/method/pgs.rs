@@ -13,7 +13,7 @@ use lcp::{
     Residuals, Solver, Status, WarmStart,
 };
 
-use super::{Answer, Method, Observer, Request, RouteError, RouteProgress, sparse};
+use super::{Answer, Event, Observer, Request, sparse};
 use crate::data::info::{SoftReport, SolveInfo};
 use crate::forms::Sparse;
 use crate::scene::Route;
@@ -44,36 +44,35 @@ const PATIENCE: usize = 200;
 const IDLE: usize = 20;
 
 /// The route on a sparse problem.
-#[derive(Debug, Clone, Copy)]
-pub struct Sweeps<'a> {
-    /// The problem.
-    pub sparse: &'a Sparse,
-}
-
-impl Method for Sweeps<'_> {
-    fn solve(&self, request: &Request, observer: Observer<'_>) -> Result<Answer, RouteError> {
-        let stiffness = request.soft.unwrap_or(SOFT);
-        let bedding = Bedding::new(&self.sparse.problem, stiffness)?;
-        let mut rounds = Rounds::new(self.sparse, &bedding, request.tolerance);
-        let status = loop {
-            if let Some(status) = rounds.stop(observer) {
-                break status;
-            }
-            if rounds.next(observer)?.is_break() {
-                break Status::Cancelled;
-            }
-            if rounds.idle == IDLE && rounds.finish() {
-                break Status::Solved;
-            }
-        };
-        let info = SolveInfo {
-            iterations: rounds.done,
-            factorisations: rounds.factorisations,
-            soft: rounds.report(stiffness),
-            ..SolveInfo::new(Route::Pgs, status, rounds.residuals)
-        };
-        Ok(sparse::answer(self.sparse, info, rounds.state))
-    }
+///
+/// # Errors
+/// As [`ProjectedGaussSeidel`].
+pub fn solve(
+    sparse: &Sparse,
+    request: &Request,
+    observer: Observer<'_>,
+) -> Result<Answer, lcp::Error> {
+    let stiffness = request.soft.unwrap_or(SOFT);
+    let bedding = Bedding::new(&sparse.problem, stiffness)?;
+    let mut rounds = Rounds::new(sparse, &bedding, request.tolerance);
+    let status = loop {
+        if let Some(status) = rounds.stop(observer) {
+            break status;
+        }
+        if rounds.next(observer)?.is_break() {
+            break Status::Cancelled;
+        }
+        if rounds.idle == IDLE && rounds.finish() {
+            break Status::Solved;
+        }
+    };
+    let info = SolveInfo {
+        iterations: rounds.done,
+        factorisations: rounds.factorisations,
+        soft: rounds.report(stiffness),
+        ..SolveInfo::new(Route::Pgs, status, rounds.residuals)
+    };
+    Ok(sparse::answer(sparse, info, rounds.state))
 }
 
 /// Rounds of springs that are centred anew.
@@ -118,8 +117,8 @@ impl<'a> Rounds<'a> {
         }
     }
 
-    fn step(&self) -> RouteProgress {
-        RouteProgress::Iteration { number: self.done, residual: self.residual() }
+    fn step(&self) -> Event {
+        Event::Iteration { number: self.done, residual: self.residual() }
     }
 
     /// The worst residual, or what the springs still carry.
@@ -143,7 +142,7 @@ impl<'a> Rounds<'a> {
         }
     }
 
-    fn stop(&self, observer: &mut dyn FnMut(RouteProgress) -> ControlFlow<()>) -> Option<Status> {
+    fn stop(&self, observer: Observer<'_>) -> Option<Status> {
         let is_cancelled = observer(self.step()).is_break();
         let residual = self.residual();
         let is_settled = self.idle >= SETTLED || self.done >= MAX_ROUNDS;
@@ -158,10 +157,7 @@ impl<'a> Rounds<'a> {
         }
     }
 
-    fn next(
-        &mut self,
-        observer: &mut dyn FnMut(RouteProgress) -> ControlFlow<()>,
-    ) -> Result<ControlFlow<()>, lcp::Error> {
+    fn next(&mut self, observer: Observer<'_>) -> Result<ControlFlow<()>, lcp::Error> {
         let centre = &self.state.u;
         let sprung = self.bedding.attached(self.problem, centre)?;
         let (t, y) = self.problem.to_pairs(&self.state);

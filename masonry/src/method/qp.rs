@@ -4,52 +4,43 @@
 //! On request soft springs hold the blocks and are re-centred at the last solution until they carry nothing. Their
 //! effect before the first re-centring is reported as their bias.
 
-use std::ops::ControlFlow;
-
 use lcp::qp::SoftConstraints;
 use lcp::{QuadraticProgram, QuadraticProgramSettings, Solver, Status};
 
-use super::{Answer, Method, Observer, Request, RouteError, sparse};
+use super::{Answer, Observer, Request, sparse};
 use crate::data::info::SoftReport;
 use crate::forms::Sparse;
 use crate::scene::Route;
 
 /// The route on a sparse problem.
-#[derive(Debug, Clone, Copy)]
-pub struct Programs<'a> {
-    /// The problem.
-    pub sparse: &'a Sparse,
-}
-
-impl Method for Programs<'_> {
-    fn solve(&self, request: &Request, observer: Observer<'_>) -> Result<Answer, RouteError> {
-        let problem = &self.sparse.problem;
-        let soft = request.soft.map(|epsilon| SoftConstraints { epsilon, ..Default::default() });
-        let settings =
-            QuadraticProgramSettings { tolerance: request.tolerance, soft, ..Default::default() };
-        let program = QuadraticProgram::new(settings);
-        let mut is_cancelled = false;
-        let solution = program.solve_observed(problem, &mut |at| {
-            let next = observer(at.into());
-            is_cancelled = next == ControlFlow::Break(());
-            next
-        })?;
-        let is_over = is_cancelled || solution.status == Status::Cancelled;
-        let soft = match request.soft {
-            Some(epsilon) if !is_over => {
-                let biased = program.solve_soft(problem, epsilon)?;
-                Some(SoftReport {
-                    stiffness: epsilon,
-                    rounds: solution.info.iterations,
-                    share: biased.spring_share,
-                    displacement_error: Some(biased.displacement_error)
-                        .filter(|error| error.is_finite()),
-                })
-            }
-            _ => None,
-        };
-        let mut answer = sparse::solved(Route::Qp, self.sparse, solution);
-        answer.info.soft = soft;
-        Ok(answer)
-    }
+///
+/// # Errors
+/// As [`QuadraticProgram`].
+pub fn solve(
+    sparse: &Sparse,
+    request: &Request,
+    observer: Observer<'_>,
+) -> Result<Answer, lcp::Error> {
+    let problem = &sparse.problem;
+    let soft = request.soft.map(|epsilon| SoftConstraints { epsilon, ..Default::default() });
+    let settings =
+        QuadraticProgramSettings { tolerance: request.tolerance, soft, ..Default::default() };
+    let program = QuadraticProgram::new(settings);
+    let solution = program.solve_observed(problem, &mut |at| observer(at.into()))?;
+    let soft = match request.soft {
+        Some(epsilon) if solution.status != Status::Cancelled => {
+            let biased = program.solve_soft(problem, epsilon)?;
+            Some(SoftReport {
+                stiffness: epsilon,
+                rounds: solution.info.iterations,
+                share: biased.spring_share,
+                displacement_error: Some(biased.displacement_error)
+                    .filter(|error| error.is_finite()),
+            })
+        }
+        _ => None,
+    };
+    let mut answer = sparse::solved(Route::Qp, sparse, solution);
+    answer.info.soft = soft;
+    Ok(answer)
 }

@@ -30,7 +30,7 @@ mod sharpen;
 /// A decision and what it cost.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Decision {
-    /// What was found.
+    /// The decision.
     pub statics: Statics,
     /// Steps of the interior points, each of which factorises one matrix of three unknowns a block.
     pub steps: usize,
@@ -47,7 +47,7 @@ pub fn decide(
     system: &System,
     observer: &mut Observer<'_>,
 ) -> Result<Decision, lcp::Error> {
-    let program = Program::of(system);
+    let program = Program::new(system, None);
     if program.is_unloaded() {
         let statics = Statics::Admissible(vec![0.0; system.rows.len()]);
         return Ok(Decision { statics, steps: 0, is_cancelled: false });
@@ -55,7 +55,7 @@ pub fn decide(
     let LeastForces { status, t, u, info, .. } = program.least_forces(observer)?;
     let statics = match program.admissible(&t) {
         Some(forces) => Statics::Admissible(forces),
-        // Where there are none, the multipliers of the balance are a motion that proves it.
+        // Without such forces the multipliers of the balance are a motion that proves it.
         None => sharpen::candidates(&u, &[], program.columns())
             .find_map(|motion| Proof::of(model, &motion[..3 * model.blocks.len()]))
             .map_or(Statics::Open, Statics::Impossible),

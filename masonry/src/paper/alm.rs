@@ -18,29 +18,27 @@
 //! away. So the status is `Solved` only if the rate at which the steps decrease also shows that displacements and
 //! forces are near.
 //!
-//! Whole films of mortar are not contacts: see [`MortaredWall`], and, for films updated as printed in the paper,
-//! [`Updates`].
+//! Whole films of mortar are not contacts: see [`MortaredWall`].
 
 mod contraction;
 mod films;
 mod matrices;
 mod mortared;
-mod printed;
 mod route;
 mod run;
-mod strips;
 mod structure;
 
 use std::ops::ControlFlow;
 
 pub use crate::data::info::Iteration;
-pub use films::{AttachError, Segment};
+pub use films::Segment;
 use lcp::{Contact2d, ContactState, Residuals, Status};
-pub use mortared::{MortaredError, MortaredState, MortaredWall};
-pub use printed::{Parts, Updated, Updates};
-pub use route::Multipliers;
-pub use strips::Strips;
+pub use mortared::{MortaredState, MortaredWall, Parts};
+pub use route::{by_films, by_multipliers};
 use structure::Structure;
+
+use crate::paper::film::FilmError;
+use crate::system::SystemError;
 
 /// Rounding errors of a step of the displacements, relative to these, and of a gap, relative to its largest term.
 const ROUNDING: f64 = 64.0 * f64::EPSILON;
@@ -69,7 +67,7 @@ pub struct Answer {
     pub status: Status,
     /// Displacements and contact forces of the best iteration.
     pub state: ContactState,
-    /// Its residuals, from the data.
+    /// The residuals of the state, from the data.
     pub residuals: Residuals,
     /// Every iteration.
     pub convergence: Vec<Iteration>,
@@ -77,7 +75,7 @@ pub struct Answer {
     pub factorisations: usize,
 }
 
-/// Why the route cannot treat a problem.
+/// Why the method cannot treat a problem or a wall.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum AlmError {
@@ -105,18 +103,50 @@ pub enum AlmError {
         /// The value.
         tolerance: f64,
     },
-    /// Parts of films move by a share of their way that is none.
-    #[error("relaxation is {relaxation}, but must be above 0 and at most 1")]
-    Relaxation {
-        /// The value.
-        relaxation: f64,
-    },
     /// The data of a problem overflow.
     #[error(transparent)]
     Data(#[from] lcp::Error),
     /// The sparse factors do not fit into memory, or `K` has a negative mode.
     #[error("the stiffness cannot be factorised: {0}")]
     Factorisation(String),
+    /// A block of the wall cannot be assembled.
+    #[error(transparent)]
+    System(#[from] SystemError),
+    /// A film of the wall is none.
+    #[error(transparent)]
+    Film(#[from] FilmError),
+    /// A rigid block has no nodes to which films can be attached.
+    #[error(
+        "block \"{block}\" is rigid, and films are attached to nodes: give it an elastic modulus, or take another route"
+    )]
+    Rigid {
+        /// The name.
+        block: String,
+    },
+    /// The law of whole films has friction only.
+    #[error(
+        "the joint class \"{class}\" has cohesion or tensile strength, which films as strips do not have: leave them out, \
+         or take another route"
+    )]
+    Strength {
+        /// The name.
+        class: String,
+    },
+    /// Whole films have the stiffness of their mortar only.
+    #[error(
+        "the joint class \"{class}\" has a stiffness beside that of its mortar, which films as strips do not have: leave it \
+         out, or take another route"
+    )]
+    Stiffness {
+        /// The name.
+        class: String,
+    },
+    /// Whole films need two contact points of strips between nodes.
+    #[error(
+        "a film has no two contact points in strips between nodes: set `films = \"strips\"`, and let nodes of both faces \
+         coincide, or lie farther apart"
+    )]
+    Points,
 }
 
 /// Solves a contact problem; the observer is told every iteration, and `Break` cancels.

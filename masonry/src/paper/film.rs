@@ -1,5 +1,4 @@
-//! Mortar films: thin elastic strips between two faces that press, slide and part, (3.28)-(3.39),
-//! and the change of their nodes to those of the blocks, (3.40)-(3.53).
+//! Mortar films: thin elastic strips between two faces that press, slide and part, (3.28)-(3.39).
 //!
 //! This is the strip with its own nodes, for use from Rust. The films of a scene
 //! ([`model::Film`](crate::model::Film)) act at contact points, as compliances and, as described in
@@ -24,11 +23,8 @@
 //! | module | content |
 //! |---|---|
 //! | [`strip`] | strains (3.38) and stiffness of a strip on the part in contact |
-//! | [`change`] | nodes of any four-node element moved to other places: `K' = T K T^T` |
-//! | [`master`] | films of every length and with ends anywhere, from one integration |
 //! | [`law`] | unilateral contact with friction in series with the film, at one point |
 //! | [`pointwise`] | forces and tangent of a film with that law at its Gauss points |
-//! | [`updating`] | the part in contact, by the law or as printed in the paper, and its cycles |
 //!
 //! # Example
 //! A film of 1 cm between a fixed lower face and an upper face pressed down by 1 micrometre:
@@ -45,7 +41,6 @@
 //! let answer = film.respond(&u, &film.initial());
 //! // E * 1e-4 of strain is a pressure of 1e5 Pa on 0.2 m x 0.1 m, half of it at each node.
 //! assert!((answer.force[5] + 1000.0).abs() < 1e-9);
-//! assert_eq!(answer.contact_part, Some([-0.1, 0.1]));
 //! # Ok::<(), masonry::paper::film::FilmError>(())
 //! ```
 
@@ -54,12 +49,9 @@ use nalgebra::{Matrix3, SMatrix, SVector};
 use crate::material::constitutive;
 pub use crate::material::{Elasticity, FilmMaterial};
 
-pub mod change;
 pub mod law;
-pub mod master;
 pub mod pointwise;
 pub mod strip;
-pub mod updating;
 
 /// Displacements `u_1, v_1, ..., u_4, v_4` \[m\] or forces \[N\] of four nodes.
 pub type Vector8 = SVector<f64, 8>;
@@ -74,9 +66,9 @@ pub enum FilmError {
     /// A length is zero, negative or not finite.
     #[error("the {quantity} of the film is {value:e} m: it must be positive and finite")]
     NotPositive {
-        /// What the length measures.
+        /// The name of the length.
         quantity: &'static str,
-        /// Its value \[m\].
+        /// The length \[m\].
         value: f64,
     },
     /// The elastic constants do not give a positive definite elasticity.

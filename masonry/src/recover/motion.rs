@@ -6,7 +6,8 @@ use super::STILL;
 use crate::data::motion::Motion;
 use crate::forms::Sparse;
 use crate::ids::BlockId;
-use crate::model::{ContactPoint, Model};
+use crate::model::{Block, ContactPoint, Model};
+use crate::system::rigid::Modes;
 use crate::system::{System, displaced_nodes};
 
 /// Blocks that are deformed by more than this fraction of the largest displacement are no mechanism.
@@ -44,22 +45,23 @@ pub(crate) fn flow(
     velocities: &[f64],
 ) -> Option<Vec<Vec<Vector2<f64>>>> {
     let (amplitudes, _) = rigid_part(model, system, sparse, velocities);
-    let mut rates = of_corners(model, system, &amplitudes);
+    let mut rates = of_corners(model, &amplitudes);
     let largest = largest(&rates);
     rates.iter_mut().flatten().for_each(|rate| *rate /= largest);
     (largest > 0.0 && largest.is_finite()).then_some(rates)
 }
 
-fn of_corners(model: &Model, system: &System, amplitudes: &[f64]) -> Vec<Vec<Vector2<f64>>> {
-    let bodies = model.blocks.iter().zip(&system.bodies).zip(amplitudes.chunks(3));
-    bodies
-        .map(|((block, body), alpha)| {
-            block.corners.iter().map(|p| body.modes.displacement(*p, alpha)).collect()
-        })
-        .collect()
+/// The rates of the corners of every block in a motion of rigid blocks, three amplitudes each.
+pub(crate) fn of_corners(model: &Model, amplitudes: &[f64]) -> Vec<Vec<Vector2<f64>>> {
+    let of_block = |(block, alpha): (&Block, &[f64])| {
+        let modes = Modes::of(&block.corners);
+        block.corners.iter().map(|p| modes.displacement(*p, alpha)).collect()
+    };
+    model.blocks.iter().zip(amplitudes.chunks(3)).map(of_block).collect()
 }
 
-fn largest(rates: &[Vec<Vector2<f64>>]) -> f64 {
+/// The largest component of rates.
+pub(crate) fn largest(rates: &[Vec<Vector2<f64>>]) -> f64 {
     rates.iter().flatten().map(nalgebra::Matrix::amax).fold(0.0, f64::max)
 }
 
@@ -74,7 +76,7 @@ fn of_amplitudes(
     if power <= 0.0 || !power.is_finite() {
         return None;
     }
-    let mut rates = of_corners(model, system, amplitudes);
+    let mut rates = of_corners(model, amplitudes);
     let largest = largest(&rates);
     if deformation > LARGEST_DEFORMATION * largest {
         return None;
@@ -103,10 +105,8 @@ fn rigid_part(model: &Model, system: &System, sparse: &Sparse, u: &[f64]) -> (Ve
         let places = displaced_nodes(model, BlockId::new(b));
         let moved: Vec<Vector2<f64>> =
             u.chunks_exact(2).map(|u| Vector2::new(u[0], u[1])).collect();
-        let alpha = body.modes.amplitudes(places, &moved);
-        for (place, u) in places.iter().zip(moved) {
-            rest = rest.max((u - body.modes.displacement(*place, &alpha)).norm());
-        }
+        let (alpha, deformation) = body.modes.nearest(places, &moved);
+        rest = rest.max(deformation);
         amplitudes.extend(alpha);
     }
     (amplitudes, rest)

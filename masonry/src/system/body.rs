@@ -7,7 +7,7 @@ use crate::model::Anchor;
 use crate::model::mesh::BlockMesh;
 use crate::rounding::cleared;
 
-/// What one block contributes to a contact row.
+/// The part of one block in a contact row.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BodyRow {
     /// The row of the system.
@@ -18,7 +18,7 @@ pub struct BodyRow {
     pub modes: [f64; 3],
 }
 
-/// What one elastic block contributes to the elongation of a strip.
+/// The part of one elastic block in the elongation of a strip.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BodyStretch {
     /// The row, an index into [`System::stretches`](super::System::stretches).
@@ -30,15 +30,15 @@ pub struct BodyStretch {
 /// One block of the system.
 #[derive(Debug, Clone)]
 pub struct BodySystem {
-    /// Its rigid motions.
+    /// The rigid motions of the block.
     pub modes: Modes,
-    /// Its stiffness, an index into [`System::stiffnesses`](super::System::stiffnesses); `None` for a rigid block.
+    /// The stiffness of the block, an index into [`System::stiffnesses`](super::System::stiffnesses); `None` for a rigid block.
     pub stiffness: Option<usize>,
     /// Nodal loads `f` \[N\], two per node; empty for a rigid block.
     pub load: Vec<f64>,
     /// Work of the loads in the three rigid motions, `N^T f` \[N\].
     pub resultant: [f64; 3],
-    /// Its contact rows, increasing.
+    /// The contact rows of the block, increasing.
     pub rows: Vec<BodyRow>,
     /// The strips that stretch with it; none for a rigid block.
     pub stretches: Vec<BodyStretch>,

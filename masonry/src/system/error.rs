@@ -1,4 +1,4 @@
-//! What is in the way of a system.
+//! Errors of a system.
 
 /// Why the stiffness of a block could not be built.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]

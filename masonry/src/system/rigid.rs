@@ -40,6 +40,19 @@ impl Modes {
         self.at(place).iter().zip(amplitudes).map(|(mode, amplitude)| mode * *amplitude).sum()
     }
 
+    /// The amplitudes \[m\] of the rigid motion nearest to displacements \[m\] of places, and the largest displacement \[m\] that
+    /// it leaves over.
+    ///
+    /// # Panics
+    /// As [`amplitudes`](Self::amplitudes).
+    pub fn nearest(&self, places: &[Point2<f64>], moved: &[Vector2<f64>]) -> ([f64; 3], f64) {
+        let amplitudes = self.amplitudes(places, moved);
+        let rest = places.iter().zip(moved);
+        let rest = rest.map(|(place, u)| (u - self.displacement(*place, &amplitudes)).norm());
+        // A result that is no number stays none.
+        (amplitudes, rest.fold(0.0, |max, it| if it > max || it.is_nan() { it } else { max }))
+    }
+
     /// The amplitudes \[m\] of the rigid motion nearest to displacements \[m\] of places, by least squares.
     ///
     /// # Panics

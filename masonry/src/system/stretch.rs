@@ -1,14 +1,14 @@
 //! Elongations of the strips of mortar that touch elastic blocks.
 
-use crate::ids::ContactId;
-use crate::model::{Anchor, Model};
-
 use super::body::{BodyStretch, BodySystem, entries};
+use super::kinematics::stretched;
+use crate::ids::ContactId;
+use crate::model::Model;
 
 /// The bar in one part of a strip of mortar: a spring between the blocks of its joint that always acts.
 ///
-/// Its elongation is `e = L u`, the mean over both faces of the change of distance of the part's two ends along the
-/// joint, and its force `q = -k e` on them. No rigid motion of a block stretches it.
+/// The elongation is `e = L u`, the mean over both faces of the change of distance of the part's two ends along the
+/// joint, and the force on them `q = -k e`. No rigid motion of a block stretches it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct StretchRow {
     /// The contact point that stands for the part.
@@ -21,22 +21,18 @@ pub struct StretchRow {
 pub(super) fn add_rows(model: &Model, bodies: &mut [BodySystem]) -> Vec<StretchRow> {
     let mut rows = Vec::new();
     for (k, contact) in model.contacts.iter().enumerate() {
-        let Some((film, stretch)) = contact.film.and_then(|film| Some((film, film.stretch?)))
-        else {
-            continue;
-        };
-        let tangent = model.joints[contact.joint.index()].tangent();
-        let is_elastic = |face: &[Anchor; 2]| bodies[face[0].block.index()].stiffness.is_some();
-        let elastic: Vec<_> = film.faces().into_iter().flatten().filter(is_elastic).collect();
-        if elastic.is_empty() {
+        let Some(stretch) = contact.film.and_then(|film| film.stretch) else { continue };
+        let terms = stretched(model, contact);
+        if terms.is_empty() {
             continue;
         }
-        for [start, end] in elastic {
-            let id = start.block.index();
+        // Both ends of a face lie on one block.
+        for face in terms.chunks_exact(2) {
+            let id = face[0].0.block.index();
             let Some(mesh) = &model.blocks[id].mesh else { continue };
-            let mut entries = entries(mesh, end, tangent * 0.5);
-            entries.extend(self::entries(mesh, start, tangent * -0.5));
-            bodies[id].stretches.push(BodyStretch { row: rows.len(), entries: summed(entries) });
+            let entries = face.iter().flat_map(|(anchor, along)| entries(mesh, *anchor, *along));
+            let entries = summed(entries.collect());
+            bodies[id].stretches.push(BodyStretch { row: rows.len(), entries });
         }
         rows.push(StretchRow { contact: ContactId::new(k), stiffness: stretch.stiffness });
     }

@@ -36,7 +36,6 @@ mod bodies;
 mod contact;
 mod elements;
 mod energy;
-mod kinematics;
 mod lengths;
 
 use bodies::Bodies;

@@ -6,8 +6,12 @@ use super::checks::Checks;
 use crate::data::info::SolveInfo;
 use crate::data::state::State;
 use crate::data::statics::Statics;
+use crate::forms::Start;
+use crate::history::energy::FrictionWork;
+use crate::method::auto::Rank;
+use crate::model::Model;
 
-/// What came out of a step of the load history, or of the only one.
+/// The result of a step of the load history, or of the only one.
 #[derive(Debug)]
 pub(crate) struct StepResult {
     pub(crate) info: SolveInfo,
@@ -17,11 +21,17 @@ pub(crate) struct StepResult {
     pub(crate) mechanism: Option<Vec<Vec<Vector2<f64>>>>,
     /// The decision on admissible forces, if it was made.
     pub(crate) statics: Option<Statics>,
-    /// Where loading leads rigid blocks at rest, if that was asked.
+    /// The end of a loading of rigid blocks at rest, if that was asked.
     pub(crate) loading: Option<LoadingEnd>,
+    /// The basis at which pivots ended, if that is a state.
+    pub(crate) basis: Option<Start>,
+    /// How far every contact point slid \[m\] before the slip of the state, if a motion led there.
+    pub(crate) moved: Option<Vec<f64>>,
+    /// Works and energies on the way, if blocks moved.
+    pub(crate) account: Option<lcp::Account>,
 }
 
-/// Where loading from a state without stresses leads rigid blocks that some forces within friction would hold.
+/// The end of a loading, from a state without stresses, of rigid blocks that some forces within friction would hold.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum LoadingEnd {
     ToRest,
@@ -33,10 +43,33 @@ pub(crate) enum LoadingEnd {
 impl StepResult {
     /// A result without a state.
     pub(crate) fn new(info: SolveInfo) -> Self {
-        Self { info, state: None, checks: None, mechanism: None, statics: None, loading: None }
+        Self {
+            info,
+            state: None,
+            checks: None,
+            mechanism: None,
+            statics: None,
+            loading: None,
+            basis: None,
+            moved: None,
+            account: None,
+        }
     }
 
     pub(crate) fn is_solved(&self) -> bool {
         self.info.status == lcp::Status::Solved && self.state.is_some()
+    }
+
+    pub(crate) fn rank(&self) -> Rank {
+        Rank::of(&self.info, self.mechanism.is_some())
+    }
+
+    /// The work of friction in the step; `model` is that of the step.
+    pub(crate) fn friction(&self, model: &Model) -> FrictionWork {
+        match (&self.account, &self.state) {
+            (Some(account), _) => FrictionWork::of_way(account),
+            (None, Some(state)) => FrictionWork::of_step(model, &state.contacts),
+            (None, None) => FrictionWork::default(),
+        }
     }
 }

@@ -136,12 +136,9 @@ impl Drift {
         for (b, (block, moved)) in model.blocks.iter().zip(&state.displacements).enumerate() {
             let modes = Modes::of(&block.corners);
             let places = displaced_nodes(model, BlockId::new(b));
-            let amplitudes = modes.amplitudes(places, moved);
-            movement.turned = movement.turned.max((amplitudes[2] / modes.length).abs());
-            for (place, u) in places.iter().zip(moved) {
-                let deformed = (u - modes.displacement(*place, &amplitudes)).norm();
-                movement.share = movement.share.max(deformed / modes.length);
-            }
+            let ([.., turn], deformed) = modes.nearest(places, moved);
+            movement.turned = movement.turned.max((turn / modes.length).abs());
+            movement.share = movement.share.max(deformed / modes.length);
         }
         movement
     }

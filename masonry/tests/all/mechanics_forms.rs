@@ -81,7 +81,7 @@ fn solutions_of_one_form_solve_the_others() {
             for (t, y) in found {
                 assert!(violation(&form, &t, &y) < 1e-10);
                 let rows = form.rows(&t, &y);
-                let alpha = case.reduction.amplitudes(&case.system, &rows.t, &rows.y);
+                let alpha = case.reduction.amplitudes(&rows.t, &rows.y);
                 for to in FORMS {
                     let other = case.form(to);
                     let (t, y) = other.pairs(&rows, &alpha, &[]);

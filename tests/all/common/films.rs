@@ -1,19 +1,21 @@
 //! Bricks and whole strips at the nodes of a model, by elements and changes of nodes: nothing of contact points.
 
+#[path = "../../../masonry/tests/all/common/nodal_change.rs"]
+mod nodal_change;
+
 use super::{assert_close, state};
 use masonry::analysis::outcome::Outcome;
 use masonry::element::quad4;
 use masonry::material::constitutive;
 use masonry::model::{Body, Joint, Model};
-use masonry::paper::film::change::NodalChange;
 use masonry::paper::film::law::FilmState;
-use masonry::paper::film::master::MasterFilm;
 use masonry::paper::film::pointwise::{FilmResponse, PointwiseFilm};
-use masonry::paper::film::strip::{Strip, local_axes};
+use masonry::paper::film::strip::Strip;
 use masonry::paper::film::{Matrix8, Vector8};
 use masonry::recover::contact_force;
 use masonry::system::nodal_loads;
 use nalgebra::{DMatrix, DVector, Point2, Vector2};
+use nodal_change::{NodalChange, local_axes};
 
 /// A part of a film between nodes of its faces, one after another along it.
 pub struct Part {
@@ -143,14 +145,15 @@ impl Nodes {
 
 impl Part {
     fn change(&self) -> NodalChange {
-        NodalChange::of_film("part", self.length, self.faces).unwrap()
+        NodalChange::of_film(self.length, self.faces)
     }
 
     /// Adds the stiffness of the part, bonded along the whole of it.
     pub fn add_bonded(&self, model: &Model, k: &mut DMatrix<f64>) {
         let mortar = model.joints[self.joint].film.unwrap().mortar;
-        let master = MasterFilm::new(mortar.thickness, model.thickness, &mortar.material).unwrap();
-        let local = master.attached("part", self.length, self.faces).unwrap();
+        let strip =
+            Strip::new(self.length, mortar.thickness, model.thickness, &mortar.material).unwrap();
+        let local = self.change().stiffness(&strip.stiffness(strip.ends()));
         add(k, &self.nodes, &(self.q.transpose() * local * self.q));
     }
 

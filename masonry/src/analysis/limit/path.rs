@@ -52,7 +52,7 @@ pub struct Path {
     pub model: Model,
     /// The last state at rest, point by point; slips are those of its step.
     pub contacts: Option<Vec<ContactState>>,
-    /// Its reactions.
+    /// The reactions of the last state at rest.
     pub reactions: Vec<Reaction>,
     /// The motion of the blocks above that factor: displacement rates of their corners, scaled to a largest component
     /// of one.

@@ -12,7 +12,7 @@ use crate::method::statics;
 use crate::method::statics::limit::extreme;
 use crate::model::{Body, Model};
 use crate::scene::Scene;
-use crate::system::{Direction, System};
+use crate::system::System;
 
 /// The least and the largest reactions of all supports over all forces within friction that balance the loads, each for
 /// itself: the thrust of an arch, for instance, when its supports spread and when they close.
@@ -84,12 +84,9 @@ fn component(
         if !matches!(joint.a, Body::Support(id) if id.index() == support) {
             return 0.0;
         }
-        let direction = match row.direction {
-            Direction::Normal => joint.normal,
-            Direction::Tangent => joint.tangent(),
-        };
-        beyond += row.tension * direction.dot(&along);
-        direction.dot(&along)
+        let gain = row.direction.of(joint).dot(&along);
+        beyond += row.tension * gain;
+        gain
     });
     (rows.collect(), beyond)
 }

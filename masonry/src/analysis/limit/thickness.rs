@@ -41,7 +41,7 @@ pub struct Thickness {
     pub is_interrupted: bool,
     /// The structure that stands, or that of the scene where none does.
     pub model: Model,
-    /// Its forces, point by point; gaps and slips are zero.
+    /// The forces of the structure that stands, point by point; gaps and slips are zero.
     pub forces: Option<Vec<ContactState>>,
     /// The motion in which the thicker of those that fall does so: rates of the corners of every block.
     pub mechanism: Option<Vec<Vec<Vector2<f64>>>>,

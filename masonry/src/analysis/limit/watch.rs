@@ -1,4 +1,4 @@
-//! Who follows a search for a limit, and may end it.
+//! The observer of a search for a limit, who may end it.
 
 use std::ops::ControlFlow;
 

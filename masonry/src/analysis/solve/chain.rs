@@ -6,25 +6,23 @@ use web_time::Instant;
 
 use lcp::{Contact2d, Status};
 
-use super::{Clock, Event, SolveError, named};
+use super::{Event, SolveError, named};
+use crate::analysis::clock::Clock;
 use crate::data::info::{Attempt, RouteEnd, SolveInfo};
 use crate::data::state::State;
 use crate::data::statics::Statics;
 use crate::forms::reduction::Reduction;
 use crate::forms::{Sparse, Start};
-use crate::history::energy::FrictionWork;
-use crate::method::auto::{self, Rank};
+use crate::method::auto;
 use crate::method::forces;
 use crate::method::interior::Interior;
 use crate::method::lemke::Pivots;
 use crate::method::loading;
-use crate::method::pgs::Sweeps;
-use crate::method::qp::Programs;
 use crate::method::statics::{self, Decision};
-use crate::method::{Answer, Method, Request, RouteProgress};
+use crate::method::{Answer, Observer, Request, pgs, qp};
 use crate::model::Model;
 #[cfg(feature = "paper")]
-use crate::paper::alm::{Multipliers, Strips};
+use crate::paper::alm;
 use crate::plan::Choice;
 use crate::recover;
 use crate::scene::Route;
@@ -33,38 +31,12 @@ use crate::verify::checks::Checks;
 use crate::verify::step::{LoadingEnd, StepResult};
 use crate::verify::verdict::Drift;
 
-/// A result, with what only the steps around it ask for.
-pub(super) struct Tried {
-    pub(super) result: StepResult,
-    /// Where pivots ended, if that is a state.
-    pub(super) basis: Option<Start>,
-    /// How far every contact point slid \[m\] before the slip of the state, if a motion led there.
-    pub(super) moved: Option<Vec<f64>>,
-    /// Works and energies on the way, if blocks moved.
-    account: Option<lcp::Account>,
-}
-
-impl Tried {
-    fn rank(&self) -> Rank {
-        Rank::of(&self.result.info, self.result.mechanism.is_some())
-    }
-
-    /// The work of friction in the step; `model` is that of the step.
-    pub(super) fn friction(&self, model: &Model) -> FrictionWork {
-        match (&self.account, &self.result.state) {
-            (Some(account), _) => FrictionWork::of_way(account),
-            (None, Some(state)) => FrictionWork::of_step(model, &state.contacts),
-            (None, None) => FrictionWork::default(),
-        }
-    }
-}
-
-/// Where a step of a load history begins.
+/// The begin of a step of a load history.
 pub(super) struct Before<'a> {
     /// The loads, gaps and supports there, with slips measured from the state.
     pub(super) problem: Contact2d,
     pub(super) state: &'a State,
-    /// Where pivots ended.
+    /// The basis at which pivots ended.
     pub(super) basis: Option<&'a Start>,
 }
 
@@ -76,7 +48,7 @@ pub(super) struct Chain<'a> {
     pub(super) with_stresses: bool,
     pub(super) clock: &'a mut Clock,
     pub(super) observer: &'a mut dyn FnMut(Event) -> ControlFlow<()>,
-    before: Option<Before<'a>>,
+    pub(super) before: Option<Before<'a>>,
     sparse: Option<Sparse>,
     /// Whether there are admissible forces; asked at most once.
     decision: Option<Decision>,
@@ -107,55 +79,49 @@ impl<'a> Chain<'a> {
         }
     }
 
-    /// Starts from the end of the step before.
-    pub(super) fn after(self, before: Option<Before<'a>>) -> Self {
-        Self { before, ..self }
-    }
-
     /// The route that says most, with the attempts of all of them; and the sparse problem, if it was built.
-    pub(super) fn run(mut self, routes: &[Choice]) -> Result<(Tried, Option<Sparse>), SolveError> {
+    pub(super) fn run(
+        mut self,
+        routes: &[Choice],
+    ) -> Result<(StepResult, Option<Sparse>), SolveError> {
         let has_friction = !self.system.friction.is_empty();
         let (mut ends, mut attempts, mut pivots) = (Vec::new(), Vec::new(), 0);
-        let mut best: Option<Tried> = None;
+        let mut best: Option<StepResult> = None;
         let mut refusal = None;
-        for (position, choice) in routes.iter().enumerate() {
-            let known = best.as_ref().map(Tried::rank);
-            if known.is_some_and(|known| !auto::is_asked(choice.route, known)) {
+        for (position, Choice { route, because, largest_order, .. }) in routes.iter().enumerate() {
+            if best.as_ref().is_some_and(|best| !auto::is_asked(*route, best.rank())) {
                 continue;
             }
-            let began = Instant::now();
-            let mut end = |end: String| {
-                let seconds = began.elapsed().as_secs_f64();
-                let because = choice.because.clone();
-                ends.push(RouteEnd { route: choice.route, because, end, seconds });
-            };
-            let limit = auto::max_pivots(choice.route, choice.largest_order, routes.len());
+            let limit = auto::max_pivots(*route, *largest_order, routes.len());
             self.request.max_pivots = self.request.max_pivots.or(limit);
             self.may_be_cut =
                 auto::may_be_cut(routes[position + 1..].iter().map(|choice| choice.route));
-            match self.attempt(choice.route) {
-                Ok(mut tried) => {
-                    let info = &mut tried.result.info;
-                    info.because.clone_from(&choice.because);
-                    end(info.status.to_string());
-                    attempts.append(&mut info.attempts);
-                    pivots += info.pivots;
-                    let is_cancelled = info.status == Status::Cancelled;
-                    let is_final = tried.rank().is_final(has_friction) || is_cancelled;
-                    let is_better = best.as_ref().is_none_or(|best| tried.rank() < best.rank());
-                    if is_better || is_cancelled {
-                        best = Some(tried);
-                    }
-                    if is_final {
-                        break;
-                    }
-                }
+            let began = Instant::now();
+            let tried = self.attempt(*route);
+            let end = match &tried {
+                Ok(tried) => tried.info.status.to_string(),
+                Err(error) => format!("refused: {error}"),
+            };
+            let (because, seconds) = (because.clone(), began.elapsed().as_secs_f64());
+            ends.push(RouteEnd { route: *route, because: because.clone(), end, seconds });
+            let mut tried = match tried {
+                Ok(tried) => tried,
                 // The next route may treat what this one does not.
-                Err(error) if routes.len() > 1 => {
-                    end(format!("refused: {error}"));
+                Err(error) => {
                     refusal = refusal.or(Some(error));
+                    continue;
                 }
-                Err(error) => return Err(error),
+            };
+            tried.info.because = because;
+            attempts.append(&mut tried.info.attempts);
+            pivots += tried.info.pivots;
+            let is_cancelled = tried.info.status == Status::Cancelled;
+            let is_final = tried.rank().is_final(has_friction) || is_cancelled;
+            if is_cancelled || best.as_ref().is_none_or(|best| tried.rank() < best.rank()) {
+                best = Some(tried);
+            }
+            if is_final {
+                break;
             }
         }
         let mut best = match (best, refusal) {
@@ -163,10 +129,9 @@ impl<'a> Chain<'a> {
             (None, Some(refusal)) => return Err(refusal),
             (None, None) => unreachable!("every plan has a route"),
         };
-        let result = &mut best.result;
-        (result.info.routes, result.info.attempts, result.info.pivots) = (ends, attempts, pivots);
-        self.add_statics(result);
-        self.add_loading(result)?;
+        (best.info.routes, best.info.attempts, best.info.pivots) = (ends, attempts, pivots);
+        self.add_statics(&mut best);
+        self.add_loading(&mut best)?;
         Ok((best, self.sparse))
     }
 
@@ -184,7 +149,7 @@ impl<'a> Chain<'a> {
         }
     }
 
-    /// Where loading from a state without stresses leads rigid blocks that have admissible forces, if the verdict needs it.
+    /// Loads rigid blocks that have admissible forces from a state without stresses, if the verdict needs it.
     fn add_loading(&mut self, best: &mut StepResult) -> Result<(), SolveError> {
         let has_friction = !self.system.friction.is_empty();
         if !auto::needs_loading(best.info.status, self.system.is_at_rest(), has_friction) {
@@ -196,9 +161,10 @@ impl<'a> Chain<'a> {
         let sparse = Sparse::new(&system)?;
         let mass = &mass::lumped(&model, &system);
         let reach = loading::reach(&model);
-        let method = Interior { sparse: &sparse, before: None, mass, reach };
+        let interior = Interior { sparse: &sparse, before: None, mass, reach };
         self.may_be_cut = false;
-        let Answer { info, motion, .. } = self.timed(&method)?;
+        let Answer { info, motion, .. } =
+            self.timed(|request, observer| interior.solve(request, observer))?;
         best.info.attempts.extend(info.attempts);
         best.info.factorisations += info.factorisations;
         let end = match info.status {
@@ -221,16 +187,14 @@ impl<'a> Chain<'a> {
             let (model, system, observer) = (self.model, self.system, &mut *self.observer);
             let _ = observer(Event::Phase("solve"));
             let began = Instant::now();
-            let decision = statics::decide(model, system, &mut |at| {
-                observer(Event::Iteration { number: at.iteration, residual: at.residual })
-            })?;
+            let decision = statics::decide(model, system, &mut |at| observer(at.into()))?;
             self.clock.add("solve", began);
             self.decision = Some(decision);
         }
         Ok(self.decision.as_ref().unwrap_or_else(|| unreachable!("it was just decided")))
     }
 
-    fn attempt(&mut self, route: Route) -> Result<Tried, SolveError> {
+    fn attempt(&mut self, route: Route) -> Result<StepResult, SolveError> {
         match route {
             Route::Lemke => self.by_pivots(),
             Route::Forces => self.by_forces(),
@@ -238,7 +202,7 @@ impl<'a> Chain<'a> {
         }
     }
 
-    fn by_forces(&mut self) -> Result<Tried, SolveError> {
+    fn by_forces(&mut self) -> Result<StepResult, SolveError> {
         let sparse = self.sparse()?;
         let (system, tolerance) = (self.system, self.request.tolerance);
         let decision = self.statics()?;
@@ -248,7 +212,7 @@ impl<'a> Chain<'a> {
         Ok(self.concluded(self.model, answer, state))
     }
 
-    fn by_pivots(&mut self) -> Result<Tried, SolveError> {
+    fn by_pivots(&mut self) -> Result<StepResult, SolveError> {
         let Self { model, system, .. } = *self;
         let reduction = self
             .clock
@@ -256,7 +220,7 @@ impl<'a> Chain<'a> {
             .map_err(|error| named(error, model))?;
         let start = self.before.as_ref().and_then(|before| before.basis);
         let pivots = Pivots { system, reduction: &reduction, start };
-        let answer = self.timed(&pivots)?;
+        let answer = self.timed(|request, observer| pivots.solve(request, observer))?;
         let with_stresses = self.with_stresses;
         let state = answer.rows.as_ref().map(|rows| {
             self.clock.time("recovery", self.observer, || {
@@ -264,8 +228,8 @@ impl<'a> Chain<'a> {
             })
         });
         let mut tried = self.concluded(model, answer, state);
-        if tried.result.info.status == Status::AlmostSolved {
-            self.refine(&mut tried.result)?;
+        if tried.info.status == Status::AlmostSolved {
+            self.refine(&mut tried)?;
         }
         Ok(tried)
     }
@@ -303,20 +267,22 @@ impl<'a> Chain<'a> {
         Ok(())
     }
 
-    fn on_sparse(&mut self, route: Route) -> Result<Tried, SolveError> {
+    fn on_sparse(&mut self, route: Route) -> Result<StepResult, SolveError> {
         let Self { model, system, .. } = *self;
         let has_compliances = route != Route::Alm;
         let sparse =
             if has_compliances { self.sparse()? } else { Sparse::with_free_faces(system)? };
         let answer = match route {
-            Route::Qp => self.timed(&Programs { sparse: &sparse }),
-            Route::Pgs => self.timed(&Sweeps { sparse: &sparse }),
+            Route::Qp => self.timed(|request, observer| qp::solve(&sparse, request, observer)),
+            Route::Pgs => self.timed(|request, observer| pgs::solve(&sparse, request, observer)),
             #[cfg(feature = "paper")]
-            Route::Alm if model.has_strips() => {
-                self.timed(&Strips { model, system, sparse: &sparse })
+            Route::Alm if model.has_strips() => self.timed(|request, observer| {
+                alm::by_films(model, system, &sparse, request, observer)
+            }),
+            #[cfg(feature = "paper")]
+            Route::Alm => {
+                self.timed(|request, observer| alm::by_multipliers(&sparse, request, observer))
             }
-            #[cfg(feature = "paper")]
-            Route::Alm => self.timed(&Multipliers { sparse: &sparse }),
             #[cfg(not(feature = "paper"))]
             Route::Alm => {
                 let reason =
@@ -329,7 +295,8 @@ impl<'a> Chain<'a> {
                 let before = given.as_ref().map(|it| &it.problem).zip(state.as_ref());
                 let mass = &mass::lumped(model, system);
                 let reach = loading::reach(model);
-                let answer = self.timed(&Interior { sparse: &sparse, before, mass, reach });
+                let interior = Interior { sparse: &sparse, before, mass, reach };
+                let answer = self.timed(|request, observer| interior.solve(request, observer));
                 self.before = given;
                 answer
             }
@@ -342,16 +309,15 @@ impl<'a> Chain<'a> {
             *status = Status::Stalled;
             *attempts = vec![Attempt::Left { route, iterations: *iterations }];
         }
-        let account = answer.account;
-        let is_at_rest = account.is_some() && answer.info.status == Status::Solved;
-        let moved = answer.moved.take().map(|moved| self.by_contact(moved));
-        let after = moved.as_ref().map(|moved| model.slid(moved));
+        let is_at_rest = answer.account.is_some() && answer.info.status == Status::Solved;
+        answer.moved = answer.moved.take().map(|moved| self.by_contact(moved));
+        let after = answer.moved.as_ref().map(|moved| model.slid(moved));
         let model = after.as_ref().unwrap_or(model);
         let state = self.recovered(model, &sparse, &answer);
         if has_compliances {
             self.sparse = Some(sparse);
         }
-        let tried = Tried { moved, account, ..self.concluded(model, answer, state) };
+        let tried = self.concluded(model, answer, state);
         match self.excess(&tried) {
             Some(excess) if is_at_rest && excess > 1.0 && excess.is_finite() => {
                 Ok(self.finer(route, excess, tried))
@@ -363,7 +329,7 @@ impl<'a> Chain<'a> {
     /// Takes the steps to a state of rest again, to half of what the checks ask for: they exceed their tolerance so many
     /// times. Errors of steps that fine are rounding errors, so that no finer ones follow; and the first state is kept
     /// if the second is no better.
-    fn finer(&mut self, route: Route, excess: f64, rough: Tried) -> Tried {
+    fn finer(&mut self, route: Route, excess: f64, rough: StepResult) -> StepResult {
         if self.request.step_tolerance < loading::STEP_TOLERANCE {
             return rough;
         }
@@ -374,10 +340,10 @@ impl<'a> Chain<'a> {
         let is_better = match finer.rank().cmp(&rough.rank()) {
             Ordering::Less => true,
             Ordering::Equal => is_nearer,
-            Ordering::Greater => finer.result.info.status == Status::Cancelled,
+            Ordering::Greater => finer.info.status == Status::Cancelled,
         };
         let (mut best, other) = if is_better { (finer, rough) } else { (rough, finer) };
-        let (info, other) = (&mut best.result.info, other.result.info);
+        let (info, other) = (&mut best.info, other.info);
         info.iterations += other.iterations;
         info.factorisations += other.factorisations;
         info.attempts.splice(0..0, other.attempts);
@@ -385,8 +351,8 @@ impl<'a> Chain<'a> {
     }
 
     /// How many times the checks exceed their tolerance.
-    fn excess(&self, tried: &Tried) -> Option<f64> {
-        tried.result.checks.as_ref().map(|checks| checks.excess(self.request.tolerance))
+    fn excess(&self, tried: &StepResult) -> Option<f64> {
+        tried.checks.as_ref().map(|checks| checks.excess(self.request.tolerance))
     }
 
     /// A slip for every contact point, zero without friction.
@@ -417,48 +383,40 @@ impl<'a> Chain<'a> {
         }
     }
 
-    fn timed(&mut self, method: &dyn Method) -> Result<Answer, SolveError> {
+    fn timed<E: Into<SolveError>>(
+        &mut self,
+        solve: impl FnOnce(&Request, Observer<'_>) -> Result<Answer, E>,
+    ) -> Result<Answer, SolveError> {
         let (model, system, observer) = (self.model, self.system, &mut *self.observer);
         let _ = observer(Event::Phase("solve"));
         let began = Instant::now();
         let (mut may_be_cut, decision) = (self.may_be_cut, &mut self.decision);
-        let answer = method.solve(&self.request, &mut |step| {
-            let event = match step {
-                RouteProgress::Pivots(progress) => Event::Pivots(progress),
-                RouteProgress::Iteration { number, residual } => {
-                    if may_be_cut && number >= auto::STEPS_BEFORE_PROOF {
-                        may_be_cut = false;
-                        let found = statics::decide(model, system, &mut |_| {
-                            observer(Event::Iteration { number, residual })
-                        });
-                        *decision = found.ok();
-                        let found = decision.as_ref().map(|decision| &decision.statics);
-                        if let Some(Statics::Impossible(_)) = found {
-                            return ControlFlow::Break(());
-                        }
-                    }
-                    Event::Iteration { number, residual }
+        let answer = solve(&self.request, &mut |step| {
+            let is_long = matches!(step, Event::Iteration { number, .. } if number >= auto::STEPS_BEFORE_PROOF);
+            if may_be_cut && is_long {
+                may_be_cut = false;
+                *decision = statics::decide(model, system, &mut |_| observer(step)).ok();
+                if let Some(Decision { statics: Statics::Impossible(_), .. }) = decision {
+                    return ControlFlow::Break(());
                 }
-            };
-            observer(event)
+            }
+            observer(step)
         });
         self.clock.add("solve", began);
-        Ok(answer?)
+        answer.map_err(E::into)
     }
 
-    fn concluded(&self, model: &Model, answer: Answer, state: Option<State>) -> Tried {
+    fn concluded(&self, model: &Model, answer: Answer, state: Option<State>) -> StepResult {
         let checks = state.as_ref().map(|state| Checks::of(model, state));
-        let mut info = answer.info;
+        let Answer { mut info, basis, motion, moved, account, .. } = answer;
         // The complementarity problem may be solved to its tolerance and the structure not: forces and
         // displacements of very different size meet in one vector.
         if checks.as_ref().is_some_and(|checks| !checks.hold(self.request.tolerance)) {
             info.status = Status::AlmostSolved;
         }
-        let motion = answer.motion.as_ref();
         let mechanism = motion.and_then(|motion| {
-            recover::mechanism(self.model, self.system, self.sparse.as_ref(), motion)
+            recover::mechanism(self.model, self.system, self.sparse.as_ref(), &motion)
         });
-        let result = StepResult { state, checks, mechanism, ..StepResult::new(info) };
-        Tried { result, basis: answer.basis, moved: None, account: None }
+        StepResult { state, checks, mechanism, basis, moved, account, ..StepResult::new(info) }
     }
 }

@@ -4,14 +4,15 @@ use std::ops::ControlFlow;
 
 use lcp::{Contact2d, Status};
 
-use super::chain::{Before, Chain, Tried};
-use super::{Clock, Event, SolveError};
+use super::chain::{Before, Chain};
+use super::{Event, SolveError};
 use crate::analysis::checkpoint::{Checkpoint, CheckpointError};
+use crate::analysis::clock::Clock;
 use crate::analysis::outcome::{Frame, Outcome};
 use crate::data::info::SolveInfo;
 use crate::data::state::State;
 use crate::data::verdict::Judgement;
-use crate::forms::{Sparse, Start};
+use crate::forms::Sparse;
 use crate::history::energy::{self, FrictionWork, Snapshot};
 use crate::history::spread::AtEnd;
 use crate::history::{self, History, SecondLoading, Step, StepRecord};
@@ -72,12 +73,12 @@ pub struct Run {
     with_stresses: bool,
     /// The steps that were solved; empty for one step.
     records: Vec<StepRecord>,
-    /// What another loading has come to.
+    /// The outcome of another loading.
     pub(super) second_loading: Option<SecondLoading>,
     /// The last step that was solved.
     solved: Option<StepResult>,
-    /// What the next step needs of the last state that was kept; `None` if there is only one step.
-    carry: Option<Carry>,
+    /// The situation of the last state that was kept; `None` if there is only one step.
+    reached: Option<Situation>,
     /// The step after it, if that was tried and not solved.
     failed: Option<StepResult>,
     /// The sparse problem of the last step that was tried, if it was built.
@@ -92,16 +93,6 @@ struct Situation {
     model: Model,
     /// How far every contact point had slid where slips are measured from \[m\].
     slips: Vec<f64>,
-}
-
-/// What only the next step needs of a state.
-#[derive(Debug)]
-struct Carry {
-    situation: Situation,
-    /// What tells the work to the next state.
-    snapshot: Snapshot,
-    /// Where pivots ended.
-    basis: Option<Start>,
 }
 
 impl Run {
@@ -145,7 +136,7 @@ impl Run {
             records: Vec::new(),
             second_loading: None,
             solved: None,
-            carry: None,
+            reached: None,
             failed: None,
             sparse: None,
             clock,
@@ -179,11 +170,9 @@ impl Run {
         let slips = vec![0.0; self.model.contacts.len()];
         let model = self.model.under(&record.step.actions, &slips);
         let state = checkpoint.state(&model, self.with_stresses)?;
-        self.system.reload(&model);
-        let snapshot = Snapshot::of(&model, &self.system, &state);
         let slips = checkpoint.slips(&model)?;
         let model = self.model.under(&record.step.actions, &slips);
-        // Its slips are those of the last step, while those of the state are all that have been.
+        // The checks need the slips of the last step alone, and the state has the sums over all steps.
         let mut of_step = state.clone();
         of_step.contacts.iter_mut().zip(&slips).for_each(|(contact, slip)| contact.y_t -= slip);
         let checks = Checks::of(&model, &of_step);
@@ -193,9 +182,9 @@ impl Run {
             return Err(CheckpointError::NoEquilibrium.into());
         }
         let basis = checkpoint.basis(self.system.rows.len() + self.system.friction.len());
-        self.carry = Some(Carry { situation: Situation { model, slips }, snapshot, basis });
+        self.reached = Some(Situation { model, slips });
         let (state, checks) = (Some(state), Some(checks));
-        self.solved = Some(StepResult { state, checks, ..StepResult::new(info) });
+        self.solved = Some(StepResult { state, checks, basis, ..StepResult::new(info) });
         self.records.clone_from(records);
         Ok(self)
     }
@@ -213,27 +202,31 @@ impl Run {
             return Ok(false);
         };
         let situation = self.has_history().then(|| self.situation(&step));
-        let mut problem = None;
+        let mut before = None;
         if let Some(Situation { model, slips }) = &situation {
             let (number, of) = (solved + 1, self.steps.len());
             if observer(Event::Step { number, of }).is_break() {
                 self.failed = Some(self.without_state(Status::Cancelled));
                 return Ok(true);
             }
-            problem = self.problem_before(slips)?;
+            before = self.before(slips)?;
             self.system.reload(model);
         }
         self.sparse = None;
         let model = situation.as_ref().map_or(&self.model, |situation| &situation.model);
-        let state = self.solved.as_ref().and_then(|solved| solved.state.as_ref());
-        let basis = self.carry.as_ref().and_then(|carry| carry.basis.as_ref());
-        let before = problem.zip(state).map(|(problem, state)| Before { problem, state, basis });
+        let (problem, snapshot) = before.unzip();
+        let before = self.solved.as_ref().zip(problem).and_then(|(solved, problem)| {
+            let (state, basis) = (solved.state.as_ref()?, solved.basis.as_ref());
+            Some(Before { problem, state, basis })
+        });
         let (clock, with_stresses) = (&mut self.clock, self.with_stresses);
-        let chain = Chain::new(model, &self.system, self.request, with_stresses, clock, observer);
-        match chain.after(before).run(&self.plan.routes) {
+        let mut chain =
+            Chain::new(model, &self.system, self.request, with_stresses, clock, observer);
+        chain.before = before;
+        match chain.run(&self.plan.routes) {
             Ok((tried, sparse)) => {
                 self.sparse = sparse;
-                self.take(step, situation, tried);
+                self.take(step, situation, snapshot.as_ref(), tried);
                 Ok(true)
             }
             Err(error) if solved == 0 => Err(error),
@@ -255,11 +248,14 @@ impl Run {
         Situation { model: self.model.under(&step.actions, &slips), slips }
     }
 
-    /// The problem of the last step that was solved, with slips measured from its state.
-    fn problem_before(&mut self, slips: &[f64]) -> Result<Option<Contact2d>, SolveError> {
-        let Some(record) = self.records.last() else { return Ok(None) };
-        self.system.reload(&self.model.under(&record.step.actions, slips));
-        Ok(Some(Sparse::new(&self.system)?.problem))
+    /// The problem of the last step that was solved, with slips measured from its state, and what tells the work to the next.
+    fn before(&mut self, slips: &[f64]) -> Result<Option<(Contact2d, Snapshot)>, SolveError> {
+        let state = self.solved.as_ref().and_then(|solved| solved.state.as_ref());
+        let Some((record, state)) = self.records.last().zip(state) else { return Ok(None) };
+        let model = self.model.under(&record.step.actions, slips);
+        let snapshot = Snapshot::of(&model, state);
+        self.system.reload(&model);
+        Ok(Some((Sparse::new(&self.system)?.problem, snapshot)))
     }
 
     /// The result of a step that no route was asked about, or whose routes were refused.
@@ -269,37 +265,53 @@ impl Run {
     }
 
     /// Keeps a result. An only step has nothing else to remember.
-    fn take(&mut self, step: Step, situation: Option<Situation>, mut tried: Tried) {
+    fn take(
+        &mut self,
+        step: Step,
+        situation: Option<Situation>,
+        before: Option<&Snapshot>,
+        mut tried: StepResult,
+    ) {
         if let Some(situation) = situation {
-            self.remember(step, situation, &mut tried);
+            self.remember(step, situation, before, &mut tried);
         } else if let Some(moved) = &tried.moved {
             // The state is judged with slips from where the blocks came to.
             self.model = self.model.slid(moved);
         }
-        let result = tried.result;
-        let place = if result.is_solved() { &mut self.solved } else { &mut self.failed };
-        *place = Some(result);
+        let place = if tried.is_solved() { &mut self.solved } else { &mut self.failed };
+        *place = Some(tried);
     }
 
-    /// Keeps the record of a solved step, and what the next one needs of its state. The state of an unsolved step counts only
+    /// Keeps the record of a solved step, and the situation of its state. The state of an unsolved step counts only
     /// if there is no earlier one.
-    fn remember(&mut self, step: Step, situation: Situation, tried: &mut Tried) {
-        let is_solved = tried.result.is_solved();
+    fn remember(
+        &mut self,
+        step: Step,
+        situation: Situation,
+        before: Option<&Snapshot>,
+        tried: &mut StepResult,
+    ) {
+        let is_solved = tried.is_solved();
         if !is_solved && self.solved.is_some() {
             return;
         }
         let friction = tried.friction(&situation.model);
-        let Some(carry) = self.carry(&step, situation, tried) else { return };
+        let Some(reached) = self.reached_by(&step, situation, tried) else { return };
         if is_solved {
-            self.records.extend(self.record(step, friction, &tried.result, &carry));
+            self.records.extend(self.record(step, friction, tried, &reached.model, before));
         }
-        self.carry = Some(carry);
+        self.reached = Some(reached);
     }
 
-    /// What the next step needs of a state, whose slips become those of all steps.
-    fn carry(&self, step: &Step, situation: Situation, tried: &mut Tried) -> Option<Carry> {
+    /// The situation of a state, whose slips become those of all steps.
+    fn reached_by(
+        &self,
+        step: &Step,
+        situation: Situation,
+        tried: &mut StepResult,
+    ) -> Option<Situation> {
         let Situation { mut model, mut slips } = situation;
-        let state = tried.result.state.as_mut()?;
+        let state = tried.state.as_mut()?;
         if let Some(moved) = &tried.moved {
             slips.iter_mut().zip(moved).for_each(|(slip, moved)| *slip += moved);
             model = self.model.under(&step.actions, &slips);
@@ -309,9 +321,7 @@ impl Run {
         for ((_, contact), slip) in contacts.filter(|((it, _), _)| it.law.resists_sliding()) {
             contact.y_t = slip + cleared(contact.y_t, most);
         }
-        let snapshot = Snapshot::of(&model, &self.system, state);
-        let (situation, basis) = (Situation { model, slips }, tried.basis.take());
-        Some(Carry { situation, snapshot, basis })
+        Some(Situation { model, slips })
     }
 
     /// The record of a step after the last one that was solved.
@@ -320,14 +330,11 @@ impl Run {
         step: Step,
         friction: FrictionWork,
         result: &StepResult,
-        carry: &Carry,
+        model: &Model,
+        before: Option<&Snapshot>,
     ) -> Option<StepRecord> {
         let StepResult { info, state: Some(state), checks, .. } = result else { return None };
-        let Carry { situation: Situation { model, .. }, snapshot, .. } = carry;
-        let work = match &self.carry {
-            Some(before) => before.snapshot.work_to(snapshot),
-            None => snapshot.at_rest().work_to(snapshot),
-        };
+        let work = Snapshot::of(model, state).work_from(before);
         let before = self.solved.as_ref().and_then(|solved| solved.state.as_ref());
         let held_before = before.map_or(0.0, |before| energy::held(model, &before.contacts));
         let held = energy::held(model, &state.contacts) - held_before;
@@ -372,24 +379,24 @@ impl Run {
         Some(Frame { step, position, model: model.clone(), state: state.clone() })
     }
 
-    /// What the last step of a history has come to; `None` before it is solved.
+    /// The end of a history; `None` before the last step is solved.
     pub(super) fn at_end(&self) -> Option<AtEnd<'_>> {
         self.reached().filter(|_| self.records.len() == self.steps.len())
     }
 
-    /// What the last step that was solved has come to; `None` before the first, and for a scene of one step.
+    /// The end of the last step that was solved; `None` before the first, and for a scene of one step.
     fn reached(&self) -> Option<AtEnd<'_>> {
-        let (solved, carry) = (self.solved.as_ref()?, self.carry.as_ref()?);
+        let (solved, reached) = (self.solved.as_ref()?, self.reached.as_ref()?);
         let dissipation = self.records.iter().map(|record| record.dissipation).sum();
-        Some(AtEnd { model: &carry.situation.model, state: solved.state.as_ref()?, dissipation })
+        Some(AtEnd { model: &reached.model, state: solved.state.as_ref()?, dissipation })
     }
 
     /// Everything that the next step needs; `None` before the first, and for a scene of one step.
     pub fn checkpoint(&self) -> Option<Checkpoint> {
-        let StepResult { info, state, .. } = self.solved.as_ref()?;
-        let (state, Carry { situation, basis, .. }) = (state.as_ref()?, self.carry.as_ref()?);
+        let StepResult { info, state, basis, .. } = self.solved.as_ref()?;
+        let slips = &self.reached.as_ref()?.slips;
         let (origin, records, info) = (self.origin.clone(), self.records.clone(), info.clone());
-        Some(Checkpoint::new(origin, records, info, state, &situation.slips, basis.as_ref()))
+        Some(Checkpoint::new(origin, records, info, state.as_ref()?, slips, basis.as_ref()))
     }
 
     /// The outcome: the state after the last step that was solved, and the reason why no other was.
@@ -408,7 +415,7 @@ impl Run {
             loads: self.loads,
             second_loading: self.second_loading,
         });
-        let model = self.carry.map_or(self.model, |carry| carry.situation.model);
+        let model = self.reached.map_or(self.model, |reached| reached.model);
         let build = || Sparse::new(&self.system).ok();
         let circulating = step.state.as_ref().and_then(|state| {
             let sparse = self.sparse.or_else(build)?;

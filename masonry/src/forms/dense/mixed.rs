@@ -19,21 +19,23 @@ use crate::system::System;
 pub(super) fn build(system: &System, reduction: &Reduction) -> Result<Form, lcp::Error> {
     let scale = Scale::of(reduction);
     let layout = Layout::of(system, scale);
-    let (m_f, rows) = (layout.friction.len(), layout.rows());
+    let rows = layout.rows();
     let g = system.rigid_rows();
     let rigid = g.ncols();
-    let bars = layout.bars;
-    let order = layout.points + 3 * m_f + 2 * rigid + 2 * bars;
+    let first = layout.points + 3 * layout.friction.len();
+    let bars = first + 2 * rigid;
+    let order = bars + 2 * layout.bars;
     let mut m = Mat::zeros(order, order);
     let mut q = vec![0.0; order];
 
-    // A row of the system acts on two rows of w, +y_t and -y_t, where it is tangential; and it takes
-    // its force from the same two places of z.
-    let places: Vec<Vec<(usize, f64)>> = (0..rows).map(|row| layout.terms(row, 1.0)).collect();
-    let f = reduction.flexibility(system);
-    let free = reduction.block_gaps(system, &vec![0.0; rows]);
+    // A tangential row of the system acts on two rows of w, +y_t and -y_t, and takes its force from the same two places of z;
+    // and so does a bar.
+    let of_rows = (0..rows).map(|row| layout.terms(row, 1.0));
+    let of_bars = (0..layout.bars).map(|k| vec![(bars + k, 1.0), (bars + layout.bars + k, -1.0)]);
+    let places: Vec<Vec<(usize, f64)>> = of_rows.chain(of_bars).collect();
+    let f = if system.gives_way() { reduction.flexibility.matrix() } else { Mat::new() };
+    let free = reduction.flexibility.gaps(&vec![0.0; places.len()]);
     let stiff = scale.force / scale.length;
-    let first = layout.points + 3 * m_f;
     let alpha = |k: usize| [(first + k, 1.0), (first + rigid + k, -1.0)];
     for (i, place) in places.iter().enumerate() {
         for &(p, sign) in place {
@@ -43,6 +45,10 @@ pub(super) fn build(system: &System, reduction: &Reduction) -> Result<Form, lcp:
                     m[(p, s)] = sign * other_sign * stiff * f[(i, j)];
                 }
             }
+        }
+    }
+    for (i, place) in places[..rows].iter().enumerate() {
+        for &(p, sign) in place {
             for k in 0..rigid {
                 for (s, alpha_sign) in alpha(k) {
                     m[(p, s)] = sign * alpha_sign * g[(i, k)];
@@ -54,24 +60,6 @@ pub(super) fn build(system: &System, reduction: &Reduction) -> Result<Form, lcp:
     for (k, resultant) in system.resultants().iter().enumerate() {
         for (p, sign) in alpha(k) {
             q[p] = -sign * resultant / scale.force;
-        }
-    }
-    if let Some(of_bars) = &reduction.bars {
-        let bar = |k: usize| [(order - 2 * bars + k, 1.0), (order - bars + k, -1.0)];
-        for (p, sign, k) in (0..bars).flat_map(|k| bar(k).map(|(p, sign)| (p, sign, k))) {
-            q[p] = sign * of_bars.free[k] / scale.length;
-            for j in 0..bars {
-                for (s, other_sign) in bar(j) {
-                    m[(p, s)] = sign * other_sign * stiff * of_bars.own[(k, j)];
-                }
-            }
-            for (i, place) in places.iter().enumerate() {
-                for &(s, other_sign) in place {
-                    let value = sign * other_sign * stiff * of_bars.on_rows[(k, i)];
-                    m[(p, s)] = value;
-                    m[(s, p)] = value;
-                }
-            }
         }
     }
     for (k, friction) in layout.friction.iter().enumerate() {

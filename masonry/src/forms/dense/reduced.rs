@@ -1,92 +1,132 @@
-//! The rows that the reduced forms share: equilibrium (3.18) and compatibility (3.23).
+//! The reduced forms: equilibrium (3.18) and compatibility (3.23) in the contact forces, with the law of friction in the
+//! variables of the paper (3.26), (3.27) or in those of Stewart and Trinkle.
 
 use faer::Mat;
 
-use super::{Equations, FormKind, Layout, Scale, Start};
+use super::{Equations, Form, FormKind, Layout, Scale, Start};
 use crate::forms::reduction::Reduction;
 use crate::system::System;
 
-/// A problem of the given order with one equation for every row of the system, at the same position:
-/// * rows `E`:  `A t_E - R^T y_I - y_E = -c`;
-/// * rows `I`:  `t_I - R t_E = t_0`.
-///
-/// The equations of the friction law, after these, are left to the form.
 pub(super) fn build(
     kind: FormKind,
     system: &System,
     reduction: &Reduction,
-    groups: usize,
-) -> Equations {
+) -> Result<Form, lcp::Error> {
     let scale = Scale::of(reduction);
     let layout = Layout::of(system, scale);
-    let order = layout.points + groups * layout.friction.len();
-    let (mut a, mut b) = (Mat::zeros(order, order), Mat::zeros(order, order));
-    let mut c = vec![0.0; order];
-    let (t_weight, y_weight) = kind.tangential_weights();
-    let force_terms = |rows: &[usize]| -> Vec<_> {
-        rows.iter().map(|row| layout.terms(*row, t_weight)).collect()
-    };
-    let gap_terms = |rows: &[usize]| -> Vec<_> {
-        rows.iter().map(|row| layout.terms(*row, y_weight)).collect()
-    };
-    let Reduction { isostatic, others, .. } = reduction;
-    let (t_i, t_e) = (force_terms(isostatic), force_terms(others));
-    let (y_i, y_e) = (gap_terms(isostatic), gap_terms(others));
+    let order = layout.points + kind.unknowns_per_friction() * layout.friction.len();
+    let (a, b) = (Mat::zeros(order, order), Mat::zeros(order, order));
+    let mut form = Equations { a, b, c: vec![0.0; order], scale, layout };
+    form.add_rows(kind, reduction);
+    for k in 0..form.layout.friction.len() {
+        if kind == FormKind::Coulomb { form.add_cone(k) } else { form.add_sliding(k) }
+    }
+    let starts = form.starts(kind, reduction);
+    form.into_form(kind, starts)
+}
 
-    let stiff = scale.force / scale.length;
-    for (j, row) in others.iter().enumerate() {
-        for (k, terms) in t_e.iter().enumerate().take(reduction.a.ncols()) {
-            add(&mut a, *row, terms, stiff * reduction.a[(j, k)]);
+impl Equations {
+    /// One equation for every row of the system, at the same position:
+    /// * rows `E`:  `A t_E - R^T y_I - y_E = -c`;
+    /// * rows `I`:  `t_I - R t_E = t_0`.
+    fn add_rows(&mut self, kind: FormKind, reduction: &Reduction) {
+        let Self { a, b, c, scale, layout } = self;
+        let (t_weight, y_weight) = kind.tangential_weights();
+        let terms = |rows: &[usize], weight: f64| -> Vec<_> {
+            rows.iter().map(|row| layout.terms(*row, weight)).collect()
+        };
+        let Reduction { isostatic, others, .. } = reduction;
+        let (t_i, t_e) = (terms(isostatic, t_weight), terms(others, t_weight));
+        let (y_i, y_e) = (terms(isostatic, y_weight), terms(others, y_weight));
+
+        let stiff = scale.force / scale.length;
+        for (j, row) in others.iter().enumerate() {
+            for (k, terms) in t_e.iter().enumerate().take(reduction.a.ncols()) {
+                add(a, *row, terms, stiff * reduction.a[(j, k)]);
+            }
+            for (k, terms) in y_i.iter().enumerate() {
+                add(b, *row, terms, -reduction.r[(k, j)]);
+            }
+            add(b, *row, &y_e[j], -1.0);
+            c[*row] = -reduction.c[j] / scale.length;
         }
-        for (k, terms) in y_i.iter().enumerate() {
-            add(&mut b, *row, terms, -reduction.r[(k, j)]);
+        for (i, row) in isostatic.iter().enumerate() {
+            add(a, *row, &t_i[i], 1.0);
+            for (k, terms) in t_e.iter().enumerate() {
+                add(a, *row, terms, -reduction.r[(i, k)]);
+            }
+            c[*row] = reduction.t0[i] / scale.force;
         }
-        add(&mut b, *row, &y_e[j], -1.0);
-        c[*row] = -reduction.c[j] / scale.length;
     }
-    for (i, row) in isostatic.iter().enumerate() {
-        add(&mut a, *row, &t_i[i], 1.0);
-        for (k, terms) in t_e.iter().enumerate() {
-            add(&mut a, *row, terms, -reduction.r[(i, k)]);
-        }
-        c[*row] = reduction.t0[i] / scale.force;
+
+    /// The definition of the cone, `p+ + p- = 2 (mu t_n + C_0)` (3.24).
+    fn add_cone(&mut self, k: usize) {
+        let Self { a, c, layout, .. } = self;
+        let (row, friction) = (layout.rows() + k, layout.friction[k]);
+        a[(row, friction.contact.index())] = -2.0 * friction.cone.mu;
+        c[row] = 2.0 * friction.cone.base;
+        a[(row, layout.pair(1, k))] = 1.0;
+        a[(row, layout.pair(2, k))] = 1.0;
     }
-    Equations { a, b, c, scale, layout }
+
+    /// `s+ + s- = 2 lambda` and `w = mu t_n + C_0 - b+ - b-`.
+    fn add_sliding(&mut self, k: usize) {
+        let Self { a, b, c, layout, .. } = self;
+        let [plus, minus, lambda] = [1, 2, 3].map(|group| layout.pair(group, k));
+        let (row, friction) = (layout.rows() + k, layout.friction[k]);
+        b[(row, plus)] = 1.0;
+        b[(row, minus)] = 1.0;
+        a[(row, lambda)] = -2.0;
+        let row = row + layout.friction.len();
+        b[(row, lambda)] = 1.0;
+        a[(row, friction.contact.index())] = -friction.cone.mu;
+        c[row] = friction.cone.base;
+        a[(row, plus)] = 1.0;
+        a[(row, minus)] = 1.0;
+    }
+
+    /// A start in which all points with friction slide forwards, along `t`, and one in which they slide backwards; the only
+    /// one if nothing has friction.
+    fn starts(&self, kind: FormKind, reduction: &Reduction) -> Vec<Start> {
+        let ways: &[_] = if self.layout.friction.is_empty() {
+            &[("isostatic normals", true)]
+        } else {
+            &[("all slide forwards", true), ("all slide backwards", false)]
+        };
+        let start = |&(name, forwards)| {
+            let t_basic = self.sliding(kind, reduction, forwards);
+            Start { name, t_basic }
+        };
+        ways.iter().map(start).collect()
+    }
+
+    /// Isostatic normals carry force, and all other normals are open. At a point with friction the basic variables are one of
+    /// `(y+, p-)`, `(y-, p+)`, or one of `(s+, b-, lambda)`, `(s-, b+, lambda)`: sliding. At an isostatic tangential row
+    /// equilibrium gives the force: both `p` are basic, or `(b+, s-, w)` or `(b-, s+, w)`.
+    fn sliding(&self, kind: FormKind, reduction: &Reduction, forwards: bool) -> Vec<bool> {
+        let layout = &self.layout;
+        let mut is_held = vec![false; layout.rows()];
+        reduction.isostatic.iter().for_each(|row| is_held[*row] = true);
+        let (normals, tangents) = is_held.split_at(layout.points);
+        let mut t_basic = normals.to_vec();
+        t_basic.resize(self.c.len(), false);
+        for (k, held) in tangents.iter().enumerate() {
+            let mut set = |group: usize, is_t: bool| t_basic[layout.pair(group, k)] = is_t;
+            if kind == FormKind::Coulomb {
+                set(1, *held || !forwards);
+                set(2, *held || forwards);
+            } else {
+                set(1, *held == forwards);
+                set(2, *held != forwards);
+                set(3, !held);
+            }
+        }
+        t_basic
+    }
 }
 
 fn add(matrix: &mut Mat<f64>, row: usize, terms: &[(usize, f64)], factor: f64) {
     for (column, weight) in terms {
         matrix[(row, *column)] += weight * factor;
     }
-}
-
-/// Whether the tangential row of every frictional point is isostatic.
-pub(super) fn tangents_in_i(form: &Equations, reduction: &Reduction) -> Vec<bool> {
-    let mut found = vec![false; form.layout.friction.len()];
-    for row in &reduction.isostatic {
-        if let Some(k) = row.checked_sub(form.layout.points) {
-            found[k] = true;
-        }
-    }
-    found
-}
-
-/// A start in which all points with friction slide forwards, along `t`, and one in which they slide backwards, each by the
-/// rule of its form; the only one there is if nothing has friction.
-pub(super) fn starts(form: &Equations, t_basic: impl Fn(bool) -> Vec<bool>) -> Vec<Start> {
-    if form.layout.friction.is_empty() {
-        return vec![Start { name: "isostatic normals", t_basic: t_basic(true) }];
-    }
-    let ways = [("all slide forwards", true), ("all slide backwards", false)];
-    ways.map(|(name, forwards)| Start { name, t_basic: t_basic(forwards) }).into()
-}
-
-/// A start in which isostatic normals carry force and all other normals are open; the tangential
-/// pairs, all still on their `y` side, are left to the form.
-pub(super) fn normal_start(form: &Equations, reduction: &Reduction) -> Vec<bool> {
-    let mut t_basic = vec![false; form.c.len()];
-    for row in reduction.isostatic.iter().filter(|row| **row < form.layout.points) {
-        t_basic[*row] = true;
-    }
-    t_basic
 }

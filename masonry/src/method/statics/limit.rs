@@ -8,7 +8,7 @@
 
 use lcp::{Observer, Status};
 
-use super::engine::Engine;
+use super::engine::Target;
 use super::program::Program;
 use super::sharpen;
 use crate::data::statics::{Extreme, Proof};
@@ -22,10 +22,6 @@ const BEYOND: [f64; 6] = [1e-9, 1e-8, 1e-7, 1e-6, 1e-5, 1e-4];
 pub const NEAR: f64 = 2e-5;
 /// Motions that are tried in any case: they may bring the bounds nearer still.
 const ALWAYS: usize = 2;
-
-/// The methods for linear programs, one after the other. Measured on a wall of 1000 bricks, where the first gives no proof: the
-/// second does, and the third does not.
-const LINEAR: [Engine; 3] = [Engine::Inside, Engine::Interior, Engine::Clarabel];
 
 /// The bounds of the largest factor.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -72,12 +68,12 @@ pub fn extreme(
     of_rows: &[f64],
     observer: &mut Observer<'_>,
 ) -> Result<Extreme, lcp::Error> {
-    let program = Program::of(system);
+    let program = Program::new(system, None);
     let gain = program.gain(of_rows);
     let problem = program.greatest(&gain)?;
     let mut best: Option<[f64; 2]> = None;
-    for engine in LINEAR {
-        let solution = engine.solve(&problem, observer)?;
+    for target in Target::ALL {
+        let solution = target.solve(&problem, observer)?;
         let (z, _) = problem.recover(&solution.t, &solution.y);
         let (motion, columns) = z.split_at(program.unknowns());
         let Some(forces) = program.admissible(columns) else { continue };
@@ -108,11 +104,11 @@ impl Growing<'_> {
         // In the program a factor of one makes what grows as large as what stays.
         let scale = self.size();
         let growth: Vec<f64> = self.growth.iter().map(|g| scale * g).collect();
-        let program = Program::growing(self.system, &growth).holding(self.held);
+        let program = Program::new(self.system, Some(&growth)).holding(self.held);
         let problem = program.greatest(&[(program.forces(), 1.0)])?;
         let mut bounds = Bounds { size: scale, ..Bounds::default() };
-        for engine in LINEAR {
-            let solution = engine.solve(&problem, observer)?;
+        for target in Target::ALL {
+            let solution = target.solve(&problem, observer)?;
             if solution.status == Status::Cancelled {
                 break;
             }

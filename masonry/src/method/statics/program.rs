@@ -33,16 +33,8 @@ pub(super) struct Program<'a> {
 }
 
 impl<'a> Program<'a> {
-    pub(super) fn of(system: &'a System) -> Self {
-        Self::with(system, None)
-    }
-
-    /// `growth` is what a factor of one adds to the loads, `N^T f` of all blocks \[N\].
-    pub(super) fn growing(system: &'a System, growth: &[f64]) -> Self {
-        Self::with(system, Some(growth))
-    }
-
-    fn with(system: &'a System, growth: Option<&[f64]>) -> Self {
+    /// `growth` is what a factor of one adds to the loads, `N^T f` of all blocks \[N\], if they grow.
+    pub(super) fn new(system: &'a System, growth: Option<&[f64]>) -> Self {
         let mut cones = vec![Cone::default(); system.points()];
         for friction in &system.friction {
             cones[friction.contact.index()] = friction.cone;
@@ -59,9 +51,9 @@ impl<'a> Program<'a> {
         let caps = system.friction.iter().enumerate();
         let caps = caps.filter_map(|(k, it)| Some((k, it.cone.cap()? / unit)));
         let constant: Vec<(usize, f64)> = caps.collect();
-        let sides = Sides::of(system);
+        let sides = sides(system);
         for (k, base) in &constant {
-            for (b, modes) in sides.of_row(system.points() + k) {
+            for (b, modes) in &sides[system.points() + k] {
                 (0..3).for_each(|j| loads[3 * b + j] -= base * modes[j]);
             }
         }
@@ -167,39 +159,15 @@ impl<'a> Program<'a> {
     }
 }
 
-/// The blocks that every row acts on.
-struct Sides<'a> {
-    starts: Vec<usize>,
-    /// Blocks, increasing, with the work of a force of one in their rigid motions, row by row.
-    list: Vec<(usize, &'a [f64; 3])>,
-}
+/// The blocks that every row acts on, increasing, with the work of a force of one in their rigid motions.
+type Sides<'a> = Vec<Vec<(usize, &'a [f64; 3])>>;
 
-impl<'a> Sides<'a> {
-    fn of(system: &'a System) -> Self {
-        let mut starts = vec![0; system.rows.len() + 1];
-        let rows = || {
-            system
-                .bodies
-                .iter()
-                .enumerate()
-                .flat_map(|(b, it)| it.rows.iter().map(move |row| (b, row)))
-        };
-        rows().for_each(|(_, row)| starts[row.row + 1] += 1);
-        for row in 0..system.rows.len() {
-            starts[row + 1] += starts[row];
-        }
-        let mut next = starts.clone();
-        let mut list = vec![(0, &[0.0; 3]); starts[system.rows.len()]];
-        for (b, row) in rows() {
-            list[next[row.row]] = (b, &row.modes);
-            next[row.row] += 1;
-        }
-        Self { starts, list }
+fn sides(system: &System) -> Sides<'_> {
+    let mut sides = vec![Vec::new(); system.rows.len()];
+    for (b, body) in system.bodies.iter().enumerate() {
+        body.rows.iter().for_each(|row| sides[row.row].push((b, &row.modes)));
     }
-
-    fn of_row(&self, row: usize) -> &[(usize, &'a [f64; 3])] {
-        &self.list[self.starts[row]..self.starts[row + 1]]
-    }
+    sides
 }
 
 /// The columns of `E` that are forces.
@@ -217,9 +185,9 @@ fn edges(
     let mut friction = system.friction.iter().enumerate().peekable();
     for (point, cone) in cones.iter().enumerate() {
         let tangent = friction.next_if(|(_, it)| it.contact.index() == point);
-        let normal = sides.of_row(point);
+        let normal = &sides[point];
         // A point that does not resist sliding has one edge, along its normal.
-        let tangent = tangent.map_or(normal, |(k, _)| sides.of_row(points + k));
+        let tangent = tangent.map_or(normal, |(k, _)| &sides[points + k]);
         for Edge { normal: n, tangential: t } in cone.edges() {
             let both = normal.iter().zip(tangent);
             let edge = both.map(|((b, normal), (_, tangent))| {
@@ -230,7 +198,7 @@ fn edges(
     }
     for (place, (k, _)) in constant.iter().enumerate() {
         let bound = (3 * system.bodies.len() + place, 1.0);
-        let along = sides.of_row(points + k).iter().map(|(b, tangent)| (*b, **tangent));
+        let along = sides[points + k].iter().map(|(b, tangent)| (*b, **tangent));
         columns.push(along.flat_map(on_blocks).chain([bound]));
         columns.push([bound]);
     }

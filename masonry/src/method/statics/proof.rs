@@ -10,7 +10,8 @@ use nalgebra::{Point2, Vector2};
 use crate::data::statics::Proof;
 use crate::geometry;
 use crate::ids::BlockId;
-use crate::model::{Anchor, Block, ContactPoint, Model};
+use crate::model::{Anchor, ContactPoint, Model};
+use crate::recover;
 use crate::system::rigid::Modes;
 
 /// Rounding errors of velocities, relative to the largest.
@@ -26,23 +27,12 @@ impl Proof {
         if !is_number || amplitudes.len() != 3 * model.blocks.len() {
             return None;
         }
-        let largest = |rates: &[Vec<Vector2<f64>>]| {
-            rates.iter().flatten().map(nalgebra::Matrix::amax).fold(0.0, f64::max)
-        };
-        let fastest = largest(&RigidMotion::new(model, amplitudes).rates(model));
+        let fastest = recover::largest(&recover::of_corners(model, amplitudes));
         if fastest <= 0.0 {
             return None;
         }
-        let scaled: Vec<f64> = amplitudes.iter().map(|it| it / fastest).collect();
-        [0.0, 1e-15, 1e-14, 1e-13, 1e-12].into_iter().find_map(|noise| {
-            // Amplitudes this small are zero: rounding errors would contradict each other.
-            let kept = scaled.iter().map(|it| if it.abs() <= noise { 0.0 } else { *it });
-            Self::checked(model, &kept.collect::<Vec<f64>>())
-        })
-    }
-
-    fn checked(model: &Model, amplitudes: &[f64]) -> Option<Self> {
-        let motion = RigidMotion::new(model, amplitudes);
+        let amplitudes: Vec<f64> = amplitudes.iter().map(|it| it / fastest).collect();
+        let motion = RigidMotion::new(model, &amplitudes);
         let (mut work, mut total) = motion.work(model);
         let mut error = ROUNDING;
         for contact in &model.contacts {
@@ -52,7 +42,7 @@ impl Proof {
             total += contact.law.cohesion + contact.law.tension;
         }
         (total > 0.0 && work > CLEAR * error * total).then(|| {
-            let rates = motion.rates(model);
+            let rates = recover::of_corners(model, &amplitudes);
             Self { rates, work: work / total, error }
         })
     }
@@ -72,14 +62,6 @@ impl<'a> RigidMotion<'a> {
     fn at(&self, block: BlockId, place: Point2<f64>) -> Vector2<f64> {
         let (modes, amplitudes) = &self.blocks[block.index()];
         modes.displacement(place, amplitudes)
-    }
-
-    fn rates(&self, model: &Model) -> Vec<Vec<Vector2<f64>>> {
-        let blocks = model.blocks.iter().enumerate();
-        let of_block = |(b, block): (usize, &Block)| {
-            block.corners.iter().map(|p| self.at(BlockId::new(b), *p)).collect()
-        };
-        blocks.map(of_block).collect()
     }
 
     /// The work of all loads, and the sum of their sizes.

@@ -1,210 +1,110 @@
 //! Whole films between blocks, with displacements of the nodes of the blocks as their only unknowns.
 
-use std::collections::HashMap;
+use faer::sparse::Triplet;
+use nalgebra::{Matrix2, Point2, RowVector3, Vector2, Vector3};
 
-use nalgebra::{Matrix2, Point2, RowVector3, Vector2};
-
+use super::AlmError;
 use crate::data::state::ContactStatus;
-use crate::geometry::SAME_PLACE;
 use crate::law::JointLaw;
 use crate::model::{Anchor, ContactPoint, Joint, Model};
-use crate::paper::film::change::{ChangeError, NodalChange};
 use crate::paper::film::law::FilmState;
 use crate::paper::film::pointwise::{FilmResponse, PointwiseFilm};
-use crate::paper::film::strip::{Strip, local_axes};
-use crate::paper::film::{FilmError, Matrix8, Vector8};
+use crate::paper::film::strip::Strip;
+use crate::paper::film::{Matrix8, Vector8};
+use crate::system::kinematics::shares;
 
-/// A part of a film on which both faces are straight however the nodes move.
+/// A part of a film on which both faces are straight however the nodes move: that of the contact points at its two Gauss
+/// points.
+///
+/// The ends follow the edges of the blocks. On straight edges this is the change of nodes (3.40)-(3.53), `u = T^T u'`.
 #[derive(Debug, Clone)]
 pub struct Segment {
     /// The joint of the model.
     pub joint: usize,
-    /// Its middle along the tangent, from the start of the joint \[m\].
-    middle: f64,
+    /// The middle, halfway between the faces.
+    middle: Point2<f64>,
     /// The strip with its law.
     pub film: PointwiseFilm,
     /// States of the Gauss points before the step.
     before: Vec<FilmState>,
-    /// What its ends are apart, in its own axes, before any block moves.
+    /// The distance of the ends, in axes of the segment, before any block moves.
     apart: Vector8,
-    /// The displacements of its ends, in its own axes, from those of the nodes it is attached to.
-    from_nodes: Matrix8,
-    /// The unknowns of `u` and `v` of every one of these nodes; none on a support.
-    unknowns: [Option<usize>; 8],
-}
-
-/// Why films could not be attached to the blocks.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum AttachError {
-    /// The film itself.
-    #[error(transparent)]
-    Film(#[from] FilmError),
-    /// The move of one of its nodes to those of a block.
-    #[error(transparent)]
-    Change(#[from] ChangeError),
-    /// A block without a mesh has no nodes.
-    #[error(
-        "block \"{block}\" is rigid, and films are attached to nodes: give it an elastic modulus"
-    )]
-    Rigid {
-        /// Its name.
-        block: String,
-    },
-    /// The law of the film has friction only.
-    #[error(
-        "the joint class \"{class}\" has cohesion or tensile strength, which films as strips do not have"
-    )]
-    Strength {
-        /// Its name.
-        class: String,
-    },
-    /// The law of the film has its own stiffness only.
-    #[error(
-        "the joint class \"{class}\" has a stiffness beside that of its mortar, which films as strips do not have"
-    )]
-    Stiffness {
-        /// Its name.
-        class: String,
-    },
-    /// Contact points and segments of films were divided in different ways.
-    #[error(
-        "the films have {points} contact points and {segments} segments, which should have two each: let nodes of \
-         both faces coincide, or lie farther apart"
-    )]
-    Points {
-        /// Contact points of strips.
-        points: usize,
-        /// Segments between nodes.
-        segments: usize,
-    },
+    /// From global axes to its own.
+    axes: Matrix2<f64>,
+    /// The nodes around each of its ends, by the unknowns of their `u`, with their shares; none on a support.
+    ends: [Vec<(usize, f64)>; 4],
 }
 
 /// The segments of all films of a model; `start` is the first unknown of every block.
-pub(super) fn attached(model: &Model, start: &[usize]) -> Result<Vec<Segment>, AttachError> {
-    let mut anchors = HashMap::new();
-    for contact in &model.contacts {
-        anchors.entry(contact.joint.index()).or_insert((contact.a, contact.b));
-    }
-    let mut segments = Vec::new();
-    for (joint, it) in model.joints.iter().enumerate() {
-        if let (Some(_), Some(&(a, b))) = (it.film, anchors.get(&joint)) {
-            of_joint(model, joint, it, [a, Some(b)], start, &mut segments)?;
-        }
-    }
-    start_from_points(model, &mut segments)?;
-    Ok(segments)
-}
-
-/// Gaps and slips of a model with contact points at the Gauss points of all segments; without such points films
-/// start closed and from rest.
-fn start_from_points(model: &Model, segments: &mut [Segment]) -> Result<(), AttachError> {
-    let in_strips = |it: &&ContactPoint| it.film.is_some_and(|film| film.stretch.is_some());
-    let points: Vec<&ContactPoint> = model.contacts.iter().filter(in_strips).collect();
-    let (points_found, segments_found) = (points.len(), segments.len());
-    if points_found > 0 && points_found != 2 * segments_found {
-        return Err(AttachError::Points { points: points_found, segments: segments_found });
-    }
-    for (segment, points) in segments.iter_mut().zip(points.chunks_exact(2)) {
-        segment.start_from(points[0], points[1]);
-    }
-    Ok(())
-}
-
-fn of_joint(
-    model: &Model,
-    index: usize,
-    joint: &Joint,
-    sides: [Option<Anchor>; 2],
-    start: &[usize],
-    segments: &mut Vec<Segment>,
-) -> Result<(), AttachError> {
-    let Some(film) = joint.film else { return Ok(()) };
-    let (tangent, length) = (joint.tangent(), joint.length());
-    let along = |p: &Point2<f64>| (p - joint.from).dot(&tangent);
-    // The joint may run either way along its tangent.
-    let [first, last] = [along(&joint.from), along(&joint.to)];
-    let [first, last] = [first.min(last), first.max(last)];
-    let [low, up] = [edge_of(model, sides[0], along)?, edge_of(model, sides[1], along)?];
-    let near = SAME_PLACE * length;
-    let mut ends: Vec<f64> =
-        [&low, &up].into_iter().flatten().flatten().map(|node| node.place).collect();
-    ends.retain(|x| *x > first + near && *x < last - near);
-    ends.extend([first, last]);
-    ends.sort_by(f64::total_cmp);
-    ends.dedup_by(|b, a| *b - *a < near);
-    let class = &model.joint_classes[joint.class];
-    if class.law.stiffness.is_some() {
-        return Err(AttachError::Stiffness { class: class.name.clone() });
-    }
-    if class.law != JointLaw::friction(class.law.mu) {
-        return Err(AttachError::Strength { class: class.name.clone() });
-    }
-    let mu = class.law.mu;
-    for pair in ends.windows(2) {
-        let (middle, length) = (0.5 * (pair[0] + pair[1]), pair[1] - pair[0]);
-        let mut faces = [[-0.5 * length, 0.5 * length]; 2];
-        let mut unknowns = [None; 8];
-        for (side, edge) in [&low, &up].into_iter().enumerate() {
-            let around = edge.as_ref().and_then(|edge| {
-                edge.windows(2).find(|ends| ends[0].place <= middle && middle <= ends[1].place)
-            });
-            let (Some(around), Some(anchor)) = (around, sides[side]) else { continue };
-            for (end, node) in around.iter().enumerate() {
-                faces[side][end] = node.place - middle;
-                let first = start[anchor.block.index()] + 2 * node.index;
-                let place = 4 * side + 2 * end;
-                (unknowns[place], unknowns[place + 1]) = (Some(first), Some(first + 1));
-            }
-        }
-        let name = || format!("the film of joint {index}");
-        let change = NodalChange::of_film(&name(), length, faces)?;
-        let both = change.matrix().kronecker(&Matrix2::identity());
-        let strip =
-            Strip::new(length, film.mortar.thickness, model.thickness, &film.mortar.material)?;
-        let film = PointwiseFilm::new(strip, mu, 1)?;
-        segments.push(Segment {
-            joint: index,
-            middle,
-            before: film.initial(),
-            apart: Vector8::zeros(),
-            film,
-            from_nodes: both.transpose() * local_axes(tangent),
-            unknowns,
-        });
-    }
-    Ok(())
-}
-
-/// A node on an edge.
-struct EdgeNode {
-    /// Along the tangent of the joint \[m\].
-    place: f64,
-    /// In the mesh of the block.
-    index: usize,
-}
-
-/// The nodes of an edge along the tangent; none of a support.
-fn edge_of(
-    model: &Model,
-    anchor: Option<Anchor>,
-    along: impl Fn(&Point2<f64>) -> f64,
-) -> Result<Option<Vec<EdgeNode>>, AttachError> {
-    let Some(anchor) = anchor else { return Ok(None) };
-    let block = &model.blocks[anchor.block.index()];
-    let Some(mesh) = &block.mesh else {
-        return Err(AttachError::Rigid { block: block.name.clone() });
-    };
-    let mut nodes: Vec<EdgeNode> = mesh
-        .edge_nodes(anchor.edge)
-        .into_iter()
-        .map(|index| EdgeNode { place: along(&mesh.nodes[index]), index })
-        .collect();
-    nodes.sort_by(|a, b| a.place.total_cmp(&b.place));
-    Ok(Some(nodes))
+pub(super) fn attached(model: &Model, start: &[usize]) -> Result<Vec<Segment>, AlmError> {
+    let in_films: Vec<&ContactPoint> =
+        model.contacts.iter().filter(|it| it.film.is_some()).collect();
+    in_films
+        .chunks(2)
+        .map(|points| match points {
+            [first, last] => Segment::of(model, first, last, start),
+            _ => Err(AlmError::Points),
+        })
+        .collect()
 }
 
 impl Segment {
+    /// The film between the start of what one point stands for and the end of what the next one does.
+    fn of(
+        model: &Model,
+        first: &ContactPoint,
+        last: &ContactPoint,
+        start: &[usize],
+    ) -> Result<Self, AlmError> {
+        let joint = &model.joints[first.joint.index()];
+        let class = &model.joint_classes[joint.class];
+        if class.law.stiffness.is_some() {
+            return Err(AlmError::Stiffness { class: class.name.clone() });
+        }
+        if class.law != JointLaw::friction(class.law.mu) {
+            return Err(AlmError::Strength { class: class.name.clone() });
+        }
+        let (Some(mortar), [Some(from), Some(to)]) =
+            (joint.film.map(|film| film.mortar), [first.film, last.film])
+        else {
+            return Err(AlmError::Points);
+        };
+        let has_pair = from.stretch.is_some() && first.joint == last.joint;
+        if !has_pair || from.b[1] != to.b[0] {
+            return Err(AlmError::Points);
+        }
+        let strip = Strip::new(
+            from.length + to.length,
+            mortar.thickness,
+            model.thickness,
+            &mortar.material,
+        )?;
+        let nodes = |end: Option<Anchor>| -> Result<Vec<(usize, f64)>, AlmError> {
+            let Some(anchor) = end else { return Ok(Vec::new()) };
+            let block = &model.blocks[anchor.block.index()];
+            if block.elasticity.is_none() {
+                return Err(AlmError::Rigid { block: block.name.clone() });
+            }
+            let first = start[anchor.block.index()];
+            Ok(shares(block, anchor).map(|(node, share)| (first + 2 * node, share)).to_vec())
+        };
+        let lower = [from.a.map(|face| face[0]), to.a.map(|face| face[1])];
+        let upper = [Some(from.b[0]), Some(to.b[1])];
+        let film = PointwiseFilm::new(strip, class.law.mu, 1)?;
+        let tangent = joint.tangent();
+        let mut segment = Self {
+            joint: first.joint.index(),
+            middle: nalgebra::center(&first.position, &last.position),
+            before: film.initial(),
+            apart: Vector8::zeros(),
+            film,
+            axes: Matrix2::new(tangent.x, tangent.y, -tangent.y, tangent.x),
+            ends: [nodes(lower[0])?, nodes(lower[1])?, nodes(upper[0])?, nodes(upper[1])?],
+        };
+        segment.start_from(first, last);
+        Ok(segment)
+    }
+
     /// Initial gaps and slips at its two Gauss points; gaps are linear between them.
     fn start_from(&mut self, first: &ContactPoint, last: &ContactPoint) {
         let strip = self.film.strip();
@@ -225,13 +125,19 @@ impl Segment {
         self.motion(u) + self.apart
     }
 
-    /// What the displacements of the blocks make of them.
+    /// Displacements of the ends by those of the blocks alone.
     pub(super) fn motion(&self, u: &[f64]) -> Vector8 {
-        let nodes = self.unknowns.map(|unknown| unknown.map_or(0.0, |j| u[j]));
-        self.from_nodes * Vector8::from(nodes)
+        let mut motion = Vector8::zeros();
+        for (end, nodes) in self.ends.iter().enumerate() {
+            let moved = nodes.iter().map(|&(j, share)| Vector2::new(u[j], u[j + 1]) * share);
+            motion
+                .fixed_rows_mut::<2>(2 * end)
+                .copy_from(&(self.axes * moved.sum::<Vector2<f64>>()));
+        }
+        motion
     }
 
-    /// What the law answers to displacements of all blocks.
+    /// The answer of the law to displacements of all blocks.
     pub fn respond(&self, u: &[f64]) -> FilmResponse {
         self.film.respond(&self.displacements(u), &self.before)
     }
@@ -239,40 +145,44 @@ impl Segment {
     /// The tangent with the friction of points that slip held: symmetric, and the same as long as no point
     /// changes its state.
     pub(super) fn matrix(&self, response: &FilmResponse) -> Matrix8 {
-        let strip = self.film.strip();
-        let points = self.film.places().zip(&response.points).map(|(x, point)| {
-            let b = strip.strain_matrix(x);
+        self.film.tangent(response.points.iter().map(|point| {
             let mut tangent = point.tangent;
             if point.contact == ContactStatus::Slip {
                 tangent.set_row(2, &RowVector3::zeros());
             }
-            b.transpose() * tangent * b * self.volume()
-        });
-        points.sum()
-    }
-
-    /// Volume of the film around a Gauss point \[m^3\].
-    fn volume(&self) -> f64 {
-        let strip = self.film.strip();
-        strip.length() * strip.wall() * strip.thickness() / self.before.len() as f64
+            tangent
+        }))
     }
 
     /// Adds forces at its ends to those of all unknowns.
     pub(super) fn add_force(&self, force: &Vector8, all: &mut [f64]) {
-        let force = self.from_nodes.transpose() * force;
-        for (unknown, value) in self.unknowns.iter().zip(force.iter()) {
-            if let Some(j) = unknown {
-                all[*j] += value;
+        for (end, nodes) in self.ends.iter().enumerate() {
+            let force = self.axes.transpose() * force.fixed_rows::<2>(2 * end);
+            for &(j, share) in nodes {
+                all[j] += share * force.x;
+                all[j + 1] += share * force.y;
             }
         }
     }
 
     /// The entries of a matrix at its ends among those of all unknowns.
-    pub(super) fn entries(&self, k: &Matrix8) -> impl Iterator<Item = (usize, usize, f64)> + '_ {
-        let k = self.from_nodes.transpose() * k * self.from_nodes;
-        (0..8).flat_map(move |i| {
-            (0..8).filter_map(move |j| Some((self.unknowns[i]?, self.unknowns[j]?, k[(i, j)])))
-        })
+    pub(super) fn entries(&self, k: &Matrix8) -> Vec<Triplet<usize, usize, f64>> {
+        let mut entries = Vec::new();
+        for (row, rows) in self.ends.iter().enumerate() {
+            for (column, columns) in self.ends.iter().enumerate() {
+                let part = k.fixed_view::<2, 2>(2 * row, 2 * column);
+                let part = self.axes.transpose() * part * self.axes;
+                for (&(i, w), &(j, v)) in
+                    rows.iter().flat_map(|row| columns.iter().map(move |column| (row, column)))
+                {
+                    let places = [(0, 0), (0, 1), (1, 0), (1, 1)];
+                    entries.extend(
+                        places.map(|(p, q)| Triplet::new(i + p, j + q, w * v * part[(p, q)])),
+                    );
+                }
+            }
+        }
+        entries
     }
 
     /// Places and forces, in global axes, of what holds the ends of the lower face.
@@ -282,19 +192,18 @@ impl Segment {
         response: &FilmResponse,
     ) -> [(Point2<f64>, Vector2<f64>); 2] {
         let (tangent, strip) = (joint.tangent(), self.film.strip());
-        let middle = joint.from + tangent * self.middle - joint.normal * (0.5 * strip.thickness());
+        let middle = self.middle - joint.normal * (0.5 * strip.thickness());
         [0, 1].map(|end| {
-            let force = response.force.fixed_rows::<2>(2 * end);
-            let place = middle + tangent * strip.ends()[end];
-            (place, tangent * force[0] + joint.normal * force[1])
+            let force = self.axes.transpose() * response.force.fixed_rows::<2>(2 * end);
+            (middle + tangent * strip.ends()[end], force)
         })
     }
 
     /// Elastic energy of the mortar for displacements of all blocks \[J\].
     pub fn energy(&self, u: &[f64]) -> f64 {
-        let strip = self.film.strip();
-        let compliance = strip.elasticity().try_inverse().unwrap_or_default();
+        let compliance = self.film.strip().elasticity().try_inverse().unwrap_or_default();
+        let density = |stress: &Vector3<f64>| 0.5 * stress.dot(&(compliance * stress));
         let points = self.respond(u).points;
-        points.iter().map(|p| 0.5 * p.stress.dot(&(compliance * p.stress)) * self.volume()).sum()
+        points.iter().map(|point| density(&point.stress) * self.film.volume()).sum()
     }
 }

@@ -74,7 +74,7 @@ impl<'a> Matrices<'a> {
             let t_t = at.t_t[i] - held * problem.initial_slips()[i];
             tangent[i].iter().for_each(|&(j, v)| u[(j, 0)] += v * t_t);
         }
-        // What the films take beyond their matrix, as friction that is held.
+        // Films take more than their matrix says, as friction that is held.
         let mut held = vec![0.0; n];
         for (film, response) in self.structure.films.iter().zip(films) {
             let by_matrix = film.matrix(response) * film.motion(&at.u);
@@ -148,8 +148,7 @@ fn assembled(
         }
     }
     for (film, response) in structure.films.iter().zip(films) {
-        let all = film.entries(&film.matrix(response));
-        entries.extend(all.map(|(i, j, value)| Triplet::new(i, j, value)));
+        entries.extend(film.entries(&film.matrix(response)));
     }
     let n = diagonal.len();
     SparseColMat::try_new_from_triplets(n, n, &entries).map_err(failed)

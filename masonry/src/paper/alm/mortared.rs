@@ -6,10 +6,10 @@
 
 use std::ops::ControlFlow;
 
-use lcp::Contact2d;
-use nalgebra::Vector2;
+use faer::sparse::{SparseColMat, Triplet};
+use lcp::{Contact2d, Matrix};
 
-use super::films::{AttachError, Segment, attached};
+use super::films::{Segment, attached};
 use super::structure::Structure;
 use super::{AlmError, Answer, Iteration, Settings, run};
 use crate::data::state::{Reaction, State};
@@ -17,33 +17,18 @@ use crate::forms::Sparse;
 use crate::model::{Body, Model};
 use crate::paper::film::pointwise::FilmResponse;
 use crate::recover;
-use crate::system::{System, SystemError};
-
-/// Why a wall could not be set up.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum MortaredError {
-    /// A film could not be attached to the blocks.
-    #[error(transparent)]
-    Attach(#[from] AttachError),
-    /// A block cannot be assembled.
-    #[error(transparent)]
-    System(#[from] SystemError),
-    /// The data of the model overflow.
-    #[error(transparent)]
-    Data(#[from] lcp::Error),
-}
+use crate::system::System;
 
 /// Blocks, the dry joints between them, and whole films in all other joints.
 ///
-/// Where the model has contact points at the Gauss points of strips, films start from their gaps and slips;
-/// else nothing has slipped before, and the answer is that of the static law: one step from rest.
+/// The films of the model are strips, and start from the gaps and slips of their contact points.
 ///
 /// ```
 /// use std::ops::ControlFlow;
+/// use masonry::model::joints::PointRule;
 /// use masonry::model::{Model, Plane};
 /// use masonry::paper::alm::{MortaredWall, Settings};
-/// use masonry::scene::{Block, Joint, Load, Material, Scene, Support};
+/// use masonry::scene::{Block, Films, Joint, Load, Material, Scene, Support};
 /// use masonry::units::Units;
 ///
 /// // A block of 0.4 m on a bed of 1 cm, pressed by 1 MPa.
@@ -56,7 +41,9 @@ pub enum MortaredError {
 ///     .joint("bed", Joint::mu(0.6).mortar(0.01, "mortar"))
 ///     .block(Block::new("block", "brick", corners).mesh([2, 2]))
 ///     .support(Support::new("ground", [0.0, 0.0], [0.4, 0.0], "bed"))
-///     .load(Load::pressure("top", [0.0, 0.31], [0.4, 0.31], 1e6));
+///     .load(Load::pressure("top", [0.0, 0.31], [0.4, 0.31], 1e6))
+///     .contact_points(PointRule::Gauss)
+///     .films(Films::Strips);
 /// let wall = MortaredWall::new(&Model::from_scene(&scene)?)?;
 /// let answer = wall.solve(&Settings::default(), &mut |_| ControlFlow::Continue(()))?;
 /// let state = wall.state(&answer);
@@ -74,7 +61,10 @@ pub struct MortaredWall {
     films: Vec<Segment>,
 }
 
-/// What a wall does under its loads.
+/// The part `[x_i, x_f]` of every segment that is in contact \[m\], in its own axis; `None` where it is open.
+pub type Parts = Vec<Option<[f64; 2]>>;
+
+/// The state of a wall under its loads.
 #[derive(Debug, Clone)]
 #[non_exhaustive]
 pub struct MortaredState {
@@ -96,11 +86,11 @@ pub struct MortaredState {
 }
 
 impl MortaredWall {
-    /// A wall of a model. How the model places contact points in films does not matter.
+    /// A wall of a model whose films are strips.
     ///
     /// # Errors
-    /// [`MortaredError`], for rigid blocks among others.
-    pub fn new(model: &Model) -> Result<Self, MortaredError> {
+    /// [`AlmError`], for rigid blocks among others.
+    pub fn new(model: &Model) -> Result<Self, AlmError> {
         let mut dry = model.clone();
         dry.contacts.retain(|contact| contact.film.is_none());
         let system = System::without_factors(&dry)?;
@@ -131,6 +121,37 @@ impl MortaredWall {
         run::solve(&Structure::new(&self.sparse.problem, &self.films)?, settings, observer)
     }
 
+    /// All films in contact along the whole of them.
+    pub fn bonded(&self) -> Parts {
+        self.films().iter().map(|film| Some(film.film.strip().ends())).collect()
+    }
+
+    /// The contact problem of blocks and dry joints with all films bonded on these parts.
+    ///
+    /// # Errors
+    /// [`lcp::Error::NotFinite`] when the data overflow.
+    ///
+    /// # Panics
+    /// If there is not one part for every segment.
+    pub fn with_parts(&self, parts: &Parts) -> Result<Contact2d, lcp::Error> {
+        assert_eq!(parts.len(), self.films().len(), "one part for every segment");
+        let dry = self.without_films();
+        let k = dry.stiffness().triplet_iter();
+        let mut entries: Vec<_> = k.map(|e| Triplet::new(e.row, e.col, *e.val)).collect();
+        for (film, part) in self.films().iter().zip(parts) {
+            let stiffness = film.film.strip().stiffness(part.unwrap_or([0.0; 2]));
+            // Rounding errors of the product are not symmetric.
+            let symmetric = 0.5 * (stiffness + stiffness.transpose());
+            entries.extend(film.entries(&symmetric));
+        }
+        let n = dry.displacements();
+        let k = SparseColMat::try_new_from_triplets(n, n, &entries)
+            .unwrap_or_else(|e| unreachable!("entries lie inside the matrix: {e:?}"));
+        let [normal, tangent] = [dry.normal(), dry.tangent()].map(|c| Matrix::from(c.clone()));
+        let (x_0, s_0) = (dry.initial_gaps().to_vec(), dry.initial_slips().to_vec());
+        Contact2d::new(k, dry.loads().to_vec(), normal, tangent, x_0, s_0, dry.mu().to_vec())
+    }
+
     /// The state that belongs to an answer.
     pub fn state(&self, answer: &Answer) -> MortaredState {
         let (u, found) = (&answer.state.u, &answer.state);
@@ -158,10 +179,9 @@ impl MortaredWall {
         for (film, response) in self.films.iter().zip(films) {
             let joint = &self.dry.joints[film.joint];
             let Body::Support(support) = joint.a else { continue };
-            // What the support does to the lower ends of the film.
+            // The support holds the lower ends of the film.
             for (place, force) in film.lower_forces(joint, response) {
                 let reaction = &mut list[support.index()];
-                let force: Vector2<f64> = force;
                 reaction.fx += force.x;
                 reaction.fy += force.y;
                 reaction.m += place.x * force.y - place.y * force.x;

@@ -1,50 +1,93 @@
 //! The augmented Lagrangian method as a route of scenes.
 
-use lcp::Error;
+use lcp::{ContactState, Status};
 
-use super::{AlmError, Settings, solve};
+use super::{AlmError, Answer, Iteration, MortaredWall, Settings, solve};
 use crate::data::info::SolveInfo;
 use crate::forms::Sparse;
-use crate::method::sparse;
-use crate::method::{Answer, Method, Observer, Request, RouteError, RouteProgress};
+use crate::method::{self, Event, Observer, Request, sparse};
+use crate::model::Model;
 use crate::scene::Route;
+use crate::system::System;
 
-/// The route on a sparse problem.
-#[derive(Debug, Clone, Copy)]
-pub struct Multipliers<'a> {
-    /// The problem.
-    pub sparse: &'a Sparse,
+/// The iteration on whole films goes on until it is better than the tolerance by this factor, because residuals of the problem
+/// with contact points in the films are measured row by row.
+const BETTER: f64 = 0.1;
+
+/// The route on a sparse problem without compliances of contacts ([`Sparse::with_free_faces`]).
+///
+/// # Errors
+/// As [`solve`].
+pub fn by_multipliers(
+    sparse: &Sparse,
+    request: &Request,
+    observer: Observer<'_>,
+) -> Result<method::Answer, AlmError> {
+    let problem = &sparse.problem;
+    let settings = Settings { tolerance: request.tolerance, ..Settings::default() };
+    let found = solve(problem, &settings, &mut told(observer))?;
+    Ok(answer(sparse, found, problem.displacements()))
 }
 
-impl Method for Multipliers<'_> {
-    fn solve(&self, request: &Request, observer: Observer<'_>) -> Result<Answer, RouteError> {
-        let problem = &self.sparse.problem;
-        let settings = Settings { tolerance: request.tolerance, ..Settings::default() };
-        let mut number = 0;
-        let answer = solve(problem, &settings, &mut |at| {
-            number += 1;
-            observer(RouteProgress::Iteration { number, residual: at.unbalance })
-        })?;
-        let info = SolveInfo {
-            iterations: answer.convergence.len(),
-            factorisations: answer.factorisations,
-            convergence: answer.convergence,
-            ..SolveInfo::new(Route::Alm, answer.status, answer.residuals)
-        };
-        let mut answer = sparse::answer(self.sparse, info, answer.state);
-        answer.info.order = problem.displacements();
-        Ok(answer)
+/// The route on a model with strips: the contact points in films take no part in the iterations, and have the answers of
+/// the films afterwards. `sparse` is the problem with these points, by which the answer is judged.
+///
+/// # Errors
+/// As [`MortaredWall::new`] and [`solve`].
+pub fn by_films(
+    model: &Model,
+    system: &System,
+    sparse: &Sparse,
+    request: &Request,
+    observer: Observer<'_>,
+) -> Result<method::Answer, AlmError> {
+    let wall = MortaredWall::new(model)?;
+    let settings = Settings { tolerance: BETTER * request.tolerance, ..Settings::default() };
+    let mut found = wall.solve(&settings, &mut told(observer))?;
+    let (t_n, t_t) = at_points(model, &wall, &found.state);
+    let tangential: Vec<f64> = system.friction.iter().map(|it| t_t[it.contact.index()]).collect();
+    // The list after the blocks is another one in the problem with points in the films.
+    let blocks = sparse.starts().last().copied().unwrap_or_default();
+    found.state = sparse.with_forces(system, found.state.u[..blocks].to_vec(), &t_n, &tangential);
+    found.residuals = sparse.problem.residuals(&found.state);
+    if found.status == Status::Solved && found.residuals.worst() > request.tolerance {
+        found.status = Status::AlmostSolved;
+    }
+    Ok(answer(sparse, found, wall.without_films().displacements()))
+}
+
+/// The normal and the tangential forces of all contact points, in films by what the films answer.
+fn at_points(model: &Model, wall: &MortaredWall, found: &ContactState) -> (Vec<f64>, Vec<f64>) {
+    let mut films = wall.films().iter().flat_map(|film| film.respond(&found.u).points);
+    let mut dry = found.t_n.iter().zip(&found.t_t);
+    let forces = model.contacts.iter().map(|contact| match contact.film {
+        // Adding zero turns a force of -0.0 into 0.0.
+        Some(_) => films.next().map_or((0.0, 0.0), |point| {
+            (0.0 - point.stress.y * contact.weight, 0.0 - point.stress.z * contact.weight)
+        }),
+        None => dry.next().map_or((0.0, 0.0), |(t_n, t_t)| (*t_n, *t_t)),
+    });
+    forces.unzip()
+}
+
+/// The progress of a route by that of the iterations.
+fn told(observer: Observer<'_>) -> impl FnMut(&Iteration) -> std::ops::ControlFlow<()> {
+    let mut number = 0;
+    move |at| {
+        number += 1;
+        observer(Event::Iteration { number, residual: at.unbalance })
     }
 }
 
-impl From<AlmError> for RouteError {
-    fn from(error: AlmError) -> Self {
-        match error {
-            AlmError::Tolerance { tolerance } => {
-                Error::Setting { name: "tolerance", value: tolerance, range: "in (0, 1)" }.into()
-            }
-            AlmError::Data(error) => error.into(),
-            other => Self::NotTreated { route: Route::Alm, reason: other.to_string() },
-        }
-    }
+/// The answer of the route, with the order of its linear systems.
+fn answer(sparse: &Sparse, found: Answer, order: usize) -> method::Answer {
+    let info = SolveInfo {
+        iterations: found.convergence.len(),
+        factorisations: found.factorisations,
+        convergence: found.convergence,
+        ..SolveInfo::new(Route::Alm, found.status, found.residuals)
+    };
+    let mut answer = sparse::answer(sparse, info, found.state);
+    answer.info.order = order;
+    answer
 }

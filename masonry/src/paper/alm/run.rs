@@ -92,7 +92,7 @@ impl Iterations<'_> {
         let mut taken = structure.taken(&at.u);
         let mut contacts = vec![ContactStatus::Stick; problem.points()];
         let mut factors = None;
-        // Of the measure and of the distance that is left.
+        // The least measure, and the least distance that is left.
         let (mut least, mut since) = ([f64::INFINITY; 2], 0);
         let [mut motion, mut pull] = structure.units().map(Contraction::new);
         while self.convergence.len() < settings.max_iterations {

@@ -1,4 +1,4 @@
-//! What stays the same through all iterations: loads, rows of the contacts, films, and measures by them.
+//! The data that stay the same through all iterations: loads, rows of the contacts, films, and measures by them.
 
 use faer::sparse::SparseColMat;
 use lcp::{Contact2d, ContactState, Residuals};
@@ -9,7 +9,7 @@ use crate::law::Cone;
 use crate::paper::film::pointwise::FilmResponse;
 use crate::rounding::{cleared, largest};
 
-/// What blocks and films do for displacements of the blocks.
+/// The response of blocks and films to displacements of the blocks.
 pub(super) struct Taken {
     /// The forces of the blocks, `K u`.
     pub(super) blocks: Vec<f64>,
@@ -70,7 +70,7 @@ impl<'a> Structure<'a> {
         if compliance > 0.0 { 1.0 / compliance } else { 0.0 }
     }
 
-    /// What blocks and films take of the loads.
+    /// The part of the loads that blocks and films take.
     pub(super) fn taken(&self, u: &[f64]) -> Taken {
         let mut blocks = vec![0.0; u.len()];
         for entry in self.problem.stiffness().triplet_iter() {
@@ -84,7 +84,7 @@ impl<'a> Structure<'a> {
         Taken { blocks, films, all }
     }
 
-    /// What loads and contact forces leave over, `f + C^T t - K u` without films.
+    /// The rest of loads and contact forces, `f + C^T t - K u` without films.
     pub(super) fn rest(&self, t_n: &[f64], t_t: &[f64], taken: &Taken) -> Vec<f64> {
         let loads = self.problem.loads().iter();
         let mut rest: Vec<f64> = loads.zip(&taken.all).map(|(f, taken)| f - taken).collect();
@@ -133,7 +133,7 @@ impl<'a> Structure<'a> {
         let deformed = taken.blocks.iter().zip(&self.diagonal).map(|(force, k)| force / k);
         let length = deformed.fold(self.way, |max, d| max.max(d.abs()));
         let force = largest(t_n);
-        // What rounding leaves of a gap between bodies that moved far is no gap.
+        // A rounding error between bodies that moved far is no gap.
         let rounding = |row: &[(usize, f64)], first: f64| {
             let terms = row.iter().map(|&(j, v)| (v * u[j]).abs());
             ROUNDING * terms.fold(first.abs(), f64::max)

@@ -1,12 +1,13 @@
-//! Internal forces and tangent of a film with the law at its Gauss points.
+//! Forces and tangent of a film with the law at its Gauss points.
 //!
 //! The strip is divided into equal parts with two Gauss points each. Where all of a part sticks, or all of
 //! it is open, its integral is exact; a boundary between states inside a part costs an error of
 //! the order of the square of its length.
 
+use nalgebra::Matrix3;
+
 use super::law::{FilmLaw, FilmState, PointResponse};
 use super::strip::Strip;
-use super::updating::Updating;
 use super::{FilmError, Matrix8, Vector8};
 use crate::element::quadrature::GAUSS_2;
 
@@ -23,22 +24,10 @@ pub struct PointwiseFilm {
 pub struct FilmResponse {
     /// Internal forces \[N\], conjugate to the displacements: what the nodes must apply to the film.
     pub force: Vector8,
-    /// Derivative of the forces by the displacements \[N/m\]; not symmetric where points slip.
-    pub tangent: Matrix8,
     /// The Gauss points, along `x`.
     pub points: Vec<PointResponse>,
-    /// The part `[x_i, x_f]` \[m\] on which the faces press: `sigma_y` changes sign at its inner ends. `None`
-    /// when the film is open everywhere.
-    pub contact_part: Option<[f64; 2]>,
     /// Energy dissipated in this step \[J\], never negative.
     pub dissipation: f64,
-}
-
-impl FilmResponse {
-    /// The states after this step, for the next one.
-    pub fn states(&self) -> Vec<FilmState> {
-        self.points.iter().map(|point| point.state).collect()
-    }
 }
 
 impl PointwiseFilm {
@@ -77,26 +66,39 @@ impl PointwiseFilm {
         vec![FilmState::default(); 2 * self.parts]
     }
 
-    /// Forces and tangent for displacements of the nodes in local axes, from the states before the step.
+    /// Volume of the film around a Gauss point \[m^3\].
+    pub fn volume(&self) -> f64 {
+        let area = 0.5 * self.strip.length() / self.parts as f64 * self.strip.wall();
+        area * self.strip.thickness()
+    }
+
+    /// The integral of `B^T D B` \[N/m\] with a matrix `D` \[Pa\] at every Gauss point: the derivative of the forces by the
+    /// displacements for the tangents of the points, which are not symmetric where they slip.
+    pub fn tangent(&self, d: impl IntoIterator<Item = Matrix3<f64>>) -> Matrix8 {
+        let points = self.places().zip(d).map(|(x, d)| {
+            let b = self.strip.strain_matrix(x);
+            b.transpose() * d * b * self.volume()
+        });
+        points.sum()
+    }
+
+    /// Forces for displacements of the nodes in local axes, from the states before the step.
     ///
     /// # Panics
     /// If there is not one state per Gauss point.
     pub fn respond(&self, displacements: &Vector8, before: &[FilmState]) -> FilmResponse {
         assert_eq!(before.len(), 2 * self.parts, "one state per Gauss point");
-        let area = 0.5 * self.strip.length() / self.parts as f64 * self.strip.wall();
-        let volume = area * self.strip.thickness();
+        let volume = self.volume();
+        let area = volume / self.strip.thickness();
         let mut response = FilmResponse {
             force: Vector8::zeros(),
-            tangent: Matrix8::zeros(),
             points: Vec::with_capacity(before.len()),
-            contact_part: Updating::Pointwise.contact_part(&self.strip, displacements),
             dissipation: 0.0,
         };
         for (x, state) in self.places().zip(before) {
             let b = self.strip.strain_matrix(x);
             let point = self.law.respond(b * displacements, *state);
             response.force += b.transpose() * point.stress * volume;
-            response.tangent += b.transpose() * point.tangent * b * volume;
             response.dissipation += point.dissipation * area;
             response.points.push(point);
         }

@@ -12,7 +12,7 @@
 //! Every motion of the whole strip as a rigid body is free of strain. That takes faces at their
 //! real distance `t_y`: between faces drawn on one line a rotation would strain the strip.
 
-use nalgebra::{Matrix3, Vector2, Vector3};
+use nalgebra::{Matrix3, Vector3};
 
 use super::{FilmError, FilmMaterial, Matrix8, Vector8, positive};
 use crate::element::quad4::StrainMatrix;
@@ -86,7 +86,16 @@ impl Strip {
 
     /// The matrix `B(x)` (3.38): `(eps_x, eps_y, gamma) = B u`.
     pub fn strain_matrix(&self, x: f64) -> StrainMatrix {
-        across(self.shape(x), self.thickness) + along() / self.length
+        let [minus, plus] = self.shape(x);
+        let mut b = StrainMatrix::zeros();
+        for (node, phi) in [-minus, -plus, minus, plus].into_iter().enumerate() {
+            let slope = if node % 2 == 0 { -0.5 } else { 0.5 } / self.length;
+            b[(0, 2 * node)] = slope;
+            b[(1, 2 * node + 1)] = phi / self.thickness;
+            b[(2, 2 * node)] = phi / self.thickness;
+            b[(2, 2 * node + 1)] = slope;
+        }
+        b
     }
 
     /// Stress `(sigma_x, sigma_y, tau)` \[Pa\] at `x` of the bonded strip, which also carries tension.
@@ -109,49 +118,4 @@ impl Strip {
             .iter()
             .sum()
     }
-}
-
-/// The strains by which the faces move against each other, for shape functions of a face \[1/m\].
-pub(super) fn across([minus, plus]: [f64; 2], thickness: f64) -> StrainMatrix {
-    let mut b = StrainMatrix::zeros();
-    for (node, weight) in [-minus, -plus, minus, plus].into_iter().enumerate() {
-        b[(1, 2 * node + 1)] = weight / thickness;
-        b[(2, 2 * node)] = weight / thickness;
-    }
-    b
-}
-
-/// `l` times the strains by which the faces stretch and turn, mean of both faces \[-\].
-pub(super) fn along() -> StrainMatrix {
-    let mut b = StrainMatrix::zeros();
-    for (node, weight) in [-0.5, 0.5, -0.5, 0.5].into_iter().enumerate() {
-        b[(0, 2 * node)] = weight;
-        b[(2, 2 * node + 1)] = weight;
-    }
-    b
-}
-
-/// The matrix `Q` that turns global nodal displacements into local ones, `u = Q u_global`, for the
-/// unit tangent of an inclined joint in global axes.
-///
-/// Forces come back as `Q^T f`, stiffnesses as `Q^T K Q`.
-///
-/// ```
-/// use masonry::paper::film::{Vector8, strip::local_axes};
-/// use nalgebra::Vector2;
-/// // A head joint with the normal to the right has its tangent downwards.
-/// let q = local_axes(Vector2::new(0.0, -1.0));
-/// let to_the_right = Vector8::from([1.0, 0.0, 1.0, 0.0, 1.0, 0.0, 1.0, 0.0]);
-/// let across = Vector8::from([0.0, 1.0, 0.0, 1.0, 0.0, 1.0, 0.0, 1.0]);
-/// assert_eq!(q * to_the_right, across);
-/// ```
-pub fn local_axes(tangent: Vector2<f64>) -> Matrix8 {
-    let mut q = Matrix8::zeros();
-    for k in (0..8).step_by(2) {
-        q[(k, k)] = tangent.x;
-        q[(k, k + 1)] = tangent.y;
-        q[(k + 1, k)] = -tangent.y;
-        q[(k + 1, k + 1)] = tangent.x;
-    }
-    q
 }

@@ -1,11 +1,11 @@
 //! Gap, slip and force of a contact point, against the law of its joint.
 
 use super::bodies::Bodies;
-use super::kinematics::{displaced, terms};
 use super::{Lengths, larger};
 use crate::data::state::{ContactState, State};
 use crate::law::PointLaw;
 use crate::model::{ContactPoint, Model};
+use crate::recover;
 
 /// Gap, slip and forces of a contact point, with the data to which they are compared.
 pub(super) struct Pair {
@@ -31,13 +31,10 @@ impl Pair {
     ) -> Self {
         // Faces that are pressed come nearer than they were, which is no gap below zero.
         let [c_n, c_t] = contact.gives();
-        let mut gap = contact.gap + c_n * it.t_n;
-        let mut slip = contact.slip + c_t * it.t_t;
-        for term in terms(model, contact) {
-            let u = displaced(model, state, term.anchor);
-            gap += u.dot(&term.normal);
-            slip += u.dot(&term.tangent);
-        }
+        let joint = &model.joints[contact.joint.index()];
+        let apart = recover::relative_displacement(model, &state.displacements, contact);
+        let gap = contact.gap + c_n * it.t_n + apart.dot(&joint.normal);
+        let slip = contact.slip + c_t * it.t_t + apart.dot(&joint.tangent());
         let blocks = [Some(contact.b), contact.a].into_iter().flatten();
         Self {
             gap,

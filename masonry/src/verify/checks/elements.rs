@@ -2,12 +2,13 @@
 
 use nalgebra::Vector2;
 
-use super::kinematics::{displaced, shares, stretched, terms};
 use super::{known, larger, relative};
 use crate::data::state::State;
 use crate::element::quad4;
 use crate::material::constitutive;
-use crate::model::{Anchor, Block, ContactPoint, Model};
+use crate::model::{Anchor, Block, Model};
+use crate::recover;
+use crate::system::kinematics::{shares, stretched, terms};
 use crate::system::nodal_loads;
 
 /// The terms at a node: eight of each of four elements.
@@ -97,21 +98,14 @@ fn outside(model: &Model, state: &State) -> Vec<Vec<Nodal>> {
         for term in terms(model, contact) {
             add(term.anchor, term.normal * it.t_n + term.tangent * it.t_t);
         }
-        let pull = bar(model, state, contact);
+        // The bar that a part of a strip is always acts.
+        let stiffness = contact.film.and_then(|film| film.stretch).map_or(0.0, |it| it.stiffness);
+        let pull = stiffness * recover::film_elongation(model, &state.displacements, contact);
         for (anchor, along) in stretched(model, contact) {
             add(anchor, along * -pull);
         }
     }
     list
-}
-
-/// The force of the bar that a part of a strip is, which always acts \[N\].
-fn bar(model: &Model, state: &State, contact: &ContactPoint) -> f64 {
-    let Some(stretch) = contact.film.and_then(|film| film.stretch) else { return 0.0 };
-    let ends = stretched(model, contact).into_iter();
-    let elongation: f64 =
-        ends.map(|(anchor, along)| displaced(model, state, anchor).dot(&along)).sum();
-    stretch.stiffness * elongation
 }
 
 /// The forces of the elements on the nodes of a block.

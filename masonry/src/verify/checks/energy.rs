@@ -1,14 +1,14 @@
-//! What loads do, against what is stored and dissipated; and whether rigid blocks are rigid.
+//! The work of loads against the energy that is stored and dissipated; and the shape of rigid blocks.
 
-use nalgebra::{Point2, Vector2};
+use nalgebra::Vector2;
 
 use super::contact::Pair;
-use super::kinematics::displaced;
 use super::{larger, relative};
 use crate::data::state::State;
-use crate::geometry;
 use crate::model::{Block, Model};
+use crate::recover;
 use crate::system::nodal_loads;
+use crate::system::rigid::Modes;
 
 /// `f.u + t.y = 2 U + t.x`, and friction that does work, relative to all terms.
 pub(super) fn error(model: &Model, state: &State, pairs: &[Pair]) -> f64 {
@@ -22,7 +22,9 @@ pub(super) fn error(model: &Model, state: &State, pairs: &[Pair]) -> f64 {
     // The work of contact forces on both sides cancels, but not its rounding errors.
     for (contact, it) in model.contacts.iter().zip(&state.contacts) {
         let sides = [Some(contact.b), contact.a].into_iter().flatten();
-        let moved: f64 = sides.map(|anchor| displaced(model, state, anchor).norm()).sum();
+        let moved: f64 = sides
+            .map(|anchor| recover::displacement_at(model, &state.displacements, anchor).norm())
+            .sum();
         size += it.t_n.hypot(it.t_t) * moved;
     }
     let (mut rest, mut dissipated) = (work - 2.0 * state.strain_energy, 0.0);
@@ -42,28 +44,10 @@ fn loads(model: &Model, block: &Block, u: &[Vector2<f64>]) -> Vec<[Vector2<f64>;
         let loads = nodal_loads(model, block, mesh);
         return loads.chunks(2).zip(u).map(|(f, u)| [Vector2::new(f[0], f[1]), *u]).collect();
     }
-    let motion = BlockMotion::of(block, u);
+    let modes = Modes::of(&block.corners);
+    let motion = modes.amplitudes(&block.corners, u);
     let forces = model.forces_on(block).into_iter();
-    forces.map(|(place, force)| [force, motion.at(block, place)]).collect()
-}
-
-/// The rigid motion of a block that its first and third corner make.
-struct BlockMotion {
-    shift: Vector2<f64>,
-    turn: f64,
-}
-
-impl BlockMotion {
-    fn of(block: &Block, u: &[Vector2<f64>]) -> Self {
-        let to = block.corners[2] - block.corners[0];
-        let turn = geometry::cross(to, u[2] - u[0]) / to.norm_squared();
-        Self { shift: u[0], turn }
-    }
-
-    fn at(&self, block: &Block, place: Point2<f64>) -> Vector2<f64> {
-        let arm = place - block.corners[0];
-        self.shift + Vector2::new(-arm.y, arm.x) * self.turn
-    }
+    forces.map(|(place, force)| [force, modes.displacement(place, &motion)]).collect()
 }
 
 /// How much rigid blocks change their shape, relative to their largest displacement.
@@ -71,10 +55,8 @@ pub(super) fn deformation(model: &Model, state: &State) -> f64 {
     let blocks = model.blocks.iter().zip(&state.displacements);
     let rigid = blocks.filter(|(block, _)| block.mesh.is_none());
     let of_block = |(block, u): (&Block, &Vec<Vector2<f64>>)| {
-        let motion = BlockMotion::of(block, u);
-        let places = block.corners.iter().zip(u);
-        let off = places.map(|(place, u)| (u - motion.at(block, *place)).norm());
-        relative(off.fold(0.0, larger), u.iter().map(Vector2::norm).fold(0.0, larger))
+        let (_, off) = Modes::of(&block.corners).nearest(&block.corners, u);
+        relative(off, u.iter().map(Vector2::norm).fold(0.0, larger))
     };
     rigid.map(of_block).fold(0.0, larger)
 }

@@ -60,7 +60,7 @@ pub(super) fn of(
     }
 }
 
-/// What was found in the steps of a history, and what of it was checked.
+/// The findings in the steps of a history, as far as they were checked.
 fn in_all_steps(history: &History) -> String {
     let steps = history.steps;
     let stands = match history.steps_against_law() {
@@ -123,7 +123,7 @@ fn undecided(known: &Findings<'_>, evidence: Evidence, movement: Option<Drift>) 
     }
 }
 
-/// What was tried, and how near it came.
+/// The routes that were tried, and how near they came.
 fn tried(known: &Findings<'_>) -> String {
     let info = &known.step.info;
     let mut names: Vec<&str> = info.routes.iter().map(|end| end.route.name()).collect();

@@ -4,7 +4,9 @@
 #![allow(unreachable_pub, reason = "a module of helpers, compiled into each test binary")]
 
 pub mod enumerate;
+pub mod nodal_change;
 pub mod reference;
+pub mod updating;
 pub mod walls;
 
 use masonry::ids::LoadId;

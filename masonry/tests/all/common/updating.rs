@@ -1,13 +1,14 @@
-//! The part of a film in contact, by the law or as printed in the paper, and whether the updates converge.
+//! The part of a film in contact, by the law or as printed in the paper, and whether the updates converge: an experiment, since
+//! those of the paper do not.
 //!
 //! As printed, the film is bonded on a part `[x_i, x_f]`, the structure is solved with the
-//! [stiffness](super::strip::Strip::stiffness) of that part, and the part is updated from the displacements: it is
+//! [stiffness](Strip::stiffness) of that part, and the part is updated from the displacements: it is
 //! removed where the faces separate. There is no sliding. A removed point may carry `sigma_x` and `tau`, so forces
-//! jump at zero opening, and the updates may cycle. [`UpdateHistory`] detects this. The [law](super::law) has no such
+//! jump at zero opening, and the updates may cycle. [`UpdateHistory`] detects this. The law has no such
 //! jump.
 
-use super::Vector8;
-use super::strip::Strip;
+use masonry::paper::film::Vector8;
+use masonry::paper::film::strip::Strip;
 
 /// How the part of a film in contact follows from the displacements of its nodes.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
@@ -24,18 +25,6 @@ impl Updating {
     /// the film is open everywhere.
     ///
     /// What decides is linear in `x`, so the part is exact, and one part. A film at rest is in contact.
-    ///
-    /// ```
-    /// use masonry::paper::film::{FilmMaterial, Vector8, strip::Strip, updating::Updating};
-    /// use masonry::model::{Elasticity, Plane};
-    ///
-    /// let elasticity = Elasticity { young: 1e9, poisson: 0.2 };
-    /// let strip = Strip::new(2.0, 0.01, 0.1, &FilmMaterial { elasticity, plane: Plane::Stress })?;
-    /// // The upper face goes down at the left and up, three times as far, at the right.
-    /// let u = Vector8::from([0.0, 0.0, 0.0, 0.0, 0.0, -1e-6, 0.0, 3e-6]);
-    /// assert_eq!(Updating::Printed.contact_part(&strip, &u), Some([-1.0, -0.5]));
-    /// # Ok::<(), masonry::paper::film::FilmError>(())
-    /// ```
     pub fn contact_part(self, strip: &Strip, displacements: &Vector8) -> Option<[f64; 2]> {
         let [left, right] = strip.ends();
         let parting = |x: f64| match self {
@@ -76,14 +65,6 @@ pub enum Settling {
 /// The update depends on the parts alone, so if parts are repeated, the sequence cycles: the first repetition is
 /// detected. A converging sequence that oscillates is distinguished from a cycle only by `tolerance`, which should
 /// therefore be small.
-///
-/// ```
-/// use masonry::paper::film::updating::{Settling, UpdateHistory};
-/// let mut history = UpdateHistory::new(vec![2.0], 1e-9);
-/// assert_eq!(history.record(&[Some([-1.0, 1.0])]), Settling::Moving);
-/// assert_eq!(history.record(&[None]), Settling::Moving);
-/// assert_eq!(history.record(&[Some([-1.0, 1.0])]), Settling::Cycle { period: 2 });
-/// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct UpdateHistory {
     lengths: Vec<f64>,

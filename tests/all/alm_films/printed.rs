@@ -1,18 +1,14 @@
 //! Films as the paper prints them: bonded where they are in contact, and brought up to date after every solution.
 //!
 //! If the parts of the films are given, all films are elastic, and the structure is a contact problem of its blocks
-//! and dry joints. Its displacements give new parts. That need not end: see [`updating`](crate::paper::film::updating).
+//! and dry joints. Its displacements give new parts. That need not end.
 
 use std::ops::ControlFlow;
 
-use faer::sparse::{SparseColMat, Triplet};
-use lcp::{Contact2d, Matrix, Status};
+use lcp::Status;
+use masonry::paper::alm::{Answer, MortaredWall, Parts, Settings, solve};
 
-use super::{AlmError, Answer, MortaredWall, Settings, solve};
-use crate::paper::film::updating::{Settling, UpdateHistory, Updating};
-
-/// The part `[x_i, x_f]` of every segment that is in contact \[m\], in its own axis; `None` where it is open.
-pub type Parts = Vec<Option<[f64; 2]>>;
+use super::updating::{Settling, UpdateHistory, Updating};
 
 /// How parts in contact are brought up to date.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -36,7 +32,6 @@ impl Default for Updates {
 
 /// What the updates came to.
 #[derive(Debug, Clone)]
-#[non_exhaustive]
 pub struct Updated {
     /// `Solved` only where the parts settled; `Cycling` where they came back, `IterationLimit` where they
     /// still moved at the last update, or why a solution between two updates failed.
@@ -52,60 +47,19 @@ pub struct Updated {
     pub moved: Vec<f64>,
 }
 
-impl MortaredWall {
-    /// All films in contact along the whole of them.
-    pub fn bonded(&self) -> Parts {
-        self.films().iter().map(|film| Some(film.film.strip().ends())).collect()
-    }
-
-    /// The contact problem of blocks and dry joints with all films bonded on these parts.
-    ///
-    /// # Errors
-    /// [`lcp::Error::NotFinite`] when the data overflow.
-    ///
-    /// # Panics
-    /// If there is not one part for every segment.
-    pub fn with_parts(&self, parts: &Parts) -> Result<Contact2d, lcp::Error> {
-        assert_eq!(parts.len(), self.films().len(), "one part for every segment");
-        let dry = self.without_films();
-        let k = dry.stiffness().triplet_iter();
-        let mut entries: Vec<_> = k.map(|e| Triplet::new(e.row, e.col, *e.val)).collect();
-        for (film, part) in self.films().iter().zip(parts) {
-            let stiffness = film.film.strip().stiffness(part.unwrap_or([0.0; 2]));
-            // Rounding errors of the product are not symmetric.
-            let symmetric = 0.5 * (stiffness + stiffness.transpose());
-            entries.extend(film.entries(&symmetric).map(|(i, j, value)| Triplet::new(i, j, value)));
-        }
-        let n = dry.displacements();
-        let k = SparseColMat::try_new_from_triplets(n, n, &entries)
-            .unwrap_or_else(|e| unreachable!("entries lie inside the matrix: {e:?}"));
-        let [normal, tangent] = [dry.normal(), dry.tangent()].map(|c| Matrix::from(c.clone()));
-        let (x_0, s_0) = (dry.initial_gaps().to_vec(), dry.initial_slips().to_vec());
-        Contact2d::new(k, dry.loads().to_vec(), normal, tangent, x_0, s_0, dry.mu().to_vec())
-    }
-
+impl Updated {
     /// Solves with all films bonded, drops what is not in contact, and so on until nothing changes, or what
     /// changed comes back.
-    ///
-    /// # Errors
-    /// As [`solve`](super::solve), and [`AlmError::Relaxation`].
-    pub fn solve_by_parts(
-        &self,
-        settings: &Settings,
-        updates: &Updates,
-    ) -> Result<Updated, AlmError> {
+    pub fn of(wall: &MortaredWall, settings: &Settings, updates: &Updates) -> Self {
         let Updates { updating, relaxation, limit, near } = *updates;
-        if !(relaxation > 0.0 && relaxation <= 1.0) {
-            return Err(AlmError::Relaxation { relaxation });
-        }
-        let lengths: Vec<f64> = self.films().iter().map(|it| it.film.strip().length()).collect();
+        let lengths: Vec<f64> = wall.films().iter().map(|it| it.film.strip().length()).collect();
         let mut history = UpdateHistory::new(lengths.clone(), near);
-        let mut parts = self.bonded();
+        let mut parts = wall.bonded();
         let mut settling = history.record(&parts);
         let mut moved = Vec::new();
         loop {
-            let problem = self.with_parts(&parts)?;
-            let answer = solve(&problem, settings, &mut |_| ControlFlow::Continue(()))?;
+            let problem = wall.with_parts(&parts).unwrap();
+            let answer = solve(&problem, settings, &mut |_| ControlFlow::Continue(())).unwrap();
             let status = match settling {
                 _ if answer.status != Status::Solved => answer.status,
                 Settling::Settled => Status::Solved,
@@ -113,7 +67,7 @@ impl MortaredWall {
                 Settling::Moving if moved.len() >= limit => Status::IterationLimit,
                 Settling::Moving => {
                     let u = &answer.state.u;
-                    let next: Parts = self
+                    let next: Parts = wall
                         .films()
                         .iter()
                         .zip(&parts)
@@ -129,7 +83,7 @@ impl MortaredWall {
                     continue;
                 }
             };
-            return Ok(Updated { status, settling, parts, answer, moved });
+            return Self { status, settling, parts, answer, moved };
         }
     }
 }

@@ -1,0 +1,37 @@
+//! The times of the phases of an analysis.
+
+use std::ops::ControlFlow;
+use web_time::Instant;
+
+use crate::data::info::PhaseTime;
+use crate::method::Event;
+
+#[derive(Debug, Default)]
+pub(super) struct Clock {
+    pub(super) times: Vec<PhaseTime>,
+}
+
+impl Clock {
+    pub(super) fn time<T>(
+        &mut self,
+        phase: &'static str,
+        observer: &mut dyn FnMut(Event) -> ControlFlow<()>,
+        work: impl FnOnce() -> T,
+    ) -> T {
+        // Only the solver is long enough to be cancelled.
+        let _ = observer(Event::Phase(phase));
+        let began = Instant::now();
+        let result = work();
+        self.add(phase, began);
+        result
+    }
+
+    pub(super) fn add(&mut self, phase: &str, began: Instant) {
+        let seconds = began.elapsed().as_secs_f64();
+        // Several routes solve and recover.
+        match self.times.iter_mut().find(|time| time.phase == phase) {
+            Some(time) => time.seconds += seconds,
+            None => self.times.push(PhaseTime { phase: phase.to_owned(), seconds }),
+        }
+    }
+}
