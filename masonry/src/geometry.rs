@@ -7,8 +7,10 @@ use std::f64::consts::PI;
 
 use nalgebra::{Point2, Vector2};
 
+mod extent;
 mod overlap;
 
+pub(crate) use extent::Extent;
 pub use overlap::{SegmentOverlap, facing_normal, facing_overlap, overlap_area};
 
 /// Lengths below this part of those around them are rounding errors: places that are as near to each other are one.
@@ -18,35 +20,18 @@ pub(crate) const SAME_PLACE: f64 = 1e-9;
 pub type Quad = [Point2<f64>; 4];
 
 /// Why corners are not those of a convex polygon in counter-clockwise order.
-#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum PolygonError {
-    /// Two corners or less.
-    #[error("{count} corners make no polygon: give at least three")]
-    TooFew {
-        /// How many there are.
-        count: usize,
-    },
+    /// So many corners, two or less.
+    TooFew(usize),
     /// A coordinate is not a finite number.
-    #[error("a corner has a coordinate that is not finite")]
     NotFinite,
-    /// The corners run clockwise.
-    #[error("the corners run clockwise (area {area:e} m2): list them counter-clockwise")]
-    Clockwise {
-        /// Signed area \[m^2\].
-        area: f64,
-    },
-    /// The interior angle at a corner is 180 degrees or more, or two corners coincide.
-    #[error(
-        "the polygon is not strictly convex at corner {corner}: \
-         move it outwards or split the block"
-    )]
-    NotConvex {
-        /// The first corner that fails, from 0.
-        corner: usize,
-    },
+    /// The corners run clockwise around this signed area \[m^2\].
+    Clockwise(f64),
+    /// The interior angle at this corner, from 0, is 180 degrees or more, or two corners coincide.
+    NotConvex(usize),
     /// The edges go around more than once, as those of a star do.
-    #[error("the edges cross: list the corners in the order in which they follow each other")]
     Crossing,
 }
 
@@ -83,8 +68,7 @@ pub fn size(polygon: &[Point2<f64>]) -> f64 {
 
 /// Checks that the corners are finite, run counter-clockwise once and span a strictly convex shape.
 ///
-/// A corner counts as convex when twice the area of its triangle exceeds `1e-9` times the square of
-/// the polygon's size.
+/// A corner counts as convex when twice the area of its triangle exceeds `1e-9` times the square of the polygon's size.
 ///
 /// # Errors
 /// [`PolygonError`] tells what is wrong with which corner.
@@ -94,11 +78,11 @@ pub fn check_convex(polygon: &[Point2<f64>]) -> Result<(), PolygonError> {
         return Err(PolygonError::NotFinite);
     }
     if count < 3 {
-        return Err(PolygonError::TooFew { count });
+        return Err(PolygonError::TooFew(count));
     }
     let area = area(polygon);
     if area < 0.0 {
-        return Err(PolygonError::Clockwise { area });
+        return Err(PolygonError::Clockwise(area));
     }
     let least = 1e-9 * size(polygon).powi(2);
     let sides = |k: usize| {
@@ -109,7 +93,7 @@ pub fn check_convex(polygon: &[Point2<f64>]) -> Result<(), PolygonError> {
     for corner in 0..count {
         let (before, after) = sides(corner);
         if cross(before, after) <= least {
-            return Err(PolygonError::NotConvex { corner });
+            return Err(PolygonError::NotConvex(corner));
         }
         turned += cross(before, after).atan2(before.dot(&after));
     }
@@ -174,8 +158,7 @@ pub fn nearest_on_boundary(polygon: &[Point2<f64>], point: Point2<f64>) -> Point
     (0..polygon.len()).map(nearest_on).min_by(near).unwrap_or(point)
 }
 
-/// How far a point lies outside of a convex polygon, across the edge beyond which it is farthest; negative
-/// inside \[m\].
+/// How far a point lies outside of a convex polygon, across the edge beyond which it is farthest; negative inside \[m\].
 pub fn outside(polygon: &[Point2<f64>], point: Point2<f64>) -> f64 {
     (0..polygon.len())
         .map(|k| (point - polygon[k]).dot(&outward_normal(polygon, k)))

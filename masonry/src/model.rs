@@ -107,12 +107,16 @@ impl Block {
 
     /// The loads on its edges.
     pub fn edge_loads(&self) -> impl Iterator<Item = &EdgeLoad> {
-        self.loads.iter().filter_map(BlockLoad::as_edge)
+        self.loads
+            .iter()
+            .filter_map(|it| if let BlockLoad::Edge(load) = it { Some(load) } else { None })
     }
 
     /// The forces at places in it.
     pub fn point_loads(&self) -> impl Iterator<Item = &PointLoad> {
-        self.loads.iter().filter_map(BlockLoad::as_point)
+        self.loads
+            .iter()
+            .filter_map(|it| if let BlockLoad::Point(load) = it { Some(load) } else { None })
     }
 }
 
@@ -168,8 +172,7 @@ impl Mortar {
         [1, 2].map(|k| self.thickness / (matrix[(k, k)] * area))
     }
 
-    /// The effect of strain along the joint on a part of a strip of a given length, in a wall of a given thickness
-    /// \[m\].
+    /// The effect of strain along the joint on a part of a strip of a given length, in a wall of a given thickness \[m\].
     pub fn stretch(&self, length: f64, wall: f64) -> Stretch {
         let matrix = constitutive(self.material.elasticity, self.material.plane);
         let coupling = matrix[(0, 1)] / matrix[(1, 1)];
@@ -180,8 +183,7 @@ impl Mortar {
 
 /// The terms of a strip of mortar (3.28)-(3.39) that need the strain `eps_x` along the joint.
 ///
-/// The energy of a strip with `eps_x` is that of a bar, whether its faces press or not, and that of the
-/// compliances:
+/// The energy of a strip with `eps_x` is that of a bar, whether its faces press or not, and that of the compliances:
 ///
 /// ```text
 ///  w = 1/2 [ (C_11 - C_12^2 / C_22) eps_x^2 + sigma_y^2 / C_22 + tau^2 / G ],

@@ -1,20 +1,15 @@
 //! The plan: the effects that a scene uses, the reasons, and the cost.
 
-mod choice;
-mod effect;
 mod effects;
-mod history;
 mod memory;
-mod routes;
 mod sizes;
 
 use serde::Serialize;
 
-pub use choice::Choice;
-pub use effect::Effect;
 pub use memory::TooLarge;
 use sizes::Sizes;
 
+use crate::method::auto::{self, Facts};
 use crate::model::Model;
 use crate::scene::{Form, Route, Scene};
 
@@ -58,28 +53,60 @@ pub struct Plan {
     pub refused: Option<String>,
 }
 
+/// One physical effect, on or off, and the reason.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Effect {
+    /// Name of the effect, such as `friction`.
+    pub name: &'static str,
+    /// Whether it is built.
+    pub on: bool,
+    /// The reason in the scene why the effect is on or off.
+    pub because: String,
+    /// What the effect adds to the [`order`](Plan::order) of the plan, contact points being the same: on the pivoting
+    /// route displacements are eliminated, and add nothing.
+    pub unknowns: usize,
+    /// The expected cost on the first route, in words: `none` if the effect is off.
+    pub cost: String,
+}
+
+/// A route of a plan.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Choice {
+    /// The route.
+    pub route: Route,
+    /// Why it has this place.
+    pub because: String,
+    /// Order of the complementarity problem that it begins with; of the augmented Lagrangian method, of its linear systems.
+    pub order: usize,
+    /// Order of the largest problem that it may turn to.
+    pub largest_order: usize,
+    /// Numbers in its dense matrices: of reduction, forms and pivots, and of the stiffnesses of blocks.
+    /// None on the sparse routes, which build none.
+    pub dense_numbers: usize,
+    /// Memory at the peak \[bytes\], as measured on walls.
+    pub memory_bytes: usize,
+}
+
 impl Plan {
     /// The plan for a scene and the model made of it.
     pub fn of(scene: &Scene, model: &Model) -> Self {
         let sizes = Sizes::of(model);
-        let routes = routes::of(scene, model, &sizes);
+        let routes = routes(scene, model, &sizes);
         let Choice { route, order, largest_order, .. } = routes[0];
-        let (solver, because) = solver(route, scene.solver.form, sizes.frictional);
+        let frictional = sizes.frictional();
+        let (solver, because) = solver(route, scene.solver.form, frictional > 0);
         let mut plan = Self {
-            effects: effects::of(scene, model, &sizes, &routes[0])
-                .into_iter()
-                .chain(history::effects(scene, model))
-                .collect(),
+            effects: effects::of(scene, model, &sizes, &routes[0]),
             blocks: model.blocks.len(),
             nodes: sizes.nodal / 2,
             joints: model.joints.len(),
-            contact_points: sizes.points,
-            frictional_points: sizes.frictional,
+            contact_points: model.contacts.len(),
+            frictional_points: frictional,
             rigid_modes: sizes.rigid_modes(),
             order,
             largest_order,
             largest_block: sizes.largest_block,
-            steps: history::steps(scene, model),
+            steps: effects::steps(scene, model),
             solver: solver.to_owned(),
             because: because.to_owned(),
             routes,
@@ -108,8 +135,19 @@ impl Plan {
     }
 }
 
-fn solver(route: Route, form: Form, frictional_points: usize) -> (&'static str, &'static str) {
-    let has_friction = frictional_points > 0;
+/// The routes in the order in which they are tried.
+fn routes(scene: &Scene, model: &Model, sizes: &Sizes) -> Vec<Choice> {
+    let form = scene.solver.form;
+    let facts = Facts {
+        at_rest: sizes.is_rigid() && model.contacts.iter().all(|contact| contact.gap.abs() <= 0.0),
+        largest_dense: sizes.choice(Route::Lemke, form).largest_order.max(sizes.largest_block),
+    };
+    let routes = auto::routes(&scene.solver, facts).into_iter();
+    routes.map(|(route, because)| Choice { because, ..sizes.choice(route, form) }).collect()
+}
+
+/// What solves on a route, and why.
+fn solver(route: Route, form: Form, has_friction: bool) -> (&'static str, &'static str) {
     match (route, form) {
         (Route::Forces, _) => {
             ("admissible forces", "one convex program with three unknowns per block")

@@ -36,8 +36,9 @@ mod load;
 mod materials;
 mod opening;
 mod read;
-mod rules;
+pub(crate) mod rules;
 mod schema;
+mod setters;
 mod solver;
 mod source;
 mod stages;
@@ -82,30 +83,23 @@ pub struct Scene {
     /// Title of reports and pictures.
     pub title: String,
     /// Plane stress or plane strain; required when a material is elastic.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub plane: Option<Plane>,
     /// Thickness out of the plane \[length\]; required.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub thickness: Option<f64>,
     /// Gravity \[m/s^2\]; acts only on materials that have a density.
-    #[serde(
-        default,
-        skip_serializing_if = "Option::is_none",
-        deserialize_with = "strict::some_pair"
-    )]
+    #[serde(default, deserialize_with = "strict::read")]
     pub gravity: Option<[f64; 2]>,
     /// A JSON file with more blocks, relative to the scene file: a list of objects with `material` and `corners`, and `name`
     /// and `mesh` as single blocks have them. A scene that was read from text has these blocks after its own, and no list.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub block_list: Option<PathBuf>,
     /// Units of length and force.
-    #[serde(deserialize_with = "strict::table")]
+    #[serde(deserialize_with = "strict::read")]
     pub units: Units,
     /// Materials by name.
     #[serde(
         default,
         skip_serializing_if = "BTreeMap::is_empty",
-        deserialize_with = "strict::named_tables"
+        deserialize_with = "strict::read"
     )]
     pub materials: BTreeMap<String, Material>,
     /// Joint classes by name. Blocks meet in `bed` joints where the joint's normal is closer to
@@ -113,42 +107,42 @@ pub struct Scene {
     #[serde(
         default,
         skip_serializing_if = "BTreeMap::is_empty",
-        deserialize_with = "strict::named_tables"
+        deserialize_with = "strict::read"
     )]
     pub joints: BTreeMap<String, Joint>,
     /// Classes of the joints between certain blocks, where they differ from `bed` and `head`; of several that fit, the
     /// last counts.
-    #[serde(default, skip_serializing_if = "Vec::is_empty", deserialize_with = "strict::tables")]
+    #[serde(default, skip_serializing_if = "Vec::is_empty", deserialize_with = "strict::read")]
     pub between: Vec<Between>,
     /// Walls of bricks in courses.
-    #[serde(default, skip_serializing_if = "Vec::is_empty", deserialize_with = "strict::tables")]
+    #[serde(default, skip_serializing_if = "Vec::is_empty", deserialize_with = "strict::read")]
     pub walls: Vec<Wall>,
     /// Arches of voussoirs.
-    #[serde(default, skip_serializing_if = "Vec::is_empty", deserialize_with = "strict::tables")]
+    #[serde(default, skip_serializing_if = "Vec::is_empty", deserialize_with = "strict::read")]
     pub arches: Vec<Arch>,
     /// Single blocks.
-    #[serde(default, skip_serializing_if = "Vec::is_empty", deserialize_with = "strict::tables")]
+    #[serde(default, skip_serializing_if = "Vec::is_empty", deserialize_with = "strict::read")]
     pub blocks: Vec<Block>,
     /// Rigid supports.
-    #[serde(default, skip_serializing_if = "Vec::is_empty", deserialize_with = "strict::tables")]
+    #[serde(default, skip_serializing_if = "Vec::is_empty", deserialize_with = "strict::read")]
     pub supports: Vec<Support>,
     /// Loads on edges, at places in blocks, and on all mass.
-    #[serde(default, skip_serializing_if = "Vec::is_empty", deserialize_with = "strict::tables")]
+    #[serde(default, skip_serializing_if = "Vec::is_empty", deserialize_with = "strict::read")]
     pub loads: Vec<Load>,
     /// The load history; without stages all loads act at once.
-    #[serde(default, skip_serializing_if = "Vec::is_empty", deserialize_with = "strict::tables")]
+    #[serde(default, skip_serializing_if = "Vec::is_empty", deserialize_with = "strict::read")]
     pub stages: Vec<Stage>,
     /// Limit loads: which load grows.
-    #[serde(default, deserialize_with = "strict::table", skip_serializing_if = "is_empty")]
+    #[serde(default, deserialize_with = "strict::read", skip_serializing_if = "is_empty")]
     pub limit: Limit,
     /// Contact: positions of contact points, gaps that close, and mortar films.
-    #[serde(default, deserialize_with = "strict::table")]
+    #[serde(default, deserialize_with = "strict::read")]
     pub contact: Contact,
     /// How the complementarity problem is solved.
-    #[serde(default, deserialize_with = "strict::table")]
+    #[serde(default, deserialize_with = "strict::read")]
     pub solver: Solver,
     /// Output.
-    #[serde(default, deserialize_with = "strict::table")]
+    #[serde(default, deserialize_with = "strict::read")]
     pub output: Output,
     /// The text that the scene was read from, for the places of errors.
     #[serde(skip)]
@@ -165,15 +159,10 @@ pub struct Block {
     /// Name of its material.
     pub material: String,
     /// Corners, counter-clockwise \[length\].
-    #[serde(deserialize_with = "strict::corners")]
+    #[serde(deserialize_with = "strict::read")]
     pub corners: Vec<[f64; 2]>,
-    /// Elements along edges 0 and 2, and along edges 1 and 3; required when the material is
-    /// elastic.
-    #[serde(
-        default,
-        skip_serializing_if = "Option::is_none",
-        deserialize_with = "strict::some_pair"
-    )]
+    /// Elements along edges 0 and 2, and along edges 1 and 3; required when the material is elastic.
+    #[serde(default, deserialize_with = "strict::read")]
     pub mesh: Option<[u32; 2]>,
 }
 
@@ -185,10 +174,10 @@ pub struct Support {
     /// Name of the support.
     pub name: String,
     /// One end \[length\].
-    #[serde(deserialize_with = "strict::pair")]
+    #[serde(deserialize_with = "strict::read")]
     pub from: [f64; 2],
     /// The other end \[length\].
-    #[serde(deserialize_with = "strict::pair")]
+    #[serde(deserialize_with = "strict::read")]
     pub to: [f64; 2],
     /// The class of its joints.
     pub joint: String,
@@ -200,30 +189,24 @@ pub struct Support {
 #[serde(deny_unknown_fields)]
 pub struct Limit {
     /// The load, or the group of loads, whose factor grows; without it the only group, or the only one with a factor.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub group: Option<String>,
 }
 
 /// Output.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
+#[serde(default, deny_unknown_fields)]
 pub struct Output {
     /// Whether stresses are recovered and written.
-    #[serde(default = "default_stresses")]
     pub stresses: bool,
 }
 
 impl Default for Output {
     fn default() -> Self {
-        Self { stresses: default_stresses() }
+        Self { stresses: true }
     }
 }
 
 fn is_empty(limit: &Limit) -> bool {
     *limit == Limit::default()
-}
-
-fn default_stresses() -> bool {
-    true
 }

@@ -123,6 +123,17 @@ fn loads_stay_on_edges_that_were_moved() {
     assert!((carried - weight - 10.0 * 0.3 * 3.0).abs() < 1e-4, "{carried}");
 }
 
+#[test]
+fn a_wall_a_little_below_its_support_is_told_of_the_tolerance() {
+    let mut below = wall(2, 0.0, 6);
+    below.blocks.iter_mut().flat_map(|it| &mut it.corners).for_each(|[_, y]| *y -= 1e-6);
+    let error = Model::from_scene(&below).unwrap_err().to_string();
+    assert!(error.contains("support \"ground\" runs through the inside of block"), "{error}");
+    assert!(error.contains("`contact.tolerance` to three times the error"), "{error}");
+    let healed = Model::from_scene(&below.contact_tolerance(3e-6)).unwrap();
+    assert_exact(&healed, &Model::from_scene(&wall(2, 0.0, 6)).unwrap(), 3e-6);
+}
+
 /// No edge vanishes, and no corner moves farther than a few tolerances.
 #[test]
 fn what_cannot_be_healed_is_told() {

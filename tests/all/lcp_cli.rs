@@ -278,7 +278,7 @@ fn bad_input_is_reported_on_standard_error_alone() {
     for (args, words) in [
         (
             vec!["solve", &damaged, "--json"],
-            "damaged.dat: line 4, column 4: expected number 2 of 2 of q",
+            "damaged.dat: line 4, column 4: expected number 2 in q, which has 2",
         ),
         (
             vec!["solve", &damaged, "--format", "siconos-mlcp"],

@@ -70,7 +70,7 @@ pub(crate) fn check_convex(stones: &[Stone]) -> Result<(), ImportError> {
     for stone in stones {
         let kind = match geometry::check_convex(&stone.corners) {
             Ok(()) => continue,
-            Err(PolygonError::NotConvex { corner }) => {
+            Err(PolygonError::NotConvex(corner)) => {
                 let [x, y] = stone.corners[corner].coords.into();
                 let [x, y] = [x, y].map(|it: f64| super::report::metres(it));
                 ImportErrorKind::NotConvex { x, y }

@@ -45,14 +45,12 @@ pub struct SegmentOverlap {
     /// Unit normal from the first segment to the second: the mean of the right-hand normal of the
     /// first and the left-hand normal of the second.
     pub normal: Vector2<f64>,
-    /// Distance along the normal at the two ends \[m\]; exactly zero where the segments touch
-    /// within the tolerance.
+    /// Distance along the normal at the two ends \[m\]; exactly zero where the segments touch within the tolerance.
     pub gap: [f64; 2],
 }
 
-/// Unit normal from the first of two segments that look at each other to the second, the mean of the
-/// right-hand normal of the first and the left-hand normal of the second; `None` for segments that
-/// do not run in opposite directions.
+/// Unit normal from the first of two segments that look at each other to the second, the mean of the right-hand normal of
+/// the first and the left-hand normal of the second; `None` for segments that do not run in opposite directions.
 pub fn facing_normal(first: [Point2<f64>; 2], second: [Point2<f64>; 2]) -> Option<Vector2<f64>> {
     let [e1, e2] = [first, second].map(|[from, to]| (to - from).normalize());
     (e1.dot(&e2) < 0.0).then(|| turn_right((e1 - e2).normalize()))

@@ -5,8 +5,8 @@ use super::{Block, Body, Joint, JointClass, Mortar, Plane};
 use crate::ids::BlockId;
 use crate::law::JointLaw;
 use crate::material::FilmMaterial;
-use crate::scene::bond::{self, JointThickness};
-use crate::scene::{self, BED, Fault, HEAD, KeyPath, Known, Scene, SceneErrorKind};
+use crate::scene::rules::unknown;
+use crate::scene::{self, BED, Fault, HEAD, KeyPath, Scene, SceneErrorKind};
 
 /// The classes of all joints.
 pub(super) struct Classes {
@@ -19,8 +19,7 @@ pub(super) struct Classes {
     of_walls: Vec<[usize; 2]>,
     of_supports: Vec<usize>,
     of_pairs: Vec<([Members; 2], usize)>,
-    /// The wall of every brick, and the arch of every voussoir, counted after the walls; single blocks come after all of
-    /// these.
+    /// The wall or arch of every block that has one.
     walls: Vec<usize>,
 }
 
@@ -31,7 +30,7 @@ enum Members {
 }
 
 impl Classes {
-    pub(super) fn of(scene: &Scene, blocks: &[Block]) -> Result<Self, Fault> {
+    pub(super) fn of(scene: &Scene, blocks: &[Block], walls: Vec<usize>) -> Result<Self, Fault> {
         let mut list: Vec<JointClass> =
             scene.joints.iter().map(|(name, joint)| joint_class(scene, name, joint)).collect();
         let given = list.len();
@@ -56,15 +55,6 @@ impl Classes {
             let first = Members::of(scene, blocks, first, at.item(0))?;
             let second = Members::of(scene, blocks, second, at.item(1))?;
             of_pairs.push(([first, second], index(&between.joint)));
-        }
-        let bricks = scene.walls.iter().enumerate().flat_map(|(k, wall)| {
-            let bricks = bond::bricks_in_mortar(wall, JointThickness::of(scene, wall));
-            std::iter::repeat_n(k, bricks.len())
-        });
-        let mut walls: Vec<usize> = bricks.collect();
-        for (k, arch) in scene.arches.iter().enumerate() {
-            let voussoirs = scene::arch::blocks(arch, &KeyPath::of("arches").item(k))?;
-            walls.extend(std::iter::repeat_n(scene.walls.len() + k, voussoirs.len()));
         }
         Ok(Self { list, given, usual, of_walls, of_supports, of_pairs, walls })
     }
@@ -131,13 +121,8 @@ impl Members {
         let walls = scene.walls.iter().map(|wall| &wall.name);
         let walls = walls.chain(scene.arches.iter().map(|arch| &arch.name));
         let known = walls.chain(scene.blocks.iter().map(|block| &block.name)).cloned();
-        let kind = SceneErrorKind::Unknown {
-            what: "block, wall or arch",
-            name: name.to_owned(),
-            known: Known::near(name, known.collect()),
-            missing: "it as a block, a wall or an arch".to_owned(),
-        };
-        Err(Fault::new(at, kind))
+        let missing = "it as a block, a wall or an arch".to_owned();
+        Err(unknown(at, "block, wall or arch", name, known.collect(), missing))
     }
 }
 
@@ -161,10 +146,10 @@ fn mortar(scene: &Scene, joint: &scene::Joint) -> Option<Mortar> {
     (thickness > 0.0).then_some(Mortar { thickness, material })
 }
 
+/// Supports have classes of their own, which were looked up before.
 fn missing_class(blocks: &[Block], joint: &Joint, class: &str) -> Fault {
     let name = |body| match body {
         Body::Block(id) => blocks[id.index()].name.clone(),
-        // Supports have classes of their own, which were looked up before.
         Body::Support(_) => String::new(),
     };
     let class = class.to_owned();

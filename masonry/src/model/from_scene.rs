@@ -4,8 +4,8 @@ use nalgebra::{Point2, Vector2};
 
 use super::classes::Classes;
 use super::{
-    Block, ContactPoint, Joint, JointClass, Model, Movement, Plane, Support, heal, place_loads,
-    placement,
+    Block, ContactPoint, Healed, Joint, JointClass, Model, Movement, Plane, Support, heal,
+    place_loads, placement,
 };
 use crate::geometry::{self, PolygonError};
 use crate::model::joints::{self, ContactError, Options};
@@ -28,9 +28,7 @@ impl Model {
         scene.check()?;
         build(scene).map_err(|fault| fault.locate(scene))
     }
-}
 
-impl Model {
     /// Whether there are several steps, and friction makes the last state depend on those before it.
     pub(crate) fn depends_on_way(&self, scene: &Scene) -> bool {
         scene.steps() > 1 && self.contacts.iter().any(|point| point.law.resists_sliding())
@@ -40,41 +38,17 @@ impl Model {
 fn build(scene: &Scene) -> Result<Model, Fault> {
     let units = scene.units;
     let thickness = scene.thickness.unwrap_or(1.0) * units.length_to_si();
-    let (mut blocks, keys) = lay_blocks(scene)?;
+    let Laid { mut blocks, keys, walls } = lay_blocks(scene)?;
     let supports: Vec<Support> = scene.all_supports().iter().map(|s| support(s, units)).collect();
-    let overlaps = placement::check_overlaps(&blocks, &keys, units);
-    let healed = match scene.contact.tolerance {
-        None if overlaps.is_ok() => None,
-        tolerance => {
-            let metres = tolerance.map(|it| it * units.length_to_si());
-            match (heal::heal(&mut blocks, scene.blocks.len(), &supports, metres), tolerance) {
-                (Ok(healed), _) => healed,
-                // Only the overlap is known that was to be healed.
-                (Err(_), None) => None,
-                (Err(wanted), Some(value)) => {
-                    let at = KeyPath::of("contact").key("tolerance");
-                    return Err(Fault::new(at, SceneErrorKind::Value { value, wanted }));
-                }
-            }
-        }
-    };
-    // Loads are where the corners were.
-    let moved = healed.map_or(0.0, |it| it.largest);
-    if healed.is_some() {
-        for block in &mut blocks {
-            let meshed = block.mesh.as_ref().zip(block.quad());
-            block.mesh = meshed.map(|(mesh, quad)| BlockMesh::new(&quad, mesh.nx, mesh.ny));
-        }
-        check_shapes(&blocks, &keys)?;
-        placement::check_overlaps(&blocks, &keys, units)?;
-    } else {
-        overlaps?;
-    }
+    let healed = heal_corners(scene, &mut blocks, &keys, &supports)?;
     placement::check_supports(&blocks, &supports, units)?;
     placement::check_movements(scene, &blocks)?;
 
-    let found = find_joints(scene, &blocks, &supports, thickness)?;
+    let classes = Classes::of(scene, &blocks, walls)?;
+    let found = find_joints(scene, &blocks, &supports, classes, thickness)?;
     placement::check_touching(&blocks, &keys, &supports, &found.joints)?;
+    // Loads are where the corners were.
+    let moved = healed.map_or(0.0, |it| it.largest);
     let (loads, accelerations) =
         place_loads::place(scene, &mut blocks, &found.joints, &found.contacts, moved)?;
 
@@ -99,33 +73,73 @@ fn build(scene: &Scene) -> Result<Model, Fault> {
     Ok(model)
 }
 
-/// All blocks, and for each the key of the scene that describes it.
-fn lay_blocks(scene: &Scene) -> Result<(Vec<Block>, Vec<KeyPath>), Fault> {
-    let mut blocks = Vec::new();
-    let mut keys = Vec::new();
+/// Puts corners of single blocks onto what they miss by rounding, if a tolerance is given or blocks overlap.
+fn heal_corners(
+    scene: &Scene,
+    blocks: &mut [Block],
+    keys: &[KeyPath],
+    supports: &[Support],
+) -> Result<Option<Healed>, Fault> {
+    let overlaps = placement::check_overlaps(blocks, keys, scene.units);
+    let given = scene.contact.tolerance;
+    if given.is_none() && overlaps.is_ok() {
+        return Ok(None);
+    }
+    let tolerance = given.map(|it| it * scene.units.length_to_si());
+    let healed = match (heal::heal(blocks, scene.blocks.len(), supports, tolerance), given) {
+        (Ok(Some(healed)), _) => healed,
+        // Only the overlap is known, which was to be healed.
+        (Ok(None), _) | (Err(_), None) => return overlaps.map(|()| None),
+        (Err(wanted), Some(value)) => {
+            let at = KeyPath::of("contact").key("tolerance");
+            return Err(Fault::new(at, SceneErrorKind::Value { value, wanted }));
+        }
+    };
+    for block in blocks.iter_mut() {
+        let meshed = block.mesh.as_ref().zip(block.quad());
+        block.mesh = meshed.map(|(mesh, quad)| BlockMesh::new(&quad, mesh.nx, mesh.ny));
+    }
+    check_shapes(blocks, keys)?;
+    placement::check_overlaps(blocks, keys, scene.units)?;
+    Ok(Some(healed))
+}
+
+/// Blocks as they are laid.
+struct Laid {
+    blocks: Vec<Block>,
+    /// The key of the scene that describes each.
+    keys: Vec<KeyPath>,
+    /// The wall of every brick, and the arch of every voussoir, counted after the walls; single blocks come after all of
+    /// these.
+    walls: Vec<usize>,
+}
+
+fn lay_blocks(scene: &Scene) -> Result<Laid, Fault> {
+    let (mut blocks, mut keys, mut walls) = (Vec::new(), Vec::new(), Vec::new());
     for (k, wall) in scene.walls.iter().enumerate() {
         for brick in bond::bricks_in_mortar(wall, JointThickness::of(scene, wall)) {
             let mesh = wall.mesh.map(|whole| brick.mesh(whole));
             blocks.push(block(scene, brick.name(wall), &wall.material, &brick.corners(), mesh));
             keys.push(KeyPath::of("walls").item(k).key("courses"));
+            walls.push(k);
         }
     }
+    let counts = |mesh: Option<[u32; 2]>| mesh.map(|counts| counts.map(|n| n as usize));
     for (k, arch) in scene.arches.iter().enumerate() {
         let at = KeyPath::of("arches").item(k);
-        let mesh = arch.mesh.map(|counts| counts.map(|n| n as usize));
         for (name, corners) in scene::arch::blocks(arch, &at)? {
-            blocks.push(block(scene, name, &arch.material, &corners, mesh));
+            blocks.push(block(scene, name, &arch.material, &corners, counts(arch.mesh)));
             keys.push(at.clone());
+            walls.push(scene.walls.len() + k);
         }
     }
-    for (k, single) in scene.blocks.iter().enumerate() {
-        let mesh = single.mesh.map(|counts| counts.map(|n| n as usize));
-        blocks.push(block(scene, single.name.clone(), &single.material, &single.corners, mesh));
+    for (k, it) in scene.blocks.iter().enumerate() {
+        blocks.push(block(scene, it.name.clone(), &it.material, &it.corners, counts(it.mesh)));
         keys.push(KeyPath::of("blocks").item(k).key("corners"));
     }
     check_shapes(&blocks, &keys)?;
     placement::check_names(&blocks, &keys)?;
-    Ok((blocks, keys))
+    Ok(Laid { blocks, keys, walls })
 }
 
 fn block(
@@ -149,12 +163,13 @@ fn block(
 /// A brick cut to next to nothing is no block.
 fn check_shapes(blocks: &[Block], keys: &[KeyPath]) -> Result<(), Fault> {
     for (block, key) in blocks.iter().zip(keys) {
-        geometry::check_convex(&block.corners).map_err(|error| {
-            let corner =
-                if let PolygonError::NotConvex { corner } = error { corner + 1 } else { 1 };
-            let kind = SceneErrorKind::NotConvex { block: block.name.clone(), corner };
-            Fault::new(key.clone(), kind)
-        })?;
+        let corner = match geometry::check_convex(&block.corners) {
+            Ok(()) => continue,
+            Err(PolygonError::NotConvex(corner)) => corner + 1,
+            Err(_) => 1,
+        };
+        let kind = SceneErrorKind::NotConvex { block: block.name.clone(), corner };
+        return Err(Fault::new(key.clone(), kind));
     }
     Ok(())
 }
@@ -168,7 +183,7 @@ fn support(support: &scene::Support, units: Units) -> Support {
     }
 }
 
-fn point([x, y]: [f64; 2], units: Units) -> Point2<f64> {
+pub(super) fn point([x, y]: [f64; 2], units: Units) -> Point2<f64> {
     Point2::new(x, y) * units.length_to_si()
 }
 
@@ -183,28 +198,25 @@ fn find_joints(
     scene: &Scene,
     blocks: &[Block],
     supports: &[Support],
+    classes: Classes,
     thickness: f64,
 ) -> Result<Meetings, Fault> {
-    let classes = Classes::of(scene, blocks)?;
     let class_of = |kind, a, b| classes.class_of(kind, a, b);
     let options = Options {
         points: scene.contact.points,
         gap_limit: scene.contact.gap_limit * scene.units.length_to_si(),
         films: scene.contact.films,
-        ..Options::default()
     };
-    let (joints, contacts) =
-        joints::find(blocks, supports, classes.list(), class_of, thickness, &options).map_err(
-            |error| {
-                let key = match &error {
-                    ContactError::NoRoomForFilm { class, .. } => {
-                        KeyPath::of("joints").key(class).key("thickness")
-                    }
-                    ContactError::NoNodalPair { .. } => KeyPath::of("contact").key("points"),
-                };
-                Fault::new(key, SceneErrorKind::Contact(error))
-            },
-        )?;
+    let found = joints::find(blocks, supports, classes.list(), class_of, thickness, &options);
+    let (joints, contacts) = found.map_err(|error| {
+        let key = match &error {
+            ContactError::NoRoomForFilm { class, .. } => {
+                KeyPath::of("joints").key(class).key("thickness")
+            }
+            ContactError::NoNodalPair { .. } => KeyPath::of("contact").key("points"),
+        };
+        Fault::new(key, error)
+    })?;
     let classes = classes.of_joints(blocks, &joints)?;
     Ok(Meetings { joints, contacts, classes })
 }

@@ -6,8 +6,8 @@ use lcp_linalg::{Gram, HALF_DIGITS};
 use nalgebra::{Point2, Vector2};
 
 use super::{Block, Support};
-use crate::geometry;
-use crate::model::joints::{Options, near_pairs};
+use crate::geometry::{self, SAME_PLACE};
+use crate::model::joints::near_pairs;
 
 /// The tolerance of a scene that gives none, relative to the shortest edge of its single blocks. Theory: coordinates of a wall
 /// in metres with six decimals are off by 2e-6 of a brick.
@@ -56,7 +56,7 @@ pub fn heal(
     let mut drawing = Drawing::of(blocks, first);
     let meetings = drawing.meetings(blocks, supports, tolerance);
     let sizes = blocks[first..].iter().map(|it| geometry::size(&it.corners));
-    let touching = Options::default().tolerance * sizes.fold(f64::INFINITY, f64::min);
+    let touching = SAME_PLACE * sizes.fold(f64::INFINITY, f64::min);
     let is_met = |it: &Touch, drawing: &Drawing| {
         let (distance, terms) = it.distance(&drawing.points);
         distance.abs() <= touching || terms.iter().all(|(point, _)| *point < drawing.free)
@@ -157,7 +157,7 @@ impl Drawing {
 
     fn meetings(&self, blocks: &[Block], supports: &[Support], tolerance: f64) -> Vec<Touch> {
         let mut list = Vec::new();
-        for [a, b] in near_pairs(blocks, tolerance, 0.0) {
+        for [a, b] in near_pairs(blocks, tolerance) {
             if self.starts[a.index().max(b.index())] < self.free {
                 continue;
             }

@@ -91,16 +91,6 @@ impl BlockLoad {
         }
     }
 
-    /// The load on an edge that it is.
-    pub fn as_edge(&self) -> Option<&EdgeLoad> {
-        if let Self::Edge(load) = self { Some(load) } else { None }
-    }
-
-    /// The force at a place that it is.
-    pub fn as_point(&self) -> Option<&PointLoad> {
-        if let Self::Point(load) = self { Some(load) } else { None }
-    }
-
     /// Its resultant on a block with these corners in a wall of a thickness \[m\].
     pub fn resultant(&self, corners: &[Point2<f64>], thickness: f64) -> PlacedForce {
         match self {

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use nalgebra::{Point2, Vector2};
 
+use super::from_scene::point;
 use super::{Acceleration, Block, ContactPoint, EdgeLoad, Joint, Load, PointLoad};
 use crate::geometry::{self, SAME_PLACE};
 use crate::ids::LoadId;
@@ -36,15 +37,17 @@ pub(super) fn place(
             Some(LoadKind::Edge { from, to, stress }) => {
                 let ends = [from, to].map(|end| point(end, scene.units));
                 let on_edge = OnEdges { load, id, ends, stress, units: scene.units, moved };
-                on_edge.place(blocks, &joined).map_err(|kind| Fault::new(at, kind))?;
+                if !on_edge.place(blocks, &joined) {
+                    return Err(Fault::new(at, SceneErrorKind::IdleLoad(load.name.clone())));
+                }
             }
             Some(LoadKind::Force { block, at: place, force }) => {
-                let k = *places
-                    .get(block)
-                    .ok_or_else(|| Fault::new(at.key("block"), unknown(blocks, block).into()))?;
-                let block = &mut blocks[k];
+                let Some(k) = places.get(block) else {
+                    return Err(Fault::new(at.key("block"), unknown(blocks, block)));
+                };
+                let block = &mut blocks[*k];
                 let at = place_in(block, point(place, scene.units), scene.units, moved)
-                    .map_err(|error| Fault::new(at.key("at"), error.into()))?;
+                    .map_err(|error| Fault::new(at.key("at"), error))?;
                 let force = Vector2::from(force) * scene.units.force_to_si() * load.factor;
                 block.loads.push(PointLoad { at, force, load: id }.into());
             }
@@ -83,7 +86,7 @@ fn accelerate(
             if load.force_or_traction().dot(&gravity) < 0.0 {
                 let because = "acts against gravity: let it press down, or leave `mass` out";
                 let error = LoadError::NoWeight { load: loads[id].name.clone(), because };
-                return Err(Fault::new(KeyPath::of("loads").item(id).key("mass"), error.into()));
+                return Err(Fault::new(KeyPath::of("loads").item(id).key("mass"), error));
             }
             let on_mass = |it: &Acceleration| load.instead(it.load, |force| it.value * mass(force));
             inertia.extend(accelerations.iter().map(on_mass));
@@ -91,10 +94,6 @@ fn accelerate(
         block.loads.extend(inertia);
     }
     Ok(())
-}
-
-fn point([x, y]: [f64; 2], units: Units) -> Point2<f64> {
-    Point2::new(x, y) * units.length_to_si()
 }
 
 /// No block has this name: those whose names are nearest.
@@ -142,28 +141,21 @@ struct OnEdges<'a> {
 }
 
 impl OnEdges<'_> {
-    /// Parts of edges that make joints are not free and carry no load, so that a load cannot act inside a joint.
-    fn place(
-        &self,
-        blocks: &mut [Block],
-        joined: &[Vec<Vec<EdgePart>>],
-    ) -> Result<(), SceneErrorKind> {
-        let [from, to] = self.ends;
+    /// Puts the load on blocks; tells whether it acts. Parts of edges that make joints are not free and carry no load, so
+    /// that a load cannot act inside a joint.
+    fn place(&self, blocks: &mut [Block], joined: &[Vec<Vec<EdgePart>>]) -> bool {
         let mut acts = false;
         for (block, joined) in blocks.iter_mut().zip(joined) {
             for (edge, joined) in joined.iter().enumerate() {
-                let Some(covered) = covered_part(&block.corners, edge, [from, to], self.moved)
-                else {
-                    continue;
-                };
+                let covered = covered_part(&block.corners, edge, self.ends, self.moved);
                 let traction = self.traction(&block.corners, edge);
-                for [from, to] in free_parts(covered, joined) {
+                for [from, to] in covered.into_iter().flat_map(|it| free_parts(it, joined)) {
                     block.loads.push(EdgeLoad { edge, from, to, traction, load: self.id }.into());
                     acts = true;
                 }
             }
         }
-        if acts { Ok(()) } else { Err(SceneErrorKind::IdleLoad { load: self.load.name.clone() }) }
+        acts
     }
 
     /// Traction on the block \[Pa\].
@@ -196,8 +188,7 @@ fn covered_part(
     if high - low <= slack {
         return None;
     }
-    // Only where the segment runs along the edge must it lie on it: far away it may be off by
-    // rounding.
+    // Only where the segment runs along the edge must it lie on it: far away it may be off by rounding.
     let distance = |s: f64| (from + (to - from) * ((s - a) / (b - a)) - start).dot(&normal);
     if distance(low).abs() > slack || distance(high).abs() > slack {
         return None;

@@ -5,8 +5,8 @@ use std::collections::BTreeMap;
 use nalgebra::Point2;
 
 use super::{Block, Body, Joint, Support};
-use crate::geometry::{self, SAME_PLACE};
-use crate::model::joints::{Options, near_pairs};
+use crate::geometry::{self, Extent, SAME_PLACE};
+use crate::model::joints::near_pairs;
 use crate::rounding::rounded;
 use crate::scene::{Fault, KeyPath, Scene, SceneErrorKind};
 use crate::units::Units;
@@ -16,9 +16,7 @@ pub(super) fn check_names(blocks: &[Block], keys: &[KeyPath]) -> Result<(), Faul
     let mut taken = BTreeMap::new();
     for (block, key) in blocks.iter().zip(keys) {
         if let Some(first) = taken.insert(&block.name, key) {
-            let (name, first) = (block.name.clone(), first.to_string());
-            let kind = SceneErrorKind::Duplicate { what: "block", name, first };
-            return Err(Fault::new(key.clone(), kind));
+            return Err(Fault::duplicate(key.clone(), "block", &block.name, first));
         }
     }
     Ok(())
@@ -30,7 +28,7 @@ pub(super) fn check_overlaps(
     keys: &[KeyPath],
     units: Units,
 ) -> Result<(), Fault> {
-    for [i, j] in near_pairs(blocks, 0.0, Options::default().tolerance) {
+    for [i, j] in near_pairs(blocks, 0.0) {
         let (first, second) = (&blocks[i.index()], &blocks[j.index()]);
         let area = geometry::overlap_area(&first.corners, &second.corners);
         let size = geometry::size(&first.corners).min(geometry::size(&second.corners));
@@ -50,14 +48,8 @@ pub(super) fn check_overlaps(
 /// Refuses supports that move farther than the blocks reach: displacements are small, and farther away nothing of
 /// the deformation would be left of the digits.
 pub(super) fn check_movements(scene: &Scene, blocks: &[Block]) -> Result<(), Fault> {
-    let corners = || blocks.iter().flat_map(|block| &block.corners);
-    let across = |along: fn(&Point2<f64>) -> f64| {
-        let [low, high] = corners().fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], p| {
-            [low.min(along(p)), high.max(along(p))]
-        });
-        high - low
-    };
-    let extent = across(|p| p.x).max(across(|p| p.y)) / scene.units.length_to_si();
+    let extent = Extent::of(blocks.iter().flat_map(|block| &block.corners)).longer_side();
+    let extent = extent / scene.units.length_to_si();
     for (k, stage) in scene.stages.iter().enumerate() {
         for (name, to) in &stage.moves {
             for (key, value) in [("x", to.x), ("y", to.y)] {
@@ -133,11 +125,11 @@ pub(super) fn check_touching(
         }
     }
     if let Some(k) = support_meets.iter().position(|meets| !meets) {
-        let kind = SceneErrorKind::IdleSupport { support: supports[k].name.clone() };
+        let kind = SceneErrorKind::IdleSupport(supports[k].name.clone());
         return Err(Fault::new(KeyPath::of("supports").item(k), kind));
     }
     if let Some(k) = block_meets.iter().position(|meets| !meets) {
-        let kind = SceneErrorKind::LooseBlock { block: blocks[k].name.clone() };
+        let kind = SceneErrorKind::LooseBlock(blocks[k].name.clone());
         return Err(Fault::new(keys[k].clone(), kind));
     }
     Ok(())

@@ -5,6 +5,7 @@ use std::ops::RangeInclusive;
 use nalgebra::Vector2;
 
 use super::{Acceleration, Healed, Load, Model};
+use crate::geometry::Extent;
 
 /// Elastic moduli of stone, brick, and mortar from fresh to hard \[Pa\].
 const YOUNG: RangeInclusive<f64> = 1e6..=1e12;
@@ -78,10 +79,7 @@ impl Model {
         let of_blocks = self.blocks.iter().filter_map(|block| block.elasticity);
         let of_mortar = self.joint_classes.iter().filter_map(|class| class.mortar);
         let all = of_blocks.chain(of_mortar.map(|mortar| mortar.material.elasticity));
-        let mut odd: Vec<f64> =
-            all.map(|it| it.young).filter(|young| !YOUNG.contains(young)).collect();
-        odd.sort_by(f64::total_cmp);
-        odd.dedup();
+        let odd = outside(&YOUNG, all.map(|it| it.young));
         let units = self.units;
         let sentence = |young: f64| {
             format!(
@@ -97,9 +95,7 @@ impl Model {
 
     fn stiffnesses(&self) -> Vec<String> {
         let all = self.joint_classes.iter().filter_map(|class| class.law.stiffness);
-        let mut odd: Vec<f64> = all.flatten().filter(|k| !STIFFNESS.contains(k)).collect();
-        odd.sort_by(f64::total_cmp);
-        odd.dedup();
+        let odd = outside(&STIFFNESS, all.flatten());
         let units = self.units;
         let sentence = |k: f64| {
             format!(
@@ -140,25 +136,20 @@ impl Model {
     fn totals(&self) -> Vec<String> {
         let loads = self.blocks.iter().flat_map(|block| self.forces_on(block));
         let total: f64 = loads.map(|(_, force)| force.norm()).sum();
-        if total > 0.0 && total < LITTLE && self.extent() > LARGE {
+        let extent = Extent::of(self.blocks.iter().flat_map(|block| &block.corners)).longer_side();
+        if total > 0.0 && total < LITTLE && extent > LARGE {
             return vec![format!(
-                "All loads together are {total:.2e} N on a structure of {:.2} m: are the units right?",
-                self.extent()
+                "All loads together are {total:.2e} N on a structure of {extent:.2} m: are the units right?"
             )];
         }
         Vec::new()
     }
+}
 
-    /// The larger side of the rectangle around all blocks \[m\].
-    fn extent(&self) -> f64 {
-        let corners = || self.blocks.iter().flat_map(|block| &block.corners);
-        let side = |of: fn(&nalgebra::Point2<f64>) -> f64| {
-            let (low, high) =
-                corners().map(of).fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| {
-                    (low.min(x), high.max(x))
-                });
-            high - low
-        };
-        side(|p| p.x).max(side(|p| p.y))
-    }
+/// The values outside of a range, each once, in increasing order.
+fn outside(usual: &RangeInclusive<f64>, values: impl Iterator<Item = f64>) -> Vec<f64> {
+    let mut odd: Vec<f64> = values.filter(|value| !usual.contains(value)).collect();
+    odd.sort_by(f64::total_cmp);
+    odd.dedup();
+    odd
 }

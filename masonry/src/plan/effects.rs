@@ -2,341 +2,400 @@
 
 use std::collections::BTreeSet;
 
-use super::choice::Choice;
-use super::effect::Effect;
 use super::sizes::Sizes;
+use super::{Choice, Effect};
+use crate::history::moving_supports;
 use crate::law::JointLaw;
-use crate::model::{Block, Model};
-use crate::scene::{Films, Form, LoadKind, Route, Scene};
+use crate::model::Model;
+use crate::scene::{Films, LoadKind, Route, Scene};
 
-/// All effects that a scene can call for in a single step, for the route that is tried first.
+/// All effects that a scene can call for, for the route that is tried first.
 pub(super) fn of(scene: &Scene, model: &Model, sizes: &Sizes, first: &Choice) -> Vec<Effect> {
-    let route = FirstRoute { with: first, form: scene.solver.form };
+    let it = Called { scene, model, sizes, first };
+    let history = it.load_history();
+    let dissipation = dissipation(&history);
     vec![
-        contact(scene, model, sizes, &route),
-        friction(model, sizes, &route),
-        cohesion(model, sizes, &route),
-        tension(model),
-        joint_stiffness(model, sizes, &route),
-        mortar_films(scene, model, sizes, &route),
-        longitudinal_terms(scene, model, sizes, &route),
-        deformation(scene, sizes, &route),
-        self_weight(scene, model),
-        edge_loads(scene, model),
-        point_loads(scene),
-        body_acceleration(scene, model),
-        stresses(scene, model),
-        dense_matrices(&route),
+        it.contact(),
+        it.friction(),
+        it.cohesion(),
+        it.tension(),
+        it.joint_stiffness(),
+        it.mortar_films(),
+        it.longitudinal_terms(),
+        it.deformation(),
+        it.self_weight(),
+        it.edge_loads(),
+        it.point_loads(),
+        it.body_acceleration(),
+        it.stresses(),
+        it.dense_matrices(),
+        history,
+        it.support_movements(),
+        dissipation,
     ]
 }
 
-/// The right-hand side of the equations is there anyway.
-pub(super) const RIGHT_HAND_SIDE: &str = "numbers on the right-hand side only";
-
-/// The route that is tried first.
-struct FirstRoute<'a> {
-    with: &'a Choice,
-    form: Form,
+/// The steps that are solved: one, unless the answer depends on the way.
+pub(super) fn steps(scene: &Scene, model: &Model) -> usize {
+    if model.depends_on_way(scene) { scene.steps() } else { 1 }
 }
 
-impl FirstRoute<'_> {
-    fn pivots(&self) -> bool {
-        self.with.route == Route::Lemke
+/// The right-hand side of the equations is there anyway.
+const RIGHT_HAND_SIDE: &str = "numbers on the right-hand side only";
+
+impl Effect {
+    fn off(name: &'static str, because: impl Into<String>) -> Self {
+        Self { name, on: false, because: because.into(), unknowns: 0, cost: "none".to_owned() }
+    }
+
+    /// An effect that adds no unknowns.
+    fn on(name: &'static str, because: impl Into<String>, cost: impl Into<String>) -> Self {
+        Self { name, on: true, because: because.into(), unknowns: 0, cost: cost.into() }
+    }
+
+    /// The effect with the cost of one that has no unknowns, unless it has some.
+    fn costing_without_unknowns(self, cost: String) -> Self {
+        if self.unknowns == 0 { Self { cost, ..self } } else { self }
+    }
+}
+
+/// What calls for effects.
+struct Called<'a> {
+    scene: &'a Scene,
+    model: &'a Model,
+    sizes: &'a Sizes,
+    /// The route that is tried first.
+    first: &'a Choice,
+}
+
+impl Called<'_> {
+    fn contact(&self) -> Effect {
+        let limit = self.scene.contact.gap_limit;
+        let near = if limit > 0.0 {
+            format!("come within {limit} {}", self.scene.units.length_name())
+        } else {
+            "touch".to_owned()
+        };
+        let because = format!("{} of bodies that {near}", count(self.model.joints.len(), "joint"));
+        let without = self.sizes.with(|it| it.presses = false);
+        let effect = self.beside("contact", because, &without);
+        Effect { cost: "a row for each point".to_owned(), ..effect }
+    }
+
+    fn friction(&self) -> Effect {
+        let name = "friction";
+        if self.sizes.frictional() == 0 {
+            return Effect::off(name, "mu = 0 in all joints");
+        }
+        let coulomb = self.classes(|law| law.mu > 0.0);
+        let because = if coulomb.is_empty() {
+            format!("cohesion in {}", self.classes(JointLaw::resists_sliding))
+        } else {
+            format!("mu > 0 in {coulomb}")
+        };
+        let without = self.sizes.with(|it| {
+            (it.coulomb, it.cohesive, it.sheared) = (false, false, false);
+        });
+        self.beside(name, because, &without)
+    }
+
+    /// A constant on the right-hand side by pivots; on the sparse routes a point and a displacement more.
+    fn cohesion(&self) -> Effect {
+        let used = self.classes(|law| law.cohesion > 0.0);
+        if used.is_empty() {
+            return Effect::off("cohesion", "no joint has cohesion");
+        }
+        // Points that only cohesion keeps from sliding give way as before.
+        let without = self.sizes.with(|it| it.cohesive = false);
+        let effect = self.beside("cohesion", format!("cohesion given for {used}"), &without);
+        effect.costing_without_unknowns(RIGHT_HAND_SIDE.to_owned())
+    }
+
+    fn tension(&self) -> Effect {
+        let used = self.classes(|law| law.tension > 0.0);
+        if used.is_empty() {
+            return Effect::off("tension", "no joint has tensile strength");
+        }
+        Effect::on("tension", format!("tension given for {used}"), RIGHT_HAND_SIDE)
+    }
+
+    /// Each point gives way across its joint and, with friction, along it: numbers on the diagonal of its contact rows. On
+    /// the sparse routes what friction and cohesion share is a displacement.
+    fn joint_stiffness(&self) -> Effect {
+        let name = "joint stiffness";
+        let used = self.classes(|law| law.stiffness.is_some());
+        let dry = self.model.dry_joints();
+        let mut causes = Vec::new();
+        if !used.is_empty() {
+            causes.push(format!("stiffness given for {used}"));
+        }
+        if dry > 0 {
+            causes
+                .push(format!("rigid blocks in a load history: {dry} joints as stiff as dry ones"));
+        }
+        if causes.is_empty() {
+            return Effect::off(name, "no joint has a stiffness");
+        }
+        let compliances = count(self.sizes.rows(|it| it.stiff), "compliance");
+        let because = format!("{}: {compliances}", causes.join("; "));
+        self.giving_way(name, because, &self.sizes.with(|it| it.stiff = false), &compliances)
+    }
+
+    /// Each point of a film has a compliance across and, with friction, one along the joint: numbers on the diagonal of
+    /// its contact rows. The deformation shared by friction and cohesion is a displacement on the sparse routes, except
+    /// with whole strips of the augmented Lagrangian method.
+    fn mortar_films(&self) -> Effect {
+        let name = "mortar films";
+        let films = self.films();
+        if films == 0 {
+            let mut classes = self.scene.joints.values();
+            let is_given = classes.any(|joint| joint.mortar_thickness() > 0.0);
+            return Effect::off(
+                name,
+                if is_given {
+                    "no joint belongs to a class with a thickness"
+                } else {
+                    "no joint class has a thickness: all joints are dry"
+                },
+            );
+        }
+        let filled = self.model.joints.iter().filter(|joint| joint.film.is_some());
+        let filled = names(filled.map(|joint| &*self.model.joint_classes[joint.class].name));
+        let compliances = count(self.sizes.rows(|it| it.film), "compliance");
+        let because =
+            format!("thickness given for {filled}: {}, {compliances}", count(films, "film"));
+        self.giving_way(name, because, &self.sizes.without_films(), &compliances)
+    }
+
+    /// Each point of a strip at an elastic block has the stiffness of a bar along the joint, and its gap a term
+    /// by the strain there. Neither is an unknown, except the forces of the bars in the mixed form.
+    fn longitudinal_terms(&self) -> Effect {
+        let name = "longitudinal film terms";
+        if self.sizes.bars == 0 {
+            let because = if self.films() == 0 {
+                "there are no mortar films"
+            } else if self.scene.contact.films == Films::Compliance {
+                "contact.films = \"compliance\": films act across their joints only"
+            } else {
+                "rigid blocks stretch no film"
+            };
+            return Effect::off(name, because);
+        }
+        let bars = count(self.sizes.bars, "bar");
+        let because = format!("contact.films = \"strips\": {bars} along the joints");
+        let cost = if self.pivots() {
+            format!("a dense matrix of {bars}, which couples all blocks in A")
+        } else {
+            "entries of K between the blocks on both sides".to_owned()
+        };
+        Effect { cost, ..self.beside(name, because, &self.sizes.without_bars()) }
+    }
+
+    fn deformation(&self) -> Effect {
+        let name = "deformation";
+        if self.sizes.nodal == 0 {
+            return Effect::off(name, "no material of a block has E: all blocks are rigid");
+        }
+        let materials = &self.scene.materials;
+        let is_elastic = |name: &&str| materials.get(*name).is_some_and(|it| it.young.is_some());
+        let because =
+            format!("E given for {}", names(self.scene.used_materials().filter(is_elastic)));
+        let effect = self.beside(name, because, &self.sizes.without_deformation());
+        if !self.pivots() {
+            return effect;
+        }
+        let displacements = count(self.sizes.nodal, "displacement");
+        Effect { cost: format!("{displacements}, eliminated block by block; a dense A"), ..effect }
+    }
+
+    fn self_weight(&self) -> Effect {
+        let name = "self weight";
+        let pulls = self.model.gravity.norm() > 0.0;
+        let missing = match (pulls, self.heavy_blocks() > 0) {
+            (true, true) => {
+                let materials = self.scene.materials.iter();
+                let given = materials.filter(|(_, material)| material.density.is_some());
+                let given = names(given.map(|(name, _)| name.as_str()));
+                let because = format!("gravity, and density given for {given}");
+                return Effect::on(name, because, RIGHT_HAND_SIDE);
+            }
+            (true, false) => "no material of a block has a density",
+            (false, true) => "the scene gives no gravity",
+            (false, false) => "the scene gives neither gravity nor density",
+        };
+        Effect::off(name, missing)
+    }
+
+    fn edge_loads(&self) -> Effect {
+        let edges = self.model.blocks.iter().map(|block| block.edge_loads().count()).sum();
+        let place = format!("on {}", count(edges, "edge"));
+        let is_kind = |kind: LoadKind<'_>| matches!(kind, LoadKind::Edge { .. });
+        self.loads("edge loads", is_kind, &place, "acts on an edge")
+    }
+
+    fn point_loads(&self) -> Effect {
+        let is_kind = |kind: LoadKind<'_>| matches!(kind, LoadKind::Force { .. });
+        self.loads("point loads", is_kind, "at places of blocks", "is a force on a block")
+    }
+
+    fn body_acceleration(&self) -> Effect {
+        let place = format!("on {}", count(self.heavy_blocks(), "block"));
+        let is_kind = |kind: LoadKind<'_>| matches!(kind, LoadKind::Acceleration(_));
+        self.loads("body acceleration", is_kind, &place, "is an acceleration")
+    }
+
+    fn stresses(&self) -> Effect {
+        let name = "stresses";
+        if !self.scene.output.stresses {
+            return Effect::off(name, "output.stresses = false");
+        }
+        let meshes = self.model.blocks.iter().filter_map(|block| block.mesh.as_ref());
+        let elements: usize = meshes.map(|mesh| mesh.elements.len()).sum();
+        let places = [(elements, "element"), (self.films(), "film")];
+        let places = places.into_iter().filter(|(number, _)| *number > 0);
+        let places: Vec<String> = places.map(|(number, what)| count(number, what)).collect();
+        if places.is_empty() {
+            return Effect::off(name, "rigid blocks have none");
+        }
+        let because = format!("output shows them in {}", places.join(" and "));
+        Effect::on(name, because, "once, after the solve")
+    }
+
+    fn dense_matrices(&self) -> Effect {
+        let (name, route) = ("dense matrices", self.first.route.name());
+        if self.first.dense_numbers == 0 {
+            return Effect::off(name, format!("the route {route} works on sparse matrices"));
+        }
+        let because = format!("the route {route} works on the problem reduced to contact forces");
+        let cost = format!("{:.0e} numbers at the peak", self.first.dense_numbers as f64);
+        Effect::on(name, because, cost)
+    }
+
+    fn load_history(&self) -> Effect {
+        let name = "load history";
+        let (stages, asked) = (self.scene.stages.len(), self.scene.steps());
+        match (stages, asked, steps(self.scene, self.model)) {
+            (0, ..) => Effect::off(name, "the scene has no stages: all loads act at once"),
+            (_, 1, _) => Effect::off(name, "one stage of one step: the law of one step"),
+            (_, _, 1) => {
+                let because = "mu = 0 in all joints: the last state does not depend on the way";
+                Effect::off(name, because)
+            }
+            (_, _, steps) => {
+                let stages = count(stages, "stage");
+                let because =
+                    format!("{stages} of {asked} steps in all, and friction: slip is carried over");
+                Effect::on(name, because, format!("{steps} solves instead of one"))
+            }
+        }
+    }
+
+    fn support_movements(&self) -> Effect {
+        let name = "support movements";
+        let moving = moving_supports(self.scene).join(", ");
+        if moving.is_empty() {
+            return Effect::off(name, "no stage moves a support");
+        }
+        let because = format!("stages move {moving}: gaps and slips are shifted");
+        Effect::on(name, because, RIGHT_HAND_SIDE)
     }
 
     /// An effect without which the sizes would be these.
-    fn on(&self, name: &'static str, because: String, without: &Sizes) -> Effect {
-        let without = without.choice(self.with.route, self.form);
-        let unknowns = self.with.order.saturating_sub(without.order);
+    fn beside(&self, name: &'static str, because: String, without: &Sizes) -> Effect {
+        let without = without.choice(self.first.route, self.scene.solver.form);
+        let unknowns = self.first.order.saturating_sub(without.order);
         Effect { unknowns, ..Effect::on(name, because, self.growth(&without)) }
+    }
+
+    /// An effect without which the sizes would be these, and which only adds compliances to the contact rows unless it has
+    /// unknowns.
+    fn giving_way(
+        &self,
+        name: &'static str,
+        because: String,
+        without: &Sizes,
+        compliances: &str,
+    ) -> Effect {
+        let cost = format!("{compliances} on the diagonal of the contact rows");
+        self.beside(name, because, without).costing_without_unknowns(cost)
     }
 
     /// Numbers in dense matrices grow with the square of the order and the work of pivots with its cube; both
     /// of sparse factorisations like the memory.
     fn growth(&self, without: &Choice) -> String {
-        let (order, before) = (self.with.order, without.order);
-        let ratio = |a: usize, b: usize| a as f64 / b.max(1) as f64;
-        let times = |ratio: f64| format!("{} times", rounded(ratio));
+        let (order, before) = (self.first.order, without.order);
         if order <= before {
-            "no unknowns of the linear systems".to_owned()
-        } else if self.pivots() {
+            return "no unknowns of the linear systems".to_owned();
+        }
+        let ratio = |a: usize, b: usize| a as f64 / b.max(1) as f64;
+        let change = if self.pivots() {
             let ratio = ratio(order, before);
             let (numbers, work) = (times(ratio.powi(2)), times(ratio.powi(3)));
-            format!(
-                "order {order} instead of {before}: {numbers} the numbers, {work} the work of pivots"
-            )
+            format!("{numbers} the numbers, {work} the work of pivots")
         } else {
-            let memory = times(ratio(self.with.memory_bytes, without.memory_bytes));
-            format!("order {order} instead of {before}: {memory} the memory")
-        }
-    }
-}
-
-fn contact(scene: &Scene, model: &Model, sizes: &Sizes, route: &FirstRoute) -> Effect {
-    let limit = scene.contact.gap_limit;
-    let near = if limit > 0.0 {
-        format!("come within {limit} {}", scene.units.length_name())
-    } else {
-        "touch".to_owned()
-    };
-    let because = format!("{} of bodies that {near}", count(model.joints.len(), "joint"));
-    let effect = route.on("contact", because, &sizes.without_contact());
-    Effect { cost: "a row for each point".to_owned(), ..effect }
-}
-
-fn friction(model: &Model, sizes: &Sizes, route: &FirstRoute) -> Effect {
-    let used = classes_in_use(model, JointLaw::resists_sliding);
-    if sizes.frictional == 0 {
-        return Effect::off("friction", "mu = 0 in all joints".to_owned());
-    }
-    let coulomb = classes_in_use(model, |law| law.mu > 0.0);
-    let because = if coulomb.is_empty() {
-        format!("cohesion in {}", names(used.into_iter()))
-    } else {
-        format!("mu > 0 in {}", names(coulomb.into_iter()))
-    };
-    route.on("friction", because, &sizes.without_friction())
-}
-
-/// A constant on the right-hand side by pivots; on the sparse routes a point and a displacement more.
-fn cohesion(model: &Model, sizes: &Sizes, route: &FirstRoute) -> Effect {
-    let used = classes_in_use(model, |law| law.cohesion > 0.0);
-    if used.is_empty() {
-        return Effect::off("cohesion", "no joint has cohesion".to_owned());
-    }
-    let because = format!("cohesion given for {}", names(used.into_iter()));
-    let effect = route.on("cohesion", because, &sizes.without_cohesion());
-    if effect.unknowns == 0 {
-        return Effect { cost: RIGHT_HAND_SIDE.to_owned(), ..effect };
-    }
-    effect
-}
-
-fn tension(model: &Model) -> Effect {
-    let used = classes_in_use(model, |law| law.tension > 0.0);
-    if used.is_empty() {
-        return Effect::off("tension", "no joint has tensile strength".to_owned());
-    }
-    let because = format!("tension given for {}", names(used.into_iter()));
-    Effect::on("tension", because, RIGHT_HAND_SIDE.to_owned())
-}
-
-/// Each point gives way across its joint and, with friction, along it: numbers on the diagonal of its contact rows. On the
-/// sparse routes what friction and cohesion share is a displacement.
-fn joint_stiffness(model: &Model, sizes: &Sizes, route: &FirstRoute) -> Effect {
-    let name = "joint stiffness";
-    let used = classes_in_use(model, |law| law.stiffness.is_some());
-    let dry = model.dry_joints();
-    if used.is_empty() && dry == 0 {
-        return Effect::off(name, "no joint has a stiffness".to_owned());
-    }
-    let compliances = count(sizes.of_stiff_joints(), "compliance");
-    let mut causes = Vec::new();
-    if !used.is_empty() {
-        causes.push(format!("stiffness given for {}", names(used.into_iter())));
-    }
-    if dry > 0 {
-        causes.push(format!("rigid blocks in a load history: {dry} joints as stiff as dry ones"));
-    }
-    let because = format!("{}: {compliances}", causes.join("; "));
-    on_the_diagonal(route.on(name, because, &sizes.without_joint_stiffness()), &compliances)
-}
-
-/// An effect that only adds numbers to the contact rows, unless it has unknowns.
-fn on_the_diagonal(effect: Effect, compliances: &str) -> Effect {
-    if effect.unknowns > 0 {
-        return effect;
-    }
-    Effect { cost: format!("{compliances} on the diagonal of the contact rows"), ..effect }
-}
-
-/// The names of the classes of the joints whose law has something.
-fn classes_in_use(model: &Model, has: impl Fn(&JointLaw) -> bool) -> BTreeSet<&str> {
-    let used = model.joints.iter().map(|joint| &model.joint_classes[joint.class]);
-    used.filter(|class| has(&class.law)).map(|class| class.name.as_str()).collect()
-}
-
-/// Each point of a film has a compliance across and, with friction, one along the joint: numbers on the diagonal of its
-/// contact rows. The deformation shared by friction and cohesion is a displacement on the sparse routes, except
-/// with whole strips of the augmented Lagrangian method.
-fn mortar_films(scene: &Scene, model: &Model, sizes: &Sizes, route: &FirstRoute) -> Effect {
-    let name = "mortar films";
-    let films = model.joints.iter().filter(|joint| joint.film.is_some()).count();
-    let filled: BTreeSet<&str> = model
-        .joints
-        .iter()
-        .filter(|joint| joint.film.is_some())
-        .map(|joint| model.joint_classes[joint.class].name.as_str())
-        .collect();
-    let given = scene.joints.values().any(|joint| joint.mortar_thickness() > 0.0);
-    if films == 0 {
-        let because = if given {
-            "no joint belongs to a class with a thickness"
-        } else {
-            "no joint class has a thickness: all joints are dry"
+            format!("{} the memory", times(ratio(self.first.memory_bytes, without.memory_bytes)))
         };
-        return Effect::off(name, because.to_owned());
+        format!("order {order} instead of {before}: {change}")
     }
-    let compliances = count(sizes.of_films(), "compliance");
-    let films = count(films, "film");
-    let because =
-        format!("thickness given for {}: {films}, {compliances}", names(filled.into_iter()));
-    on_the_diagonal(route.on(name, because, &sizes.without_films()), &compliances)
-}
 
-/// Each point of a strip at an elastic block has the stiffness of a bar along the joint, and its gap a term
-/// by the strain there. Neither is an unknown, except the forces of the bars in the mixed form.
-fn longitudinal_terms(scene: &Scene, model: &Model, sizes: &Sizes, route: &FirstRoute) -> Effect {
-    let name = "longitudinal film terms";
-    let has_films = model.joints.iter().any(|joint| joint.film.is_some());
-    if sizes.bars == 0 {
-        let because = if !has_films {
-            "there are no mortar films"
-        } else if scene.contact.films == Films::Compliance {
-            "contact.films = \"compliance\": films act across their joints only"
-        } else {
-            "rigid blocks stretch no film"
-        };
-        return Effect::off(name, because.to_owned());
+    fn pivots(&self) -> bool {
+        self.first.route == Route::Lemke
     }
-    let bars = count(sizes.bars, "bar");
-    let because = format!("contact.films = \"strips\": {bars} along the joints");
-    let effect = route.on(name, because, &sizes.without_bars());
-    let cost = if route.pivots() {
-        format!("a dense matrix of {bars}, which couples all blocks in A")
-    } else {
-        "entries of K between the blocks on both sides".to_owned()
-    };
-    Effect { cost, ..effect }
-}
 
-fn deformation(scene: &Scene, sizes: &Sizes, route: &FirstRoute) -> Effect {
-    if sizes.nodal == 0 {
-        let because = "no material of a block has E: all blocks are rigid";
-        return Effect::off("deformation", because.to_owned());
+    /// The names of the classes of the joints whose law has something.
+    fn classes(&self, has: impl Fn(&JointLaw) -> bool) -> String {
+        let used = self.model.joints.iter().map(|joint| &self.model.joint_classes[joint.class]);
+        names(used.filter(|class| has(&class.law)).map(|class| class.name.as_str()))
     }
-    let used: BTreeSet<&str> = scene.used_materials().collect();
-    let elastic = |name: &&str| scene.materials.get(*name).is_some_and(|m| m.young.is_some());
-    let because = format!("E given for {}", names(used.into_iter().filter(elastic)));
-    let effect = route.on("deformation", because, &sizes.without_deformation());
-    if route.pivots() {
-        let displacements = count(sizes.nodal, "displacement");
-        let cost = format!("{displacements}, eliminated block by block; a dense A");
-        return Effect { cost, ..effect };
-    }
-    effect
-}
 
-fn self_weight(scene: &Scene, model: &Model) -> Effect {
-    let name = "self weight";
-    let pulls = model.gravity.norm() > 0.0;
-    let heavy = model.blocks.iter().any(|block| block.density.is_some());
-    let missing = match (pulls, heavy) {
-        (true, true) => {
-            let given = scene.materials.iter().filter(|(_, material)| material.density.is_some());
-            let given = names(given.map(|(name, _)| name.as_str()));
-            let because = format!("gravity, and density given for {given}");
-            return Effect::on(name, because, RIGHT_HAND_SIDE.to_owned());
+    /// How many joints have mortar.
+    fn films(&self) -> usize {
+        self.model.joints.iter().filter(|joint| joint.film.is_some()).count()
+    }
+
+    fn heavy_blocks(&self) -> usize {
+        self.model.blocks.iter().filter(|block| block.density.is_some()).count()
+    }
+
+    /// The effect of the loads of a kind, which act at a place; or none, since no load is `missing`.
+    fn loads(
+        &self,
+        name: &'static str,
+        is_kind: impl Fn(LoadKind<'_>) -> bool,
+        place: &str,
+        missing: &str,
+    ) -> Effect {
+        let loads = &self.scene.loads;
+        let of_kind = loads.iter().filter(|load| load.kind().is_some_and(&is_kind));
+        let called: Vec<&str> = of_kind.map(|load| load.name.as_str()).collect();
+        if !called.is_empty() {
+            return Effect::on(name, format!("{} {place}", called.join(", ")), RIGHT_HAND_SIDE);
         }
-        (true, false) => "no material of a block has a density",
-        (false, true) => "the scene gives no gravity",
-        (false, false) => "the scene gives neither gravity nor density",
-    };
-    Effect::off(name, missing.to_owned())
-}
-
-fn edge_loads(scene: &Scene, model: &Model) -> Effect {
-    let edges: usize = model.blocks.iter().map(|block| block.edge_loads().count()).sum();
-    let called = called(scene, |kind| matches!(kind, LoadKind::Edge { .. }));
-    loads("edge loads", scene, called, "acts on an edge", |loads| {
-        format!("{loads} on {}", count(edges, "edge"))
-    })
-}
-
-fn point_loads(scene: &Scene) -> Effect {
-    let called = called(scene, |kind| matches!(kind, LoadKind::Force { .. }));
-    loads("point loads", scene, called, "is a force on a block", |loads| {
-        format!("{loads} at places of blocks")
-    })
-}
-
-fn body_acceleration(scene: &Scene, model: &Model) -> Effect {
-    let heavy = model.blocks.iter().filter(|block| block.density.is_some()).count();
-    let called = called(scene, |kind| matches!(kind, LoadKind::Acceleration(_)));
-    loads("body acceleration", scene, called, "is an acceleration", |loads| {
-        format!("{loads} on {}", count(heavy, "block"))
-    })
-}
-
-/// The names of the loads of a kind.
-fn called(scene: &Scene, is_kind: impl Fn(LoadKind<'_>) -> bool) -> String {
-    let of_kind = scene.loads.iter().filter(|load| load.kind().is_some_and(&is_kind));
-    names(of_kind.map(|load| load.name.as_str()))
-}
-
-/// The effect of the loads of a kind, which are named, or none.
-fn loads(
-    name: &'static str,
-    scene: &Scene,
-    called: String,
-    kind: &str,
-    because: impl FnOnce(String) -> String,
-) -> Effect {
-    if !called.is_empty() {
-        return Effect::on(name, because(called), RIGHT_HAND_SIDE.to_owned());
+        if loads.is_empty() {
+            return Effect::off(name, "the scene gives no loads");
+        }
+        Effect::off(name, format!("no load of the scene {missing}"))
     }
-    let missing = if scene.loads.is_empty() {
-        "the scene gives no loads".to_owned()
-    } else {
-        format!("no load of the scene {kind}")
-    };
-    Effect::off(name, missing)
 }
 
-fn stresses(scene: &Scene, model: &Model) -> Effect {
-    let name = "stresses";
-    let elements: usize = model.blocks.iter().map(elements).sum();
-    let films = model.joints.iter().filter(|joint| joint.film.is_some()).count();
-    let places: Vec<String> = [(elements, "element"), (films, "film")]
-        .into_iter()
-        .filter(|(number, _)| *number > 0)
-        .map(|(number, what)| count(number, what))
-        .collect();
-    if !scene.output.stresses {
-        return Effect::off(name, "output.stresses = false".to_owned());
+fn dissipation(history: &Effect) -> Effect {
+    let name = "dissipation";
+    if !history.on {
+        return Effect::off(name, "there is no load history");
     }
-    if places.is_empty() {
-        return Effect::off(name, "rigid blocks have none".to_owned());
-    }
-    let because = format!("output shows them in {}", places.join(" and "));
-    Effect::on(name, because, "once, after the solve".to_owned())
-}
-
-fn dense_matrices(route: &FirstRoute) -> Effect {
-    let name = "dense matrices";
-    let numbers = route.with.dense_numbers;
-    let route_name = route.with.route.name();
-    if numbers == 0 {
-        let because = format!("the route {route_name} works on sparse matrices");
-        return Effect::off(name, because);
-    }
-    let because = format!("the route {route_name} works on the problem reduced to contact forces");
-    let cost = format!("{:.0e} numbers at the peak", numbers as f64);
-    Effect::on(name, because, cost)
-}
-
-fn elements(block: &Block) -> usize {
-    block.mesh.as_ref().map_or(0, |mesh| mesh.elements.len())
+    let because = "friction and a load history";
+    Effect::on(name, because, "a sum over contact points in every step")
 }
 
 fn count(number: usize, what: &str) -> String {
     format!("{number} {what}{}", if number == 1 { "" } else { "s" })
 }
 
+/// Each of the names once, in the order of the alphabet.
 fn names<'a>(names: impl Iterator<Item = &'a str>) -> String {
-    names.collect::<Vec<_>>().join(", ")
+    names.collect::<BTreeSet<_>>().into_iter().collect::<Vec<_>>().join(", ")
 }
 
-fn rounded(ratio: f64) -> String {
-    if ratio < 10.0 { format!("{ratio:.1}") } else { format!("{ratio:.0}") }
+fn times(ratio: f64) -> String {
+    if ratio < 10.0 { format!("{ratio:.1} times") } else { format!("{ratio:.0} times") }
 }

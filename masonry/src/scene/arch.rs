@@ -8,6 +8,7 @@ use serde::{Deserialize, Serialize};
 pub(crate) use lines::lines;
 pub(crate) use place::{blocks, supports};
 
+use super::setters::setters;
 use super::strict;
 
 /// An arch of voussoirs, from the left springing to the right.
@@ -31,56 +32,32 @@ pub struct Arch {
     /// Shape of the intrados.
     pub shape: Shape,
     /// The left end of the intrados \[length\].
-    #[serde(
-        default,
-        skip_serializing_if = "Option::is_none",
-        deserialize_with = "strict::some_pair"
-    )]
+    #[serde(default, deserialize_with = "strict::read")]
     pub origin: Option<[f64; 2]>,
     /// Distance between the ends of the intrados \[length\].
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub span: Option<f64>,
     /// Height of the crown of the intrados above its ends \[length\].
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rise: Option<f64>,
     /// Angle of a segmental arch at the centre of its circle \[degrees\], instead of the rise.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub embrace_deg: Option<f64>,
     /// Angle of the springings of a flat arch from the vertical \[degrees\].
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub skew_deg: Option<f64>,
     /// Depth of the ring, of a flat arch its height \[length\].
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub thickness: Option<f64>,
     /// Number of voussoirs.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub voussoirs: Option<u32>,
     /// The joints from left to right, each from the intrados to the extrados \[length\], where no shape gives them.
-    #[serde(
-        default,
-        skip_serializing_if = "Option::is_none",
-        deserialize_with = "strict::some_segments"
-    )]
+    #[serde(default, deserialize_with = "strict::read")]
     pub lines: Option<Vec<Line>>,
     /// The class of the joints within the arch, instead of `bed` and `head`.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub joint: Option<String>,
     /// The class of the joints with rigid supports below both ends; without it there are none.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub springing: Option<String>,
     /// Piers or buttresses below both ends.
-    #[serde(
-        default,
-        skip_serializing_if = "Option::is_none",
-        deserialize_with = "strict::some_table"
-    )]
+    #[serde(default, deserialize_with = "strict::read")]
     pub piers: Option<Piers>,
     /// Elements of every block; required when the material is elastic.
-    #[serde(
-        default,
-        skip_serializing_if = "Option::is_none",
-        deserialize_with = "strict::some_pair"
-    )]
+    #[serde(default, deserialize_with = "strict::read")]
     pub mesh: Option<[u32; 2]>,
 }
 
@@ -183,39 +160,17 @@ impl Arch {
         Self { span: None, thickness: None, voussoirs: None, lines: Some(lines), ..arch }
     }
 
-    /// Puts the left end of the intrados here \[length\].
-    #[must_use]
-    pub fn origin(mut self, origin: [f64; 2]) -> Self {
-        self.origin = Some(origin);
-        self
-    }
-
-    /// Gives the joints between voussoirs a class, instead of `bed` and `head`.
-    #[must_use]
-    pub fn joint(mut self, joint: &str) -> Self {
-        self.joint = Some(joint.to_owned());
-        self
-    }
-
-    /// Puts piers below both ends.
-    #[must_use]
-    pub fn piers(mut self, piers: Piers) -> Self {
-        self.piers = Some(piers);
-        self
-    }
-
-    /// Gives every block a mesh, which elastic ones need.
-    #[must_use]
-    pub fn mesh(mut self, mesh: [u32; 2]) -> Self {
-        self.mesh = Some(mesh);
-        self
-    }
-
-    /// Puts rigid supports below both ends, whose joints are of a class.
-    #[must_use]
-    pub fn springing(mut self, joint: &str) -> Self {
-        self.springing = Some(joint.to_owned());
-        self
+    setters! {
+        /// Puts the left end of the intrados here \[length\].
+        pub fn origin(mut self, origin: [f64; 2]) { self.origin = Some(origin) }
+        /// Gives the joints between voussoirs a class, instead of `bed` and `head`.
+        pub fn joint(mut self, joint: &str) { self.joint = Some(joint.to_owned()) }
+        /// Puts piers below both ends.
+        pub fn piers(mut self, piers: Piers) { self.piers = Some(piers) }
+        /// Gives every block a mesh, which elastic ones need.
+        pub fn mesh(mut self, mesh: [u32; 2]) { self.mesh = Some(mesh) }
+        /// Puts rigid supports below both ends, whose joints are of a class.
+        pub fn springing(mut self, joint: &str) { self.springing = Some(joint.to_owned()) }
     }
 
     fn new(

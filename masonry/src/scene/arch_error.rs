@@ -44,15 +44,12 @@ pub enum ArchError {
         /// Coordinate of the ends.
         y: f64,
     },
-    /// Two joints with no voussoir between them.
+    /// Two joints with no voussoir between them; its number, from 1.
     #[error(
-        "this joint and the one before bound no convex voussoir (number {number}): list joints from left to right, each \
+        "this joint and the one before bound no convex voussoir (number {0}): list joints from left to right, each \
          from the intrados to the extrados, such that no two cross"
     )]
-    NoVoussoir {
-        /// The voussoir, from 1.
-        number: usize,
-    },
+    NoVoussoir(usize),
     /// A pier on which the springing has no room.
     #[error("a pier {width} wide does not reach below the springing: give more than {least}")]
     NarrowPier {
@@ -61,13 +58,10 @@ pub enum ArchError {
         /// How far the springing reaches from the end of the intrados.
         least: f64,
     },
-    /// A springing that leans over the opening.
+    /// A springing, `left` or `right`, that leans over the opening.
     #[error(
-        "piers need a springing that rises outwards from the intrados, and the {side} one does not: turn the {side} \
+        "piers need a springing that rises outwards from the intrados, and the {0} one does not: turn the {0} \
          joint of `lines`"
     )]
-    Overhang {
-        /// `left` or `right`.
-        side: &'static str,
-    },
+    Overhang(&'static str),
 }

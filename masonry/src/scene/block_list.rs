@@ -3,7 +3,7 @@
 use serde::Deserialize;
 
 use super::source::{Excerpt, List};
-use super::{Block, strict};
+use super::{Block, SceneError, strict};
 
 /// A block as the list has it.
 #[derive(Deserialize)]
@@ -12,9 +12,9 @@ struct Listed {
     #[serde(default)]
     name: Option<String>,
     material: String,
-    #[serde(deserialize_with = "strict::corners")]
+    #[serde(deserialize_with = "strict::read")]
     corners: Vec<[f64; 2]>,
-    #[serde(default, deserialize_with = "strict::some_pair")]
+    #[serde(default, deserialize_with = "strict::read")]
     mesh: Option<[u32; 2]>,
 }
 
@@ -22,11 +22,12 @@ struct Listed {
 ///
 /// # Errors
 /// What does not fit the format, and where.
-pub(super) fn blocks(list: &List) -> Result<Vec<Block>, (String, Option<Excerpt>)> {
+pub(super) fn blocks(list: &List) -> Result<Vec<Block>, SceneError> {
     let listed: Vec<Listed> = serde_json::from_str(&list.text).map_err(|error| {
         let message = error.to_string();
         let message = message.rsplit_once(" at line ").map_or(&*message, |(what, _)| what);
-        (message.to_owned(), Excerpt::at(&list.text, error.line(), error.column()))
+        let place = Excerpt::at(&list.text, error.line(), error.column());
+        SceneError::syntax(message, place, Some(&list.path))
     })?;
     let stem = list.path.file_stem().map_or("blocks".into(), |stem| stem.to_string_lossy());
     let block = |(number, Listed { name, material, corners, mesh }): (usize, Listed)| {

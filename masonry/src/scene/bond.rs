@@ -97,8 +97,7 @@ pub fn bricks_in_mortar(wall: &Wall, joints: JointThickness) -> Vec<PlacedBrick>
         .collect()
 }
 
-/// The first course and place in it, from 0 and with openings counted, at which the head joint
-/// leaves nothing of a brick.
+/// The first course and place in it, from 0 and with openings counted, at which the head joint leaves nothing of a brick.
 pub(crate) fn first_without_length(wall: &Wall, joints: JointThickness) -> Option<[usize; 2]> {
     let gone = |&[start, end]: &Span| left_of(end - start, wall, joints) <= SAME_PLACE;
     // Two courses show all there is of a bond without openings.

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use super::setters::setters;
 use super::source::Source;
 use super::{
     Arch, Between, Block, Bond, Brick, Contact, Courses, Films, Form, Joint, Limit, Load, Material,
@@ -44,174 +45,64 @@ impl Scene {
         }
     }
 
-    /// Sets plane stress or plane strain.
-    #[must_use]
-    pub fn plane(mut self, plane: Plane) -> Self {
-        self.plane = Some(plane);
-        self
-    }
-
-    /// Sets the thickness out of the plane \[length\].
-    #[must_use]
-    pub fn thickness(mut self, thickness: f64) -> Self {
-        self.thickness = Some(thickness);
-        self
-    }
-
-    /// Sets gravity \[m/s^2\].
-    #[must_use]
-    pub fn gravity(mut self, gravity: [f64; 2]) -> Self {
-        self.gravity = Some(gravity);
-        self
-    }
-
-    /// Adds a material, or replaces that of the same name.
-    #[must_use]
-    pub fn material(mut self, name: &str, material: Material) -> Self {
-        self.materials.insert(name.to_owned(), material);
-        self
-    }
-
-    /// Adds a joint class, or replaces that of the same name.
-    #[must_use]
-    pub fn joint(mut self, name: &str, joint: Joint) -> Self {
-        self.joints.insert(name.to_owned(), joint);
-        self
-    }
-
-    /// Gives the joints between two bodies, each the name of a block or of a wall, a class of their own.
-    #[must_use]
-    pub fn between(mut self, first: &str, second: &str, joint: &str) -> Self {
-        let blocks = [first, second].map(str::to_owned);
-        self.between.push(Between { blocks, joint: joint.to_owned() });
-        self
-    }
-
-    /// Adds a wall.
-    #[must_use]
-    pub fn wall(mut self, wall: Wall) -> Self {
-        self.walls.push(wall);
-        self
-    }
-
-    /// Adds an arch.
-    #[must_use]
-    pub fn arch(mut self, arch: Arch) -> Self {
-        self.arches.push(arch);
-        self
-    }
-
-    /// Adds a block.
-    #[must_use]
-    pub fn block(mut self, block: Block) -> Self {
-        self.blocks.push(block);
-        self
-    }
-
-    /// Adds a support.
-    #[must_use]
-    pub fn support(mut self, support: Support) -> Self {
-        self.supports.push(support);
-        self
-    }
-
-    /// Adds a load.
-    #[must_use]
-    pub fn load(mut self, load: Load) -> Self {
-        self.loads.push(load);
-        self
-    }
-
-    /// Adds a stage to the load history.
-    #[must_use]
-    pub fn stage(mut self, stage: Stage) -> Self {
-        self.stages.push(stage);
-        self
-    }
-
-    /// Names the load or group of loads that grows to its limit.
-    #[must_use]
-    pub fn limit_group(mut self, name: &str) -> Self {
-        self.limit.group = Some(name.to_owned());
-        self
-    }
-
-    /// Sets where on a joint the contact law is enforced.
-    #[must_use]
-    pub fn contact_points(mut self, points: PointRule) -> Self {
-        self.contact.points = points;
-        self
-    }
-
-    /// Sets which terms of mortar films are kept.
-    #[must_use]
-    pub fn films(mut self, films: Films) -> Self {
-        self.contact.films = films;
-        self
-    }
-
-    /// Sets the distance \[length\] below which bodies may meet.
-    #[must_use]
-    pub fn gap_limit(mut self, gap_limit: f64) -> Self {
-        self.contact.gap_limit = gap_limit;
-        self
-    }
-
-    /// Puts corners of single blocks that are nearer than this to others onto them \[length\].
-    #[must_use]
-    pub fn contact_tolerance(mut self, tolerance: f64) -> Self {
-        self.contact.tolerance = Some(tolerance);
-        self
-    }
-
-    /// Sets the requested residual of the solver \[-\].
-    #[must_use]
-    pub fn tolerance(mut self, tolerance: f64) -> Self {
-        self.solver.tolerance = tolerance;
-        self
-    }
-
-    /// Sets the route to the solution: one of them, or [`RouteSetting::Auto`].
-    #[must_use]
-    pub fn route(mut self, route: impl Into<RouteSetting>) -> Self {
-        self.solver.route = route.into();
-        self
-    }
-
-    /// Sets the stiffness of the springs of the routes that have them, relative to that of the
-    /// blocks \[-\].
-    #[must_use]
-    pub fn soft(mut self, stiffness: f64) -> Self {
-        self.solver.soft = Some(stiffness);
-        self
-    }
-
-    /// Sets the form of the complementarity problem.
-    #[must_use]
-    pub fn form(mut self, form: Form) -> Self {
-        self.solver.form = form;
-        self
-    }
-
-    /// Sets the largest number of pivots of one attempt.
-    #[must_use]
-    pub fn max_pivots(mut self, max_pivots: u32) -> Self {
-        self.solver.max_pivots = Some(max_pivots);
-        self
-    }
-
-    /// Sets the largest number of steps of one attempt of the interior points.
-    #[must_use]
-    pub fn max_steps(mut self, max_steps: u32) -> Self {
-        self.solver.max_steps = Some(max_steps);
-        self
-    }
-
-    /// Sets whether stresses are recovered and written.
-    #[must_use]
-    pub fn stresses(mut self, stresses: bool) -> Self {
-        self.output.stresses = stresses;
-        self
+    setters! {
+        /// Sets plane stress or plane strain.
+        pub fn plane(mut self, plane: Plane) { self.plane = Some(plane) }
+        /// Sets the thickness out of the plane \[length\].
+        pub fn thickness(mut self, thickness: f64) { self.thickness = Some(thickness) }
+        /// Sets gravity \[m/s^2\].
+        pub fn gravity(mut self, gravity: [f64; 2]) { self.gravity = Some(gravity) }
+        /// Adds a material, or replaces that of the same name.
+        pub fn material(mut self, name: &str, material: Material) {
+            self.materials.insert(name.to_owned(), material);
+        }
+        /// Adds a joint class, or replaces that of the same name.
+        pub fn joint(mut self, name: &str, joint: Joint) {
+            self.joints.insert(name.to_owned(), joint);
+        }
+        /// Gives the joints between two bodies, each the name of a block or of a wall, a class of their own.
+        pub fn between(mut self, first: &str, second: &str, joint: &str) {
+            let blocks = [first, second].map(str::to_owned);
+            self.between.push(Between { blocks, joint: joint.to_owned() });
+        }
+        /// Adds a wall.
+        pub fn wall(mut self, wall: Wall) { self.walls.push(wall) }
+        /// Adds an arch.
+        pub fn arch(mut self, arch: Arch) { self.arches.push(arch) }
+        /// Adds a block.
+        pub fn block(mut self, block: Block) { self.blocks.push(block) }
+        /// Adds a support.
+        pub fn support(mut self, support: Support) { self.supports.push(support) }
+        /// Adds a load.
+        pub fn load(mut self, load: Load) { self.loads.push(load) }
+        /// Adds a stage to the load history.
+        pub fn stage(mut self, stage: Stage) { self.stages.push(stage) }
+        /// Names the load or group of loads that grows to its limit.
+        pub fn limit_group(mut self, name: &str) { self.limit.group = Some(name.to_owned()) }
+        /// Sets where on a joint the contact law is enforced.
+        pub fn contact_points(mut self, points: PointRule) { self.contact.points = points }
+        /// Sets which terms of mortar films are kept.
+        pub fn films(mut self, films: Films) { self.contact.films = films }
+        /// Sets the distance \[length\] below which bodies may meet.
+        pub fn gap_limit(mut self, gap_limit: f64) { self.contact.gap_limit = gap_limit }
+        /// Puts corners of single blocks that are nearer than this to others onto them \[length\].
+        pub fn contact_tolerance(mut self, tolerance: f64) {
+            self.contact.tolerance = Some(tolerance)
+        }
+        /// Sets the requested residual of the solver \[-\].
+        pub fn tolerance(mut self, tolerance: f64) { self.solver.tolerance = tolerance }
+        /// Sets the route to the solution: one of them, or [`RouteSetting::Auto`].
+        pub fn route(mut self, route: impl Into<RouteSetting>) { self.solver.route = route.into() }
+        /// Sets the stiffness of the springs of the routes that have them, relative to that of the blocks \[-\].
+        pub fn soft(mut self, stiffness: f64) { self.solver.soft = Some(stiffness) }
+        /// Sets the form of the complementarity problem.
+        pub fn form(mut self, form: Form) { self.solver.form = form }
+        /// Sets the largest number of pivots of one attempt.
+        pub fn max_pivots(mut self, max_pivots: u32) { self.solver.max_pivots = Some(max_pivots) }
+        /// Sets the largest number of steps of one attempt of the interior points.
+        pub fn max_steps(mut self, max_steps: u32) { self.solver.max_steps = Some(max_steps) }
+        /// Sets whether stresses are recovered and written.
+        pub fn stresses(mut self, stresses: bool) { self.output.stresses = stresses }
     }
 }
 
@@ -226,11 +117,9 @@ impl Material {
         Self { young: Some(young), poisson: Some(poisson), density: None }
     }
 
-    /// Gives the material a mass density \[kg/m^3\].
-    #[must_use]
-    pub fn density(mut self, density: f64) -> Self {
-        self.density = Some(density);
-        self
+    setters! {
+        /// Gives the material a mass density \[kg/m^3\].
+        pub fn density(mut self, density: f64) { self.density = Some(density) }
     }
 }
 
@@ -245,40 +134,20 @@ impl Joint {
         Self { phi_deg: Some(phi_deg), ..Self::default() }
     }
 
-    /// Sets the cohesion \[force/length^2\].
-    #[must_use]
-    pub fn cohesion(mut self, cohesion: f64) -> Self {
-        self.cohesion = Some(cohesion);
-        self
-    }
-
-    /// Sets the tensile strength \[force/length^2\], at most cohesion / mu.
-    #[must_use]
-    pub fn tension(mut self, tension: f64) -> Self {
-        self.tension = Some(tension);
-        self
-    }
-
-    /// Sets the normal and the tangential stiffness of the faces \[force/length^3\].
-    #[must_use]
-    pub fn stiffness(mut self, stiffness: [f64; 2]) -> Self {
-        self.stiffness = Some(stiffness);
-        self
-    }
-
-    /// Sets where on the joints of the class the law is enforced.
-    #[must_use]
-    pub fn points(mut self, points: PointRule) -> Self {
-        self.points = Some(points);
-        self
-    }
-
-    /// Fills the joints of the class with mortar of a thickness \[length\] and an elastic material.
-    #[must_use]
-    pub fn mortar(mut self, thickness: f64, material: &str) -> Self {
-        self.thickness = Some(thickness);
-        self.material = Some(material.to_owned());
-        self
+    setters! {
+        /// Sets the cohesion \[force/length^2\].
+        pub fn cohesion(mut self, cohesion: f64) { self.cohesion = Some(cohesion) }
+        /// Sets the tensile strength \[force/length^2\], at most cohesion / mu.
+        pub fn tension(mut self, tension: f64) { self.tension = Some(tension) }
+        /// Sets the normal and the tangential stiffness of the faces \[force/length^3\].
+        pub fn stiffness(mut self, stiffness: [f64; 2]) { self.stiffness = Some(stiffness) }
+        /// Sets where on the joints of the class the law is enforced.
+        pub fn points(mut self, points: PointRule) { self.points = Some(points) }
+        /// Fills the joints of the class with mortar of a thickness \[length\] and an elastic material.
+        pub fn mortar(mut self, thickness: f64, material: &str) {
+            self.thickness = Some(thickness);
+            self.material = Some(material.to_owned());
+        }
     }
 }
 
@@ -301,39 +170,19 @@ impl Wall {
         Self::new(name, material, brick, Courses::List(courses))
     }
 
-    /// Sets how the bricks are laid.
-    #[must_use]
-    pub fn bond(mut self, bond: Bond) -> Self {
-        self.bond = Some(bond);
-        self
-    }
-
-    /// Adds an opening.
-    #[must_use]
-    pub fn opening(mut self, opening: Opening) -> Self {
-        self.openings.push(opening);
-        self
-    }
-
-    /// Sets the classes of the beds and heads within the wall.
-    #[must_use]
-    pub fn joints(mut self, bed: &str, head: &str) -> Self {
-        self.joints = WallJoints { bed: Some(bed.to_owned()), head: Some(head.to_owned()) };
-        self
-    }
-
-    /// Puts the lower left corner of the wall at `origin` \[length\] instead of `[0, 0]`.
-    #[must_use]
-    pub fn origin(mut self, origin: [f64; 2]) -> Self {
-        self.origin = origin;
-        self
-    }
-
-    /// Sets the elements along the length and height of a whole brick.
-    #[must_use]
-    pub fn mesh(mut self, mesh: [u32; 2]) -> Self {
-        self.mesh = Some(mesh);
-        self
+    setters! {
+        /// Sets how the bricks are laid.
+        pub fn bond(mut self, bond: Bond) { self.bond = Some(bond) }
+        /// Adds an opening.
+        pub fn opening(mut self, opening: Opening) { self.openings.push(opening) }
+        /// Sets the classes of the beds and heads within the wall.
+        pub fn joints(mut self, bed: &str, head: &str) {
+            self.joints = WallJoints { bed: Some(bed.to_owned()), head: Some(head.to_owned()) }
+        }
+        /// Puts the lower left corner of the wall at `origin` \[length\] instead of `[0, 0]`.
+        pub fn origin(mut self, origin: [f64; 2]) { self.origin = origin }
+        /// Sets the elements along the length and height of a whole brick.
+        pub fn mesh(mut self, mesh: [u32; 2]) { self.mesh = Some(mesh) }
     }
 
     fn new(name: &str, material: &str, brick: Brick, courses: Courses) -> Self {
@@ -359,11 +208,9 @@ impl Block {
         Self { name, material, corners: corners.into(), mesh: None }
     }
 
-    /// Sets the elements along edges 0 and 2, and along edges 1 and 3.
-    #[must_use]
-    pub fn mesh(mut self, mesh: [u32; 2]) -> Self {
-        self.mesh = Some(mesh);
-        self
+    setters! {
+        /// Sets the elements along edges 0 and 2, and along edges 1 and 3.
+        pub fn mesh(mut self, mesh: [u32; 2]) { self.mesh = Some(mesh) }
     }
 }
 

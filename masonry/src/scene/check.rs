@@ -5,12 +5,12 @@ use std::collections::BTreeMap;
 use nalgebra::Point2;
 
 use super::rules::{
-    Check, MAGNITUDES, finite, missing, not_negative, plain, point, positive, too_many, unwanted,
-    value,
+    Check, MAGNITUDES, at_least_one, at_most, each, finite, named, needed, not_negative, plain,
+    point, positive, unwanted, value,
 };
 use super::{
-    Between, Block, Courses, Fault, Form, KeyPath, Known, Material, Route, RouteSetting, Scene,
-    SceneError, SceneErrorKind, Solver, Support, Wall,
+    Block, Courses, Fault, Form, KeyPath, Material, Route, RouteSetting, Scene, SceneError,
+    SceneErrorKind, Solver, Support, Wall,
 };
 use crate::geometry::{self, PolygonError};
 use crate::scene::bond::JointThickness;
@@ -18,7 +18,6 @@ use crate::scene::bond::JointThickness;
 mod arches;
 mod joints;
 mod loads;
-
 mod openings;
 mod stages;
 
@@ -44,8 +43,9 @@ impl Scene {
     fn check_data(&self) -> Check {
         self.check_general()?;
         for (name, material) in &self.materials {
-            plain(KeyPath::of("materials").key(name), name)?;
-            self.check_material(&KeyPath::of("materials").key(name), material)?;
+            let at = KeyPath::of("materials").key(name);
+            plain(at.clone(), name)?;
+            self.check_material(&at, material)?;
         }
         for (name, joint) in &self.joints {
             let at = KeyPath::of("joints").key(name);
@@ -57,24 +57,18 @@ impl Scene {
             return Err(Fault::new(KeyPath::default(), SceneErrorKind::Empty));
         }
         self.check_names()?;
-        for (k, wall) in self.walls.iter().enumerate() {
-            self.check_wall(&KeyPath::of("walls").item(k), wall)?;
-        }
-        for (k, block) in self.blocks.iter().enumerate() {
-            self.check_block(&KeyPath::of("blocks").item(k), block)?;
-        }
-        self.check_arches()?;
+        each("walls", &self.walls, |at, wall| self.check_wall(at, wall))?;
+        each("blocks", &self.blocks, |at, block| self.check_block(at, block))?;
+        each("arches", &self.arches, |at, arch| self.check_arch(at, arch))?;
         if self.all_supports().is_empty() {
             return Err(Fault::new(KeyPath::default(), SceneErrorKind::NoSupport));
         }
-        for (k, between) in self.between.iter().enumerate() {
-            self.check_between(&KeyPath::of("between").item(k), between)?;
-        }
-        for (k, support) in self.supports.iter().enumerate() {
-            self.check_support(&KeyPath::of("supports").item(k), support)?;
-        }
-        self.check_loads()?;
-        self.check_stages()?;
+        // Whether the blocks exist is known with the model.
+        each("between", &self.between, |at, it| self.check_class(at.key("joint"), &it.joint))?;
+        each("supports", &self.supports, |at, support| self.check_support(at, support))?;
+        each("loads", &self.loads, |at, load| self.check_load(at, load))?;
+        unique("stage", "stages", self.stages.iter().map(|stage| &stage.name))?;
+        each("stages", &self.stages, |at, stage| self.check_stage(at, stage))?;
         self.check_limit()?;
         self.check_options()
     }
@@ -86,40 +80,30 @@ impl Scene {
             let kind = SceneErrorKind::BlockList { path: path.clone(), message };
             return Err(Fault::new(KeyPath::of("block_list"), kind));
         }
-        let Some(thickness) = self.thickness else {
-            let because = "to turn tractions into forces";
-            return Err(missing(&KeyPath::default(), "thickness", because, "thickness = 1.0"));
-        };
-        positive(KeyPath::of("thickness"), thickness)?;
-        self.gravity.map_or(Ok(()), |gravity| point(&KeyPath::of("gravity"), gravity))
+        let because = "to turn tractions into forces";
+        let top = KeyPath::default();
+        let thickness = needed(self.thickness, &top, "thickness", because, "thickness = 1.0")?;
+        positive(top.key("thickness"), thickness)?;
+        self.gravity.map_or(Ok(()), |gravity| point(&top.key("gravity"), gravity))
     }
 
     fn check_material(&self, at: &KeyPath, material: &Material) -> Check {
-        match (material.young, material.poisson) {
-            (Some(young), Some(poisson)) => {
-                positive(at.key("E"), young)?;
-                let wanted = "Poisson's ratio lies between -1 and 0.5, both excluded";
-                value(at.key("nu"), poisson, poisson > -1.0 && poisson < 0.5, wanted)?;
-                if self.plane.is_none() {
-                    let because = "because a material is elastic";
-                    return Err(missing(
-                        &KeyPath::default(),
-                        "plane",
-                        because,
-                        "plane = \"stress\"",
-                    ));
-                }
-            }
-            (Some(_), None) => return Err(missing(at, "nu", "with `E`", "nu = 0.2")),
-            (None, Some(_)) => {
-                return Err(unwanted(at, "nu", "has no meaning without `E`", ", or add `E`"));
-            }
-            (None, None) => {}
+        let Material { young, poisson, density } = *material;
+        if let Some(young) = young {
+            let poisson = needed(poisson, at, "nu", "with `E`", "nu = 0.2")?;
+            positive(at.key("E"), young)?;
+            let wanted = "Poisson's ratio lies between -1 and 0.5, both excluded";
+            value(at.key("nu"), poisson, poisson > -1.0 && poisson < 0.5, wanted)?;
+            let (top, because) = (KeyPath::default(), "because a material is elastic");
+            needed(self.plane, &top, "plane", because, "plane = \"stress\"")?;
+        } else {
+            let because = "has no meaning without `E`";
+            unwanted(poisson.is_some(), at, "nu", because, ", or add `E`")?;
         }
-        material.density.map_or(Ok(()), |density| positive(at.key("density"), density))
+        density.map_or(Ok(()), |density| positive(at.key("density"), density))
     }
 
-    /// Names of walls, blocks, supports and loads: given, and each once among its like.
+    /// Names of walls, arches, blocks, supports and loads: given, and each once among its like.
     fn check_names(&self) -> Check {
         unique("wall", "walls", self.walls.iter().map(|wall| &wall.name))?;
         unique("arch", "arches", self.arches.iter().map(|arch| &arch.name))?;
@@ -133,64 +117,56 @@ impl Scene {
         point(&at.key("origin"), wall.origin)?;
         positive(at.key("brick").key("length"), wall.brick.length)?;
         positive(at.key("brick").key("height"), wall.brick.height)?;
+        let joints = JointThickness::of(self, wall);
         let count = match &wall.courses {
-            Courses::RunningBond(count) => {
-                check_running_bond(at, wall, *count, JointThickness::of(self, wall))?
-            }
+            Courses::RunningBond(count) => check_running_bond(at, wall, *count, joints)?,
             Courses::List(courses) => check_courses(at, wall, courses)?,
         };
-        if count > f64::from(MOST_BLOCKS) {
-            return Err(too_many(at.key("courses"), "bricks", count, MOST_BLOCKS));
-        }
+        at_most(at.key("courses"), "bricks", count, MOST_BLOCKS)?;
         for (key, class) in [("bed", &wall.joints.bed), ("head", &wall.joints.head)] {
             let Some(class) = class else { continue };
             self.check_class(at.key("joints").key(key), class)?;
         }
-        joints::check_room(at, wall, JointThickness::of(self, wall))?;
+        joints::check_room(at, wall, joints)?;
         check_mesh(at, wall.mesh, material)?;
-        let elements = wall.mesh.map_or(1.0, |counts| counts.map(f64::from).iter().product());
-        let most = MOST_ELEMENTS_OF_WALL;
-        if count * elements > f64::from(most) {
-            return Err(too_many(at.key("mesh"), "elements of a wall", count * elements, most));
-        }
-        Ok(())
+        let elements: f64 = wall.mesh.map_or(1.0, |mesh| mesh.map(f64::from).iter().product());
+        at_most(at.key("mesh"), "elements of a wall", count * elements, MOST_ELEMENTS_OF_WALL)
     }
 
     fn check_block(&self, at: &KeyPath, block: &Block) -> Check {
         let material = self.material_of(at, &block.material)?;
+        let corners = at.key("corners");
         for (k, corner) in block.corners.iter().enumerate() {
-            point(&at.key("corners").item(k), *corner)?;
+            point(&corners.item(k), *corner)?;
         }
-        self.check_shape(at.key("corners"), block)?;
+        self.check_shape(&corners, block)?;
         let count = block.corners.len();
         if material.young.is_some() && count != 4 {
             let kind = SceneErrorKind::NoQuadrilateral { block: block.name.clone(), count };
-            return Err(Fault::new(at.key("corners"), kind));
+            return Err(Fault::new(corners, kind));
         }
         check_mesh(at, block.mesh, material)
     }
 
-    fn check_shape(&self, at: KeyPath, block: &Block) -> Check {
-        let corners: Vec<_> = block.corners.iter().map(|[x, y]| Point2::new(*x, *y)).collect();
-        let name = block.name.clone();
-        match geometry::check_convex(&corners) {
-            Ok(()) => Ok(()),
-            Err(PolygonError::Clockwise { area }) => {
+    fn check_shape(&self, at: &KeyPath, block: &Block) -> Check {
+        let corners: Vec<_> = block.corners.iter().copied().map(Point2::from).collect();
+        let Err(error) = geometry::check_convex(&corners) else { return Ok(()) };
+        let (block, at) = (block.name.clone(), at.clone());
+        Err(match error {
+            PolygonError::Clockwise(area) => {
                 let unit = self.units.length_name();
-                Err(Fault::new(at, SceneErrorKind::Clockwise { block: name, area, unit }))
+                Fault::new(at, SceneErrorKind::Clockwise { block, area, unit })
             }
-            Err(PolygonError::NotConvex { corner }) => {
-                let kind = SceneErrorKind::NotConvex { block: name, corner: corner + 1 };
-                Err(Fault::new(at.item(corner), kind))
+            PolygonError::NotConvex(corner) => {
+                let kind = SceneErrorKind::NotConvex { block, corner: corner + 1 };
+                Fault::new(at.item(corner), kind)
             }
-            Err(PolygonError::TooFew { count }) => {
-                Err(Fault::new(at, SceneErrorKind::TooFewCorners { block: name, count }))
+            PolygonError::TooFew(count) => {
+                Fault::new(at, SceneErrorKind::TooFewCorners { block, count })
             }
-            Err(PolygonError::Crossing) => {
-                Err(Fault::new(at, SceneErrorKind::CrossingEdges { block: name }))
-            }
-            Err(PolygonError::NotFinite) => finite(at, f64::INFINITY),
-        }
+            PolygonError::Crossing => Fault::new(at, SceneErrorKind::CrossingEdges(block)),
+            PolygonError::NotFinite => return finite(at, f64::INFINITY),
+        })
     }
 
     fn check_support(&self, at: &KeyPath, support: &Support) -> Check {
@@ -198,17 +174,12 @@ impl Scene {
         self.check_class(at.key("joint"), &support.joint)
     }
 
-    /// The class; whether the blocks exist is known with the model.
-    fn check_between(&self, at: &KeyPath, between: &Between) -> Check {
-        self.check_class(at.key("joint"), &between.joint)
+    fn check_class(&self, at: KeyPath, class: &str) -> Check {
+        named(at, class, "joint class", "joints", &self.joints).map(|_| ())
     }
 
-    fn check_class(&self, at: KeyPath, class: &str) -> Check {
-        if self.joints.contains_key(class) {
-            return Ok(());
-        }
-        let known = self.joints.keys().cloned().collect();
-        Err(unknown(at, "joint class", class, known, "joints"))
+    fn material_of(&self, at: &KeyPath, name: &str) -> Result<&Material, Fault> {
+        named(at.key("material"), name, "material", "materials", &self.materials)
     }
 
     fn check_options(&self) -> Check {
@@ -216,52 +187,42 @@ impl Scene {
         not_negative(contact.key("gap_limit"), self.contact.gap_limit)?;
         not_negative(contact.key("tolerance"), self.contact.tolerance.unwrap_or(0.0))?;
         self.check_films(&contact)?;
-        let (solver, tolerance) = (KeyPath::of("solver"), self.solver.tolerance);
+        let Solver { tolerance, max_pivots, max_steps, soft, .. } = self.solver;
+        let at = KeyPath::of("solver");
         let wanted = "the tolerance is a relative residual between 0 and 1, both excluded";
-        value(solver.key("tolerance"), tolerance, tolerance > 0.0 && tolerance < 1.0, wanted)?;
-        let pivots = self.solver.max_pivots;
+        value(at.key("tolerance"), tolerance, tolerance > 0.0 && tolerance < 1.0, wanted)?;
         let wanted = "at least one pivot; leave the key out for a limit by the order";
-        value(solver.key("max_pivots"), 0.0, pivots != Some(0), wanted)?;
+        at_least_one(at.key("max_pivots"), max_pivots.unwrap_or(1), wanted)?;
         let wanted = "at least one step; leave the key out for the usual limit";
-        value(solver.key("max_steps"), 0.0, self.solver.max_steps != Some(0), wanted)?;
-        if let Some(soft) = self.solver.soft {
-            let wanted = "springs have a stiffness above 0 and at most 1, that of the blocks";
-            value(solver.key("soft"), soft, soft > 0.0 && soft <= 1.0, wanted)?;
-        }
-        self.check_route(&solver)
+        at_least_one(at.key("max_steps"), max_steps.unwrap_or(1), wanted)?;
+        let wanted = "springs have a stiffness above 0 and at most 1, that of the blocks";
+        value(
+            at.key("soft"),
+            soft.unwrap_or(1.0),
+            soft.is_none_or(|it| it > 0.0 && it <= 1.0),
+            wanted,
+        )?;
+        self.check_route(&at)
     }
 
-    /// Rejects keys of the solver that the route does not use.
+    /// Refuses keys of the solver that the route does not use.
     fn check_route(&self, at: &KeyPath) -> Check {
         let Solver { route, form, max_pivots, max_steps, soft, .. } = self.solver;
-        let pivots = route.allows(Route::Lemke);
+        let refuse = |given: bool, is_used: bool, key, because, otherwise| {
+            unwanted(given && !is_used, at, key, because, otherwise)
+        };
+        let (pivots, steps) = (route.allows(Route::Lemke), route.allows(Route::Interior));
         let springs = [Route::Qp, Route::Pgs].map(RouteSetting::Only).contains(&route);
+        let because = "is used by the routes `auto` and `lemke` only";
         let otherwise = ", or set route = \"lemke\"";
-        if form != Form::Auto && !pivots {
-            let because = "is used by the routes `auto` and `lemke` only";
-            return Err(unwanted(at, "form", because, otherwise));
-        }
-        if max_pivots.is_some() && !pivots {
-            let because = "is used by the routes `auto` and `lemke` only";
-            return Err(unwanted(at, "max_pivots", because, otherwise));
-        }
-        if max_steps.is_some() && !route.allows(Route::Interior) {
-            let because = "is used by the routes `auto` and `interior` only";
-            return Err(unwanted(at, "max_steps", because, ", or set route = \"interior\""));
-        }
-        if soft.is_some() && !springs {
-            let because = "is the stiffness of springs, which only the routes `qp` and `pgs` have";
-            let otherwise = ", or set route = \"qp\" or route = \"pgs\"";
-            return Err(unwanted(at, "soft", because, otherwise));
-        }
-        Ok(())
-    }
-
-    fn material_of(&self, at: &KeyPath, name: &str) -> Result<&Material, Fault> {
-        self.materials.get(name).ok_or_else(|| {
-            let known = self.materials.keys().cloned().collect();
-            unknown(at.key("material"), "material", name, known, "materials")
-        })
+        refuse(form != Form::Auto, pivots, "form", because, otherwise)?;
+        refuse(max_pivots.is_some(), pivots, "max_pivots", because, otherwise)?;
+        let because = "is used by the routes `auto` and `interior` only";
+        let otherwise = ", or set route = \"interior\"";
+        refuse(max_steps.is_some(), steps, "max_steps", because, otherwise)?;
+        let because = "is the stiffness of springs, which only the routes `qp` and `pgs` have";
+        let otherwise = ", or set route = \"qp\" or route = \"pgs\"";
+        refuse(soft.is_some(), springs, "soft", because, otherwise)
     }
 }
 
@@ -272,13 +233,11 @@ fn check_running_bond(
     count: u32,
     joints: JointThickness,
 ) -> Result<f64, Fault> {
-    value(at.key("courses"), f64::from(count), count > 0, "a wall has at least one course")?;
-    let Some(width) = wall.width else {
-        return Err(missing(at, "width", "where `courses` is a number", "width = 1.0"));
-    };
+    at_least_one(at.key("courses"), count, "a wall has at least one course")?;
+    let because = "because `courses` is a number";
+    let width = needed(wall.width, at, "width", because, "width = 1.0")?;
     positive(at.key("width"), width)?;
-    let size = openings::WallSize { width, courses: count };
-    openings::check(at, wall, joints, size)?;
+    openings::check(at, wall, joints, openings::WallSize { width, courses: count })?;
     // An English bond has two headers a brick, and an opening divides two bricks.
     let in_course = 2.0 * width / wall.brick.length + 3.0 + 2.0 * wall.openings.len() as f64;
     Ok(f64::from(count) * in_course.floor())
@@ -286,25 +245,21 @@ fn check_running_bond(
 
 /// Checks a list of courses; the number of its bricks.
 fn check_courses(at: &KeyPath, wall: &Wall, courses: &[Vec<f64>]) -> Result<f64, Fault> {
-    if wall.width.is_some() {
-        let because = "has no meaning where `courses` is a list";
-        return Err(unwanted(at, "width", because, ", or give the number of courses"));
-    }
-    for (key, given) in [("bond", wall.bond.is_some()), ("openings", !wall.openings.is_empty())] {
-        if given {
-            let because = "is for walls whose `courses` is a number";
-            return Err(unwanted(at, key, because, ", or give the number of courses"));
-        }
-    }
+    let otherwise = ", or give the number of courses";
+    let because = "has no meaning if `courses` is a list";
+    unwanted(wall.width.is_some(), at, "width", because, otherwise)?;
+    let because = "is for walls whose `courses` is a number";
+    unwanted(wall.bond.is_some(), at, "bond", because, otherwise)?;
+    unwanted(!wall.openings.is_empty(), at, "openings", because, otherwise)?;
     let list = at.key("courses");
     if courses.is_empty() {
         let remedy = "give at least one course, such as [[1, 1]]";
-        return Err(Fault::new(list, SceneErrorKind::EmptyList { remedy }));
+        return Err(Fault::new(list, SceneErrorKind::EmptyList(remedy)));
     }
     for (k, course) in courses.iter().enumerate() {
         if course.is_empty() {
             let remedy = "give the bricks of the course; an opening is a negative length";
-            return Err(Fault::new(list.item(k), SceneErrorKind::EmptyList { remedy }));
+            return Err(Fault::new(list.item(k), SceneErrorKind::EmptyList(remedy)));
         }
         for (place, length) in course.iter().enumerate() {
             let at = list.item(k).item(place);
@@ -312,27 +267,20 @@ fn check_courses(at: &KeyPath, wall: &Wall, courses: &[Vec<f64>]) -> Result<f64,
                 "lengths in a course are positive for a brick, negative for an opening, and finite";
             value(at.clone(), *length, MAGNITUDES.contains(&length.abs()), wanted)?;
             let elements = length * f64::from(wall.mesh.map_or(1, |[along, _]| along));
-            if elements > f64::from(MOST_ELEMENTS) {
-                return Err(too_many(at, "elements along an edge", elements, MOST_ELEMENTS));
-            }
+            at_most(at, "elements along an edge", elements, MOST_ELEMENTS)?;
         }
     }
     Ok(courses.iter().map(Vec::len).sum::<usize>() as f64)
 }
 
 fn check_mesh(at: &KeyPath, mesh: Option<[u32; 2]>, material: &Material) -> Check {
-    let Some(counts) = mesh else {
-        return match material.young {
-            Some(_) => Err(missing(at, "mesh", "because the material is elastic", "mesh = [1, 1]")),
-            None => Ok(()),
-        };
-    };
-    for (k, count) in counts.into_iter().enumerate() {
+    if material.young.is_some() {
+        needed(mesh, at, "mesh", "because the material is elastic", "mesh = [1, 1]")?;
+    }
+    for (k, count) in mesh.into_iter().flatten().enumerate() {
         let at = at.key("mesh").item(k);
-        if count > MOST_ELEMENTS {
-            return Err(too_many(at, "elements along an edge", f64::from(count), MOST_ELEMENTS));
-        }
-        value(at, f64::from(count), count > 0, "a block has at least one element along each edge")?;
+        at_most(at.clone(), "elements along an edge", f64::from(count), MOST_ELEMENTS)?;
+        at_least_one(at, count, "a block has at least one element along each edge")?;
     }
     Ok(())
 }
@@ -340,8 +288,7 @@ fn check_mesh(at: &KeyPath, mesh: Option<[u32; 2]>, material: &Material) -> Chec
 fn segment(at: &KeyPath, from: [f64; 2], to: [f64; 2]) -> Check {
     point(&at.key("from"), from)?;
     point(&at.key("to"), to)?;
-    let apart = from.iter().zip(&to).any(|(a, b)| (a - b).abs() >= *MAGNITUDES.start());
-    if apart {
+    if from.iter().zip(&to).any(|(a, b)| (a - b).abs() >= *MAGNITUDES.start()) {
         return Ok(());
     }
     Err(Fault::new(at.key("to"), SceneErrorKind::NoLength { x: to[0], y: to[1] }))
@@ -352,40 +299,16 @@ fn unique<'a>(
     list: &'static str,
     names: impl Iterator<Item = &'a String>,
 ) -> Check {
-    let mut first = BTreeMap::new();
+    let mut taken = BTreeMap::new();
     for (k, name) in names.enumerate() {
-        let at = KeyPath::of(list).item(k);
+        let (item, at) = (KeyPath::of(list).item(k), KeyPath::of(list).item(k).key("name"));
         if name.trim().is_empty() {
-            return Err(Fault::new(at.key("name"), SceneErrorKind::EmptyName));
+            return Err(Fault::new(at, SceneErrorKind::EmptyName));
         }
-        plain(at.key("name"), name)?;
-        if let Some(taken) = first.insert(name, at.clone()) {
-            let kind =
-                SceneErrorKind::Duplicate { what, name: name.clone(), first: taken.to_string() };
-            return Err(Fault::new(at.key("name"), kind));
+        plain(at.clone(), name)?;
+        if let Some(first) = taken.insert(name, item) {
+            return Err(Fault::duplicate(at, what, name, &first));
         }
     }
     Ok(())
-}
-
-fn unknown(
-    at: KeyPath,
-    what: &'static str,
-    name: &str,
-    known: Vec<String>,
-    table: &'static str,
-) -> Fault {
-    let missing = match what {
-        "load" | "load or group" | "support" => format!("it under [[{table}]]"),
-        _ => format!("[{table}.{name}]"),
-    };
-    Fault::new(
-        at,
-        SceneErrorKind::Unknown {
-            what,
-            name: name.to_owned(),
-            known: Known::near(name, known),
-            missing,
-        },
-    )
 }

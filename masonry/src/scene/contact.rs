@@ -5,21 +5,17 @@ use serde::{Deserialize, Serialize};
 /// How contact is looked for and enforced.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
+#[serde(default, deny_unknown_fields)]
 pub struct Contact {
     /// Where on a joint the contact law is enforced.
-    #[serde(default)]
     pub points: PointRule,
     /// Bodies closer than this may meet \[length\]; zero: only bodies that touch.
-    #[serde(default)]
     pub gap_limit: f64,
     /// Corners of single blocks that are nearer than this to corners and edges of other blocks and to supports are put onto them
     /// \[length\], by the least movements. Without a tolerance corners are moved only if blocks overlap, by up to 1e-5 of the
     /// shortest edge of a single block: six decimals of a metre leave less of bricks that are 0.2 m high.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tolerance: Option<f64>,
     /// Which terms of mortar films are kept.
-    #[serde(default)]
     pub films: Films,
 }
 
@@ -44,8 +40,7 @@ pub enum PointRule {
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum Films {
-    /// What acts across the joint: a compliance in series with each contact point, without strain
-    /// along the joint.
+    /// What acts across the joint: a compliance in series with each contact point, without strain along the joint.
     #[default]
     Compliance,
     /// The whole strip (3.28)-(3.39), also with the stress along the joint and the strain that it

@@ -3,18 +3,8 @@
 use std::fmt;
 
 use serde::de::{Deserialize, Deserializer, Error, SeqAccess, Unexpected, Visitor};
-use serde::ser::{Serialize, Serializer};
 
 use super::Courses;
-
-impl Serialize for Courses {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        match self {
-            Self::RunningBond(count) => count.serialize(serializer),
-            Self::List(courses) => courses.serialize(serializer),
-        }
-    }
-}
 
 impl<'de> Deserialize<'de> for Courses {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {

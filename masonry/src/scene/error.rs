@@ -12,7 +12,7 @@ pub use kind::SceneErrorKind;
 pub use known::Known;
 use known::with_nearest;
 
-use super::source::{Excerpt, Source};
+use super::source::Excerpt;
 use super::{KeyPath, Scene};
 
 /// Something is wrong with a scene: what, where, and how to mend it.
@@ -56,35 +56,27 @@ impl SceneError {
         self.0.file.as_deref()
     }
 
-    pub(super) fn syntax(source: &Source, error: &toml::de::Error) -> Self {
-        // An error without a place, such as a missing key of the whole scene, is shown at the top.
-        let place = source.place(error.span().unwrap_or(0..0));
-        let kind = SceneErrorKind::Syntax { message: with_nearest(error.message()) };
-        Self::new(kind, KeyPath::default(), place, source.path().map(Path::to_owned))
+    /// What does not fit the format, and where in which file.
+    pub(super) fn syntax(message: &str, place: Option<Excerpt>, file: Option<&Path>) -> Self {
+        let kind = SceneErrorKind::Syntax(with_nearest(message));
+        Self::new(kind, KeyPath::default(), place, file)
     }
 
-    pub(super) fn list(path: &Path, message: &str, place: Option<Excerpt>) -> Self {
-        let kind = SceneErrorKind::Syntax { message: with_nearest(message) };
-        Self::new(kind, KeyPath::default(), place, Some(path.to_owned()))
+    pub(super) fn unreadable(path: &Path, message: String) -> Self {
+        Self::new(SceneErrorKind::Read(message), KeyPath::default(), None, Some(path))
     }
 
-    pub(super) fn unreadable(path: &Path, message: &str) -> Self {
-        let kind = SceneErrorKind::Read { message: message.to_owned() };
-        Self::new(kind, KeyPath::default(), None, Some(path.to_owned()))
-    }
-
-    pub(super) fn unwritable(message: &str) -> Self {
-        let kind = SceneErrorKind::Write { message: message.to_owned() };
-        Self::new(kind, KeyPath::default(), None, None)
+    pub(super) fn unwritable(message: String) -> Self {
+        Self::new(SceneErrorKind::Write(message), KeyPath::default(), None, None)
     }
 
     fn new(
         kind: SceneErrorKind,
         key: KeyPath,
         place: Option<Excerpt>,
-        file: Option<PathBuf>,
+        file: Option<&Path>,
     ) -> Self {
-        Self(Box::new(Details { kind, key, place, file }))
+        Self(Box::new(Details { kind, key, place, file: file.map(Path::to_owned) }))
     }
 }
 
@@ -115,8 +107,14 @@ pub(crate) struct Fault {
 }
 
 impl Fault {
-    pub(crate) fn new(key: KeyPath, kind: SceneErrorKind) -> Self {
-        Self { key, kind: Box::new(kind) }
+    pub(crate) fn new(key: KeyPath, kind: impl Into<SceneErrorKind>) -> Self {
+        Self { key, kind: Box::new(kind.into()) }
+    }
+
+    /// A name that is taken by the value at `first`; `what` is the kind of both.
+    pub(crate) fn duplicate(at: KeyPath, what: &'static str, name: &str, first: &KeyPath) -> Self {
+        let (name, first) = (name.to_owned(), first.to_string());
+        Self::new(at, SceneErrorKind::Duplicate { what, name, first })
     }
 
     /// The error with its place in the text, if the scene still says what the text says.
@@ -126,11 +124,7 @@ impl Fault {
             // NaN differs from itself: what was written is compared, not what it is worth.
             format!("{read:?}") == format!("{:?}", scene.without_source())
         });
-        if unchanged {
-            let (file, place) = source.locate(&self.key);
-            SceneError::new(*self.kind, self.key, place, file.map(Path::to_owned))
-        } else {
-            SceneError::new(*self.kind, self.key, None, None)
-        }
+        let (file, place) = if unchanged { source.locate(&self.key) } else { (None, None) };
+        SceneError::new(*self.kind, self.key, place, file)
     }
 }

@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::setters::setters;
 use super::strict;
 
 /// A load of exactly one kind: [`LoadKind`] lists the keys of each.
@@ -20,67 +21,36 @@ pub struct Load {
     /// Name of the load.
     pub name: String,
     /// Group of the load; by default a group of its own, with the name of the load.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub group: Option<String>,
     /// Factor of the load \[-\].
     #[serde(default = "one", skip_serializing_if = "is_one")]
     pub factor: f64,
     /// One end of a segment \[length\].
-    #[serde(
-        default,
-        skip_serializing_if = "Option::is_none",
-        deserialize_with = "strict::some_pair"
-    )]
+    #[serde(default, deserialize_with = "strict::read")]
     pub from: Option<[f64; 2]>,
     /// The other end \[length\].
-    #[serde(
-        default,
-        skip_serializing_if = "Option::is_none",
-        deserialize_with = "strict::some_pair"
-    )]
+    #[serde(default, deserialize_with = "strict::read")]
     pub to: Option<[f64; 2]>,
     /// Force per area against the outward normal of the edge \[force/length^2\].
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub pressure: Option<f64>,
     /// Force per area in global axes \[force/length^2\].
-    #[serde(
-        default,
-        skip_serializing_if = "Option::is_none",
-        deserialize_with = "strict::some_pair"
-    )]
+    #[serde(default, deserialize_with = "strict::read")]
     pub traction: Option<[f64; 2]>,
     /// Name of a block.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub block: Option<String>,
     /// A place inside or on the edge of that block \[length\].
-    #[serde(
-        default,
-        skip_serializing_if = "Option::is_none",
-        deserialize_with = "strict::some_pair"
-    )]
+    #[serde(default, deserialize_with = "strict::read")]
     pub at: Option<[f64; 2]>,
     /// The force over the whole thickness in global axes \[force\].
-    #[serde(
-        default,
-        skip_serializing_if = "Option::is_none",
-        deserialize_with = "strict::some_pair"
-    )]
+    #[serde(default, deserialize_with = "strict::read")]
     pub force: Option<[f64; 2]>,
     /// An acceleration that acts on mass like gravity \[m/s^2\]: to the right, it pushes to the right.
-    #[serde(
-        default,
-        skip_serializing_if = "Option::is_none",
-        deserialize_with = "strict::some_pair"
-    )]
+    #[serde(default, deserialize_with = "strict::read")]
     pub acceleration: Option<[f64; 2]>,
     /// The part of a load on edges or at a place, from 0 to 1, that is the weight of a mass, such as that of a roof: accelerations
     /// act on this mass as on that of the blocks, where the load acts. `true` is 1 and `false` 0. The mass is that of the component
     /// along gravity, times the factor of the load; factors of stages and limit loads do not change it.
-    #[serde(
-        default,
-        skip_serializing_if = "Option::is_none",
-        deserialize_with = "strict::some_part"
-    )]
+    #[serde(default, deserialize_with = "strict::part")]
     #[cfg_attr(test, schemars(with = "Option<Part>"))]
     pub mass: Option<f64>,
 }
@@ -154,25 +124,13 @@ impl Load {
         Self { acceleration: Some(acceleration), ..Self::named(name) }
     }
 
-    /// Puts the load into a group.
-    #[must_use]
-    pub fn group(mut self, group: &str) -> Self {
-        self.group = Some(group.to_owned());
-        self
-    }
-
-    /// Multiplies the load by a factor \[-\], instead of one.
-    #[must_use]
-    pub fn factor(mut self, factor: f64) -> Self {
-        self.factor = factor;
-        self
-    }
-
-    /// Makes a part of the load, from 0 to 1, the weight of a mass on which accelerations act.
-    #[must_use]
-    pub fn mass(mut self, part: f64) -> Self {
-        self.mass = Some(part);
-        self
+    setters! {
+        /// Puts the load into a group.
+        pub fn group(mut self, group: &str) { self.group = Some(group.to_owned()) }
+        /// Multiplies the load by a factor \[-\], instead of one.
+        pub fn factor(mut self, factor: f64) { self.factor = factor }
+        /// Makes a part of the load, from 0 to 1, the weight of a mass on which accelerations act.
+        pub fn mass(mut self, part: f64) { self.mass = Some(part) }
     }
 
     /// The name of its group.
@@ -193,25 +151,22 @@ impl Load {
     /// The kind of the load; `None` if its keys are not those of exactly one kind, which
     /// [`Scene::check`](super::Scene::check) refuses.
     pub fn kind(&self) -> Option<LoadKind<'_>> {
-        let stress = match (self.pressure, self.traction) {
-            (Some(pressure), None) => Some(EdgeStress::Pressure(pressure)),
-            (None, Some(traction)) => Some(EdgeStress::Traction(traction)),
-            _ => None,
-        };
-        let edge = || Some(LoadKind::Edge { from: self.from?, to: self.to?, stress: stress? });
-        let force = || {
-            Some(LoadKind::Force {
-                block: self.block.as_deref()?,
-                at: self.at?,
-                force: self.force?,
-            })
-        };
-        match self.given().as_slice() {
-            [(EDGE, ..)] => edge(),
-            [(POINT, ..)] => force(),
-            [(MASS, ..)] => self.acceleration.map(LoadKind::Acceleration),
-            _ => None,
-        }
+        let [(kind, _)] = self.given()[..] else { return None };
+        Some(match kind {
+            EDGE => {
+                let stress = match (self.pressure, self.traction) {
+                    (Some(pressure), None) => EdgeStress::Pressure(pressure),
+                    (None, Some(traction)) => EdgeStress::Traction(traction),
+                    _ => return None,
+                };
+                LoadKind::Edge { from: self.from?, to: self.to?, stress }
+            }
+            POINT => {
+                let (block, at, force) = (self.block.as_deref()?, self.at?, self.force?);
+                LoadKind::Force { block, at, force }
+            }
+            _ => LoadKind::Acceleration(self.acceleration?),
+        })
     }
 
     /// The kinds of which keys are given, each with the first of these keys.
@@ -262,15 +217,12 @@ pub(super) const MASS: &str = "on all mass";
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum LoadError {
-    /// A load of no kind.
+    /// The load of this name is of no kind.
     #[error(
-        "load \"{load}\" does not say what acts: add `from`, `to` and `pressure` or `traction` (on edges), or \
+        "load \"{0}\" does not say what acts: add `from`, `to` and `pressure` or `traction` (on edges), or \
          `block`, `at` and `force` (at a place of a block), or `acceleration` (on all mass)"
     )]
-    NoKind {
-        /// Name of the load.
-        load: String,
-    },
+    NoKind(String),
     /// Keys of two kinds are given.
     #[error(
         "`{first}` is for a load {one} and `{second}` for one {other}: keep the keys of one kind, or make two loads"
@@ -323,24 +275,18 @@ pub enum LoadError {
         /// Unit of length.
         unit: &'static str,
     },
-    /// An acceleration without any mass.
+    /// The load of this name accelerates, but nothing has a mass.
     #[error(
-        "load \"{load}\" accelerates nothing, for no material of a block has a density: add `density` to a \
+        "load \"{0}\" accelerates nothing, for no material of a block has a density: add `density` to a \
          material, or remove the load"
     )]
-    NoMass {
-        /// Name of the load.
-        load: String,
-    },
-    /// A limit load is asked of a support.
+    NoMass(String),
+    /// A limit load is asked of the support of this name.
     #[error(
-        "\"{name}\" is a support: its movement is no load, and rigid blocks follow any of it without a limit; name a load \
+        "\"{0}\" is a support: its movement is no load, and rigid blocks follow any of it without a limit; name a load \
          or a group of loads"
     )]
-    Support {
-        /// Name of the support.
-        name: String,
-    },
+    Support(String),
     /// A stage names what is a load and a group of others.
     #[error(
         "\"{name}\" is the name of a load, and of the group of {}: give one of them another name; there are the \

@@ -12,13 +12,12 @@ use crate::units::Units;
 #[serde(deny_unknown_fields)]
 pub struct Material {
     /// Young's modulus \[force/length^2\]; blocks of a material without it are rigid.
-    #[serde(rename = "E", default, skip_serializing_if = "Option::is_none")]
+    #[serde(rename = "E")]
     pub young: Option<f64>,
     /// Poisson's ratio \[-\], required with `E`.
-    #[serde(rename = "nu", default, skip_serializing_if = "Option::is_none")]
+    #[serde(rename = "nu")]
     pub poisson: Option<f64>,
     /// Mass density \[kg/m^3\], whatever the units of the scene.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub density: Option<f64>,
 }
 
@@ -37,32 +36,21 @@ impl Material {
 #[serde(deny_unknown_fields)]
 pub struct Joint {
     /// Coefficient of Coulomb friction \[-\]; zero is a frictionless joint.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub mu: Option<f64>,
     /// Angle of friction \[degrees\].
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub phi_deg: Option<f64>,
     /// Cohesion \[force/length^2\]: what resists sliding without a normal force.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub cohesion: Option<f64>,
     /// Tensile strength \[force/length^2\], at most the cohesion divided by the coefficient of friction.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tension: Option<f64>,
     /// Normal and tangential stiffness of the faces `[k_n, k_t]` \[force/length^3\]; without them the faces do not give way.
-    #[serde(
-        default,
-        skip_serializing_if = "Option::is_none",
-        deserialize_with = "strict::some_pair"
-    )]
+    #[serde(default, deserialize_with = "strict::read")]
     pub stiffness: Option<[f64; 2]>,
     /// Where on the joints of the class the law is enforced, if not as [`Contact::points`](super::Contact::points) says.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub points: Option<PointRule>,
     /// Thickness of the mortar \[length\]; without it, or with zero, the joint is dry.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub thickness: Option<f64>,
     /// Name of the elastic material of the mortar; required with a thickness above zero.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub material: Option<String>,
 }
 
@@ -84,7 +72,7 @@ impl Joint {
 #[serde(deny_unknown_fields)]
 pub struct Between {
     /// The two names; twice the same wall for the joints within it.
-    #[serde(deserialize_with = "strict::pair")]
+    #[serde(deserialize_with = "strict::read")]
     pub blocks: [String; 2],
     /// The class of their joints.
     pub joint: String,

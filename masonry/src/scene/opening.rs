@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::setters::setters;
 use crate::rounding::rounded;
 
 /// How the bricks of a wall are laid.
@@ -38,7 +39,6 @@ pub struct Opening {
     /// Its height in courses.
     pub courses: u32,
     /// Length on which the lintel rests on either side \[length\], half a brick without it.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub bearing: Option<f64>,
 }
 
@@ -55,18 +55,11 @@ impl Opening {
         Self { x, width, course: first(), courses, bearing: None }
     }
 
-    /// Puts the opening above so many courses, as a window.
-    #[must_use]
-    pub fn above(mut self, courses: u32) -> Self {
-        self.course = courses.saturating_add(1);
-        self
-    }
-
-    /// Gives the length on which the lintel rests on either side \[length\].
-    #[must_use]
-    pub fn bearing(mut self, length: f64) -> Self {
-        self.bearing = Some(length);
-        self
+    setters! {
+        /// Puts the opening above so many courses, as a window.
+        pub fn above(mut self, courses: u32) { self.course = courses.saturating_add(1) }
+        /// Gives the length on which the lintel rests on either side \[length\].
+        pub fn bearing(mut self, length: f64) { self.bearing = Some(length) }
     }
 
     /// The courses that it takes, from 0.
@@ -115,8 +108,8 @@ pub enum OpeningError {
     },
     /// The lintel rests on nothing.
     #[error(
-        "the lintel would rest on {bearing} of wall on its {side}, and there are {room}: move the opening by at least \
-         {}{}", rounded(bearing - room), shorter(*room)
+        "the lintel needs {bearing} of wall on its {side} to rest on, and has {room}: move the opening by at least {}{}",
+        rounded(bearing - room), shorter(*room)
     )]
     NoBearing {
         /// `left` or `right`.

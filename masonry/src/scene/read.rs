@@ -11,7 +11,7 @@ impl Scene {
     /// # Errors
     /// What is wrong with the text or the data, with line and column.
     pub fn from_toml(text: &str) -> Result<Self, SceneError> {
-        Self::parse(&Source::text(text))
+        Self::parse(&Source::new(text, None))
     }
 
     /// Reads a scene from a TOML file and [checks](Scene::check) it.
@@ -21,8 +21,8 @@ impl Scene {
     /// [`Scene::from_toml`], with the path of the file.
     pub fn read(path: &Path) -> Result<Self, SceneError> {
         let text = std::fs::read_to_string(path)
-            .map_err(|error| SceneError::unreadable(path, &error.to_string()))?;
-        Self::parse(&Source::file(path, &text))
+            .map_err(|error| SceneError::unreadable(path, error.to_string()))?;
+        Self::parse(&Source::new(&text, Some(path)))
     }
 
     /// The scene as TOML text, which reads back as an equal scene.
@@ -30,7 +30,7 @@ impl Scene {
     /// # Errors
     /// [`SceneErrorKind::Write`] when TOML cannot hold a value.
     pub fn to_toml(&self) -> Result<String, SceneError> {
-        toml::to_string(self).map_err(|error| SceneError::unwritable(&error.to_string()))
+        toml::to_string(self).map_err(|error| SceneError::unwritable(error.to_string()))
     }
 
     /// The files that the scene was read from: its own and that of its list of blocks.
@@ -59,12 +59,13 @@ impl Scene {
 
     /// The scene of a source, with the blocks of its list.
     pub(super) fn of(source: &Source) -> Result<Self, SceneError> {
-        let mut scene: Self =
-            toml::from_str(source.as_str()).map_err(|error| SceneError::syntax(source, &error))?;
+        let mut scene: Self = toml::from_str(source.as_str()).map_err(|error| {
+            // An error without a place, such as a missing key of the whole scene, is shown at the top.
+            let place = source.place(error.span().unwrap_or(0..0));
+            SceneError::syntax(error.message(), place, source.path())
+        })?;
         if let Some(list) = source.list() {
-            let wrong =
-                |(message, place): (String, _)| SceneError::list(&list.path, &message, place);
-            scene.blocks.extend(block_list::blocks(list).map_err(wrong)?);
+            scene.blocks.extend(block_list::blocks(list)?);
             scene.block_list = None;
         }
         Ok(scene)

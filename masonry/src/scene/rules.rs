@@ -1,11 +1,18 @@
 //! Rules for single values of a scene: what is missing, what is too much, and the ranges of numbers.
 
-use super::{Fault, KeyPath, SceneErrorKind};
+use std::collections::BTreeMap;
+
+use super::{Fault, KeyPath, Known, SceneErrorKind};
 
 pub(super) type Check = Result<(), Fault>;
 
 /// Magnitudes beyond these are no lengths, moduli or loads of anything, and would overflow.
 pub(super) const MAGNITUDES: std::ops::RangeInclusive<f64> = 1e-100..=1e100;
+
+/// Checks every item of a list, which the scene has under this key.
+pub(super) fn each<T>(list: &str, items: &[T], check: impl Fn(&KeyPath, &T) -> Check) -> Check {
+    items.iter().enumerate().try_for_each(|(k, item)| check(&KeyPath::of(list).item(k), item))
+}
 
 pub(super) enum One<A, B> {
     First(A),
@@ -32,7 +39,7 @@ pub(super) fn exactly_one<A, B>(
 /// Text that terminals, tables and pictures show as it is.
 pub(super) fn plain(at: KeyPath, text: &str) -> Check {
     match text.chars().find(|c| c.is_control()) {
-        Some(character) => Err(Fault::new(at, SceneErrorKind::Control { character })),
+        Some(character) => Err(Fault::new(at, SceneErrorKind::Control(character))),
         None => Ok(()),
     }
 }
@@ -60,24 +67,63 @@ pub(super) fn value(at: KeyPath, value: f64, allowed: bool, wanted: &'static str
     if allowed { Ok(()) } else { Err(Fault::new(at, SceneErrorKind::Value { value, wanted })) }
 }
 
-pub(super) fn missing(
+/// A count from 1 on.
+pub(super) fn at_least_one(at: KeyPath, count: u32, wanted: &'static str) -> Check {
+    value(at, f64::from(count), count > 0, wanted)
+}
+
+pub(super) fn at_most(at: KeyPath, what: &'static str, count: f64, limit: u32) -> Check {
+    if count <= f64::from(limit) {
+        return Ok(());
+    }
+    Err(Fault::new(at, SceneErrorKind::TooMany { what, count, limit }))
+}
+
+/// The value of a key that other data call for.
+pub(super) fn needed<T>(
+    given: Option<T>,
     at: &KeyPath,
     key: &'static str,
     because: &'static str,
     remedy: &'static str,
-) -> Fault {
-    Fault::new(at.clone(), SceneErrorKind::Missing { key, because, remedy })
+) -> Result<T, Fault> {
+    given.ok_or_else(|| Fault::new(at.clone(), SceneErrorKind::Missing { key, because, remedy }))
 }
 
+/// Refuses a key that has no meaning beside other data.
 pub(super) fn unwanted(
+    given: bool,
     at: &KeyPath,
     key: &'static str,
     because: &'static str,
     otherwise: &'static str,
-) -> Fault {
-    Fault::new(at.key(key), SceneErrorKind::Unwanted { key, because, otherwise })
+) -> Check {
+    let kind = SceneErrorKind::Unwanted { key, because, otherwise };
+    if given { Err(Fault::new(at.key(key), kind)) } else { Ok(()) }
 }
 
-pub(super) fn too_many(at: KeyPath, what: &'static str, count: f64, limit: u32) -> Fault {
-    Fault::new(at, SceneErrorKind::TooMany { what, count, limit })
+/// What the scene gives under a name in one of its tables.
+pub(super) fn named<'a, T>(
+    at: KeyPath,
+    name: &str,
+    what: &'static str,
+    table: &str,
+    given: &'a BTreeMap<String, T>,
+) -> Result<&'a T, Fault> {
+    given.get(name).ok_or_else(|| {
+        let missing = format!("[{table}.{name}]");
+        unknown(at, what, name, given.keys().cloned().collect(), missing)
+    })
+}
+
+/// A name that refers to nothing; `missing` would define it.
+pub(crate) fn unknown(
+    at: KeyPath,
+    what: &'static str,
+    name: &str,
+    known: Vec<String>,
+    missing: String,
+) -> Fault {
+    let known = Known::near(name, known);
+    Fault::new(at, SceneErrorKind::Unknown { what, name: name.to_owned(), known, missing })
 }

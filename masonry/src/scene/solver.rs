@@ -1,6 +1,5 @@
 //! How a scene is solved: route, form, limits.
 
-use serde::de::value::StrDeserializer;
 use serde::{Deserialize, Deserializer, Serialize};
 
 use crate::data::route::Route;
@@ -8,41 +7,28 @@ use crate::data::route::Route;
 /// How the complementarity problem is solved.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
+#[serde(default, deny_unknown_fields)]
 pub struct Solver {
     /// Tolerance: the largest residual of a solution \[-\].
-    #[serde(default = "default_tolerance")]
     pub tolerance: f64,
     /// The route to the solution.
-    #[serde(default)]
     pub route: RouteSetting,
     /// The form of the reduced problem; belongs to [`Route::Lemke`].
-    #[serde(default)]
     pub form: Form,
     /// Largest number of pivots of one attempt; without it the solver sets a limit by the order.
     /// Belongs to [`Route::Lemke`].
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub max_pivots: Option<u32>,
-    /// Largest number of steps of one attempt of the interior-point method; 300 by default. Belongs to
-    /// [`Route::Interior`].
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    /// Largest number of steps of one attempt of the interior-point method; 300 by default. Belongs to [`Route::Interior`].
     pub max_steps: Option<u32>,
     /// Stiffness of springs on all displacements, relative to that of the blocks \[-\], which are re-centred until
     /// they carry nothing; belongs to [`Route::Qp`], and to [`Route::Pgs`], which always has them.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub soft: Option<f64>,
 }
 
 impl Default for Solver {
     fn default() -> Self {
-        Self {
-            tolerance: default_tolerance(),
-            route: RouteSetting::default(),
-            form: Form::default(),
-            max_pivots: None,
-            max_steps: None,
-            soft: None,
-        }
+        let (route, form) = (RouteSetting::default(), Form::default());
+        Self { tolerance: 1e-10, route, form, max_pivots: None, max_steps: None, soft: None }
     }
 }
 
@@ -58,6 +44,9 @@ pub enum RouteSetting {
     #[serde(untagged)]
     Only(Route),
 }
+
+/// The names of all settings.
+const NAMES: &[&str] = &["auto", "forces", "lemke", "interior", "qp", "pgs", "alm"];
 
 impl RouteSetting {
     /// The name in scenes.
@@ -80,25 +69,15 @@ impl From<Route> for RouteSetting {
     }
 }
 
-/// The error of a name that is no route, in the place of which the names of settings are told.
-type Unnamed = serde::de::value::Error;
-
-/// The names of all settings.
-const NAMES: &[&str] = &["auto", "forces", "lemke", "interior", "qp", "pgs", "alm"];
-
 impl<'de> Deserialize<'de> for RouteSetting {
     fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
         let name = String::deserialize(from)?;
         if name == Self::Auto.name() {
             return Ok(Self::Auto);
         }
-        let route = Route::deserialize(StrDeserializer::<Unnamed>::new(&name));
-        route.map(Self::Only).map_err(|_| serde::de::Error::unknown_variant(&name, NAMES))
+        let route = Route::ALL.into_iter().find(|it| it.name() == name);
+        route.map(Self::Only).ok_or_else(|| serde::de::Error::unknown_variant(&name, NAMES))
     }
-}
-
-fn default_tolerance() -> f64 {
-    1e-10
 }
 
 /// The form in which friction enters the complementarity problem.

@@ -13,9 +13,9 @@ use super::key_path::{KeyPath, PathStep};
 ///
 /// All sources are equal: where a scene came from is no part of what it says.
 #[derive(Debug, Clone, Default)]
-pub(super) struct Source(Option<Arc<Text>>);
+pub(super) struct Source(Arc<Text>);
 
-#[derive(Debug)]
+#[derive(Debug, Default)]
 struct Text {
     file: Option<PathBuf>,
     scene: String,
@@ -36,13 +36,10 @@ impl PartialEq for Source {
 }
 
 impl Source {
-    pub(super) fn text(text: &str) -> Self {
-        Self(Some(Arc::new(Text { file: None, scene: text.to_owned(), list: None })))
-    }
-
-    pub(super) fn file(path: &Path, text: &str) -> Self {
-        let file = Some(path.to_owned());
-        Self(Some(Arc::new(Text { file, scene: text.to_owned(), list: None })))
+    /// The source with this text, of a file or none.
+    pub(super) fn new(text: &str, file: Option<&Path>) -> Self {
+        let (scene, file) = (text.to_owned(), file.map(Path::to_owned));
+        Self(Arc::new(Text { file, scene, list: None }))
     }
 
     /// The source with the list of blocks in a file, whose path is relative to that of the scene.
@@ -53,20 +50,20 @@ impl Source {
         let path = self.path().and_then(Path::parent).map_or(list.to_owned(), |it| it.join(list));
         let text = std::fs::read_to_string(&path)?;
         let (file, scene) = (self.path().map(Path::to_owned), self.as_str().to_owned());
-        Ok(Self(Some(Arc::new(Text { file, scene, list: Some(List { path, text }) }))))
+        Ok(Self(Arc::new(Text { file, scene, list: Some(List { path, text }) })))
     }
 
     pub(super) fn as_str(&self) -> &str {
-        self.0.as_ref().map_or("", |source| &source.scene)
+        &self.0.scene
     }
 
     pub(super) fn path(&self) -> Option<&Path> {
-        self.0.as_ref()?.file.as_deref()
+        self.0.file.as_deref()
     }
 
     /// The list of blocks.
     pub(super) fn list(&self) -> Option<&List> {
-        self.0.as_ref()?.list.as_ref()
+        self.0.list.as_ref()
     }
 
     /// The file and the place of the value at `path`, or of the innermost table around it that is written out.
@@ -95,8 +92,7 @@ impl Source {
     }
 
     fn locate_in_scene(&self, path: &KeyPath) -> Option<Excerpt> {
-        let text = &self.0.as_ref()?.scene;
-        let table = DeTable::parse(text).ok()?;
+        let table = DeTable::parse(self.as_str()).ok()?;
         let mut span = None;
         let mut value: Option<&DeValue<'_>> = None;
         for step in path.steps() {
@@ -115,7 +111,7 @@ impl Source {
 
     /// The place of a range of bytes.
     pub(super) fn place(&self, span: Range<usize>) -> Option<Excerpt> {
-        Excerpt::new(&self.0.as_ref()?.scene, span)
+        Excerpt::new(self.as_str(), span)
     }
 }
 

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
+use super::setters::setters;
 use super::strict;
 
 /// A stage of the load history. Stages follow one another; in each, loads and supports change in equal
@@ -28,35 +29,29 @@ pub struct Stage {
     #[serde(default = "one_step", skip_serializing_if = "is_one_step")]
     pub steps: u32,
     /// Factor of gravity at the end of the stage \[-\].
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub gravity: Option<f64>,
-    /// Factors of loads at the end of the stage \[-\] in addition to their own, by the name of the load or of its
-    /// group.
+    /// Factors of loads at the end of the stage \[-\] in addition to their own, by the name of the load or of its group.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub loads: BTreeMap<String, f64>,
     /// Where supports are at the end of the stage, by the name of the support.
     #[serde(
         default,
         skip_serializing_if = "BTreeMap::is_empty",
-        deserialize_with = "strict::named_tables"
+        deserialize_with = "strict::read"
     )]
     pub moves: BTreeMap<String, Movement>,
 }
 
-/// Displacement of a support from its place in the scene. Displacements are small: the normal of its joints does not
-/// rotate.
+/// Displacement of a support from its place in the scene. Displacements are small: the normal of its joints does not rotate.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
+#[serde(default, deny_unknown_fields)]
 pub struct Movement {
     /// Displacement of its middle along x \[length\].
-    #[serde(default)]
     pub x: f64,
     /// Displacement of its middle along y \[length\].
-    #[serde(default)]
     pub y: f64,
     /// Rotation about its middle \[rad\], counter-clockwise.
-    #[serde(default)]
     pub turn: f64,
 }
 
@@ -72,32 +67,19 @@ impl Stage {
         }
     }
 
-    /// Sets the number of steps.
-    #[must_use]
-    pub fn steps(mut self, steps: u32) -> Self {
-        self.steps = steps;
-        self
-    }
-
-    /// Takes gravity to a factor of that of the scene \[-\].
-    #[must_use]
-    pub fn gravity(mut self, factor: f64) -> Self {
-        self.gravity = Some(factor);
-        self
-    }
-
-    /// Takes a load, or all of a group, to a factor of what the scene gives \[-\].
-    #[must_use]
-    pub fn load(mut self, name: &str, factor: f64) -> Self {
-        self.loads.insert(name.to_owned(), factor);
-        self
-    }
-
-    /// Takes a support to another place.
-    #[must_use]
-    pub fn moves(mut self, support: &str, movement: Movement) -> Self {
-        self.moves.insert(support.to_owned(), movement);
-        self
+    setters! {
+        /// Sets the number of steps.
+        pub fn steps(mut self, steps: u32) { self.steps = steps }
+        /// Takes gravity to a factor of that of the scene \[-\].
+        pub fn gravity(mut self, factor: f64) { self.gravity = Some(factor) }
+        /// Takes a load, or all of a group, to a factor of what the scene gives \[-\].
+        pub fn load(mut self, name: &str, factor: f64) {
+            self.loads.insert(name.to_owned(), factor);
+        }
+        /// Takes a support to another place.
+        pub fn moves(mut self, support: &str, movement: Movement) {
+            self.moves.insert(support.to_owned(), movement);
+        }
     }
 }
 

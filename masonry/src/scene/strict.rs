@@ -1,7 +1,7 @@
 //! Arrays and tables that refuse what serde would let pass.
 //!
-//! Serde's own arrays stop reading when they are full, so that a third coordinate
-//! would be dropped without a word; its structs also read a list as their fields in order.
+//! Serde's own arrays stop reading when they are full, so that a third coordinate would be dropped without a word; its structs
+//! also read a list as their fields in order.
 
 use std::collections::BTreeMap;
 use std::fmt;
@@ -10,46 +10,131 @@ use std::marker::PhantomData;
 use serde::de::value::MapAccessDeserializer;
 use serde::de::{Deserialize, Deserializer, Error, IgnoredAny, MapAccess, SeqAccess, Visitor};
 
-pub(super) fn pair<'de, D: Deserializer<'de>, T: Deserialize<'de>>(
-    deserializer: D,
-) -> Result<[T; 2], D::Error> {
-    ExactLength::deserialize(deserializer).map(|ExactLength(items)| items)
+use super::{
+    Arch, Between, Block, Brick, Contact, Joint, Limit, Load, Material, Movement, Opening, Output,
+    Piers, Solver, Stage, Support, Units, Wall, WallJoints,
+};
+
+/// Reads pairs of exactly two items, and tables from nothing but tables, however deep they are.
+pub(super) fn read<'de, D: Deserializer<'de>, T: Strict<'de>>(from: D) -> Result<T, D::Error> {
+    T::read(from)
 }
 
-pub(super) fn some_pair<'de, D: Deserializer<'de>, T: Deserialize<'de>>(
-    deserializer: D,
-) -> Result<Option<[T; 2]>, D::Error> {
-    pair(deserializer).map(Some)
+pub(super) trait Strict<'de>: Sized {
+    fn read<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error>;
 }
 
-pub(super) fn corners<'de, D: Deserializer<'de>>(
-    deserializer: D,
-) -> Result<Vec<[f64; 2]>, D::Error> {
-    let corners = Vec::<ExactLength<f64, 2>>::deserialize(deserializer)?;
-    Ok(corners.into_iter().map(|ExactLength(corner)| corner).collect())
+/// What serde reads in this way.
+struct Read<T>(T);
+
+impl<'de, T: Strict<'de>> Deserialize<'de> for Read<T> {
+    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
+        T::read(from).map(Self)
+    }
 }
 
-/// Two points.
-type TwoPoints = [[f64; 2]; 2];
-
-pub(super) fn some_segments<'de, D: Deserializer<'de>>(
-    deserializer: D,
-) -> Result<Option<Vec<TwoPoints>>, D::Error> {
-    let segments = Vec::<ExactLength<ExactLength<f64, 2>, 2>>::deserialize(deserializer)?;
-    let segment = |ExactLength([ExactLength(from), ExactLength(to)])| [from, to];
-    Ok(Some(segments.into_iter().map(segment).collect()))
+impl<'de, T: Strict<'de>> Strict<'de> for Option<T> {
+    fn read<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
+        Ok(Option::<Read<T>>::deserialize(from)?.map(|Read(value)| value))
+    }
 }
 
-/// A fraction from 0 to 1: `true` is 1 and `false` 0.
-pub(super) fn some_part<'de, D: Deserializer<'de>>(
-    deserializer: D,
-) -> Result<Option<f64>, D::Error> {
-    deserializer.deserialize_any(ShareVisitor).map(Some)
+impl<'de, T: Strict<'de>> Strict<'de> for Vec<T> {
+    fn read<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
+        Ok(Vec::<Read<T>>::deserialize(from)?.into_iter().map(|Read(value)| value).collect())
+    }
 }
 
-struct ShareVisitor;
+impl<'de, T: Strict<'de>> Strict<'de> for BTreeMap<String, T> {
+    fn read<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
+        let tables = BTreeMap::<String, Read<T>>::deserialize(from)?;
+        Ok(tables.into_iter().map(|(name, Read(value))| (name, value)).collect())
+    }
+}
 
-impl Visitor<'_> for ShareVisitor {
+macro_rules! values {
+    ($($value:ty),+) => { $(
+        impl<'de> Strict<'de> for $value {
+            fn read<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
+                Self::deserialize(from)
+            }
+        }
+    )+ };
+}
+
+macro_rules! tables {
+    ($($table:ty),+) => { $(
+        impl<'de> Strict<'de> for $table {
+            fn read<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
+                from.deserialize_map(TableVisitor(PhantomData))
+            }
+        }
+    )+ };
+}
+
+values!(f64, u32, String);
+tables!(Arch, Between, Block, Brick, Contact, Joint, Limit, Load, Material, Movement, Opening);
+tables!(Output, Piers, Solver, Stage, Support, Units, Wall, WallJoints);
+
+struct TableVisitor<T>(PhantomData<T>);
+
+impl<'de, T: Deserialize<'de>> Visitor<'de> for TableVisitor<T> {
+    type Value = T;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("a table such as { key = value }")
+    }
+
+    fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<T, A::Error> {
+        T::deserialize(MapAccessDeserializer::new(map))
+    }
+}
+
+impl<'de, T: Strict<'de>> Strict<'de> for [T; 2] {
+    fn read<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
+        from.deserialize_seq(PairVisitor(PhantomData))
+    }
+}
+
+struct PairVisitor<T>(PhantomData<T>);
+
+impl<'de, T: Strict<'de>> Visitor<'de> for PairVisitor<T> {
+    type Value = [T; 2];
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("a list of exactly 2 items")
+    }
+
+    fn visit_seq<A: SeqAccess<'de>>(self, mut list: A) -> Result<[T; 2], A::Error> {
+        let first = list.next_element()?.map(|Read(item)| item);
+        let second = list.next_element()?.map(|Read(item)| item);
+        let mut length = usize::from(first.is_some()) + usize::from(second.is_some());
+        while list.next_element::<IgnoredAny>()?.is_some() {
+            length += 1;
+        }
+        match (first, second) {
+            (Some(first), Some(second)) if length == 2 => Ok([first, second]),
+            _ => Err(A::Error::invalid_length(length, &self)),
+        }
+    }
+}
+
+/// A fraction from 0 to 1, of which `true` is 1 and `false` 0.
+pub(super) fn part<'de, D: Deserializer<'de>>(from: D) -> Result<Option<f64>, D::Error> {
+    Ok(Option::<Part>::deserialize(from)?.map(|Part(part)| part))
+}
+
+struct Part(f64);
+
+impl<'de> Deserialize<'de> for Part {
+    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
+        from.deserialize_any(PartVisitor).map(Self)
+    }
+}
+
+struct PartVisitor;
+
+impl Visitor<'_> for PartVisitor {
     type Value = f64;
 
     fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -70,87 +155,5 @@ impl Visitor<'_> for ShareVisitor {
 
     fn visit_u64<E: Error>(self, part: u64) -> Result<f64, E> {
         Ok(part as f64)
-    }
-}
-
-struct ExactLength<T, const N: usize>([T; N]);
-
-impl<'de, T: Deserialize<'de>, const N: usize> Deserialize<'de> for ExactLength<T, N> {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        deserializer.deserialize_seq(ExactVisitor(PhantomData))
-    }
-}
-
-struct ExactVisitor<T, const N: usize>(PhantomData<T>);
-
-impl<'de, T: Deserialize<'de>, const N: usize> Visitor<'de> for ExactVisitor<T, N> {
-    type Value = ExactLength<T, N>;
-
-    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "a list of exactly {N} items")
-    }
-
-    fn visit_seq<A: SeqAccess<'de>>(self, mut list: A) -> Result<ExactLength<T, N>, A::Error> {
-        let mut items = Vec::with_capacity(N);
-        while items.len() < N {
-            let Some(item) = list.next_element()? else { break };
-            items.push(item);
-        }
-        let mut length = items.len();
-        while list.next_element::<IgnoredAny>()?.is_some() {
-            length += 1;
-        }
-        match <[T; N]>::try_from(items) {
-            Ok(items) if length == N => Ok(ExactLength(items)),
-            _ => Err(A::Error::invalid_length(length, &self)),
-        }
-    }
-}
-
-pub(super) fn table<'de, D: Deserializer<'de>, T: Deserialize<'de>>(
-    deserializer: D,
-) -> Result<T, D::Error> {
-    TableOnly::deserialize(deserializer).map(|TableOnly(item)| item)
-}
-
-pub(super) fn some_table<'de, D: Deserializer<'de>, T: Deserialize<'de>>(
-    deserializer: D,
-) -> Result<Option<T>, D::Error> {
-    table(deserializer).map(Some)
-}
-
-pub(super) fn named_tables<'de, D: Deserializer<'de>, T: Deserialize<'de>>(
-    deserializer: D,
-) -> Result<BTreeMap<String, T>, D::Error> {
-    let tables = BTreeMap::<String, TableOnly<T>>::deserialize(deserializer)?;
-    Ok(tables.into_iter().map(|(name, TableOnly(item))| (name, item)).collect())
-}
-
-pub(super) fn tables<'de, D: Deserializer<'de>, T: Deserialize<'de>>(
-    deserializer: D,
-) -> Result<Vec<T>, D::Error> {
-    let tables = Vec::<TableOnly<T>>::deserialize(deserializer)?;
-    Ok(tables.into_iter().map(|TableOnly(item)| item).collect())
-}
-
-struct TableOnly<T>(T);
-
-impl<'de, T: Deserialize<'de>> Deserialize<'de> for TableOnly<T> {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        deserializer.deserialize_map(TableVisitor(PhantomData))
-    }
-}
-
-struct TableVisitor<T>(PhantomData<T>);
-
-impl<'de, T: Deserialize<'de>> Visitor<'de> for TableVisitor<T> {
-    type Value = TableOnly<T>;
-
-    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str("a table such as { key = value }")
-    }
-
-    fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<TableOnly<T>, A::Error> {
-        T::deserialize(MapAccessDeserializer::new(map)).map(TableOnly)
     }
 }

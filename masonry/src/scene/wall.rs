@@ -10,10 +10,8 @@ use super::{BED, Bond, HEAD, Opening, strict};
 #[serde(deny_unknown_fields)]
 pub struct WallJoints {
     /// Class of the bed joints, instead of `bed`.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub bed: Option<String>,
     /// Class of the head joints, instead of `head`.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub head: Option<String>,
 }
 
@@ -34,32 +32,26 @@ pub struct Wall {
     /// Name of the bricks' material.
     pub material: String,
     /// Lower left corner \[length\].
-    #[serde(deserialize_with = "strict::pair")]
+    #[serde(deserialize_with = "strict::read")]
     pub origin: [f64; 2],
     /// The whole brick.
-    #[serde(deserialize_with = "strict::table")]
+    #[serde(deserialize_with = "strict::read")]
     pub brick: Brick,
-    /// Width of the wall \[length\]; only where `courses` is a number.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    /// Width of the wall \[length\]; only if `courses` is a number.
     pub width: Option<f64>,
     /// The courses, bottom to top.
     pub courses: Courses,
-    /// How they are laid, if not in running bond; only where `courses` is a number.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    /// How they are laid, if not in running bond; only if `courses` is a number.
     pub bond: Option<Bond>,
-    /// Its openings; only where `courses` is a number.
-    #[serde(default, skip_serializing_if = "Vec::is_empty", deserialize_with = "strict::tables")]
+    /// Its openings; only if `courses` is a number.
+    #[serde(default, skip_serializing_if = "Vec::is_empty", deserialize_with = "strict::read")]
     pub openings: Vec<Opening>,
     /// The classes of its joints, if not `bed` and `head`.
-    #[serde(default, deserialize_with = "strict::table", skip_serializing_if = "is_usual")]
+    #[serde(default, deserialize_with = "strict::read", skip_serializing_if = "is_usual")]
     pub joints: WallJoints,
     /// Elements along the length and height of a whole brick; required when the material is
     /// elastic. A cut brick gets its share of the first, rounded up.
-    #[serde(
-        default,
-        skip_serializing_if = "Option::is_none",
-        deserialize_with = "strict::some_pair"
-    )]
+    #[serde(default, deserialize_with = "strict::read")]
     pub mesh: Option<[u32; 2]>,
 }
 
@@ -75,7 +67,8 @@ pub struct Brick {
 }
 
 /// The courses of a wall: their number in a bond, or a list of bricks.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(untagged)]
 pub enum Courses {
     /// A number of courses in running bond, or in the bond of the wall. The second, fourth and so on begin with a
     /// half brick, and the last brick of a course is cut to the width.

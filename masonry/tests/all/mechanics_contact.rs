@@ -33,19 +33,13 @@ fn bad_polygons_are_refused() {
     let [a, b, c, d] = good;
     assert!(matches!(geometry::check_convex(&[d, c, b, a]), Err(PolygonError::Clockwise { .. })));
     let dent = Point2::new(0.4, 0.4);
-    assert_eq!(
-        geometry::check_convex(&[a, b, dent, d]),
-        Err(PolygonError::NotConvex { corner: 2 })
-    );
+    assert_eq!(geometry::check_convex(&[a, b, dent, d]), Err(PolygonError::NotConvex(2)));
     let middle = Point2::new(0.5, 0.0);
-    assert_eq!(
-        geometry::check_convex(&[a, middle, b, d]),
-        Err(PolygonError::NotConvex { corner: 1 })
-    );
+    assert_eq!(geometry::check_convex(&[a, middle, b, d]), Err(PolygonError::NotConvex(1)));
     assert!(geometry::check_convex(&[a, a, c, d]).is_err());
     let nan = Point2::new(f64::NAN, 0.0);
     assert_eq!(geometry::check_convex(&[nan, b, c, d]), Err(PolygonError::NotFinite));
-    assert_eq!(geometry::check_convex(&[a, b]), Err(PolygonError::TooFew { count: 2 }));
+    assert_eq!(geometry::check_convex(&[a, b]), Err(PolygonError::TooFew(2)));
     assert_eq!(geometry::check_convex(&[a, b, c]), Ok(()));
     // Every corner of a star turns to the left, and its edges go around twice.
     let star = [0, 2, 4, 1, 3].map(|k| regular(5)[k]);

@@ -302,7 +302,7 @@ fn keys_that_belong_together() {
             "width = 1.0\ncourses = [[1]]",
             "1.0",
             "walls[0].width",
-            "no meaning where `courses`",
+            "no meaning if `courses` is a list",
         ),
         ("mesh = [4, 2]\n", "", "", "walls[0]", "add `mesh = [1, 1]`"),
         ("mu = 0.6", "mu = 0.6\nphi_deg = 1", "1", "joints.bed.phi_deg", "both `mu` and `phi_deg`"),

@@ -287,7 +287,7 @@ fn an_interrupted_search_keeps_its_bracket() {
     assert_eq!(
         limit.sentence,
         format!(
-            "Interrupted. What is known of \"sideways\": stands up to {stands:.4} (path), cannot stand above 0.6429 (proved)."
+            "Interrupted. Known so far of \"sideways\": stands up to {stands:.4} (path), cannot stand above 0.6429 (proved)."
         )
     );
     // Before anything was known, and in the search for a thickness.

@@ -68,7 +68,7 @@ class Scene:
         native = _native.Scene.from_toml(text) if is_text else _native.Scene.read(text)
         scene = cls.__new__(cls)
         scene._native = native
-        scene._keys = json.loads(native.to_json())
+        scene._keys = json.loads(native.to_json(), object_hook=_given)
         scene._text = scene._written()
         return scene
 
@@ -180,3 +180,8 @@ class Scene:
         if self._native is None or text != self._text:
             self._native, self._text = _native.Scene.from_json(text), text
         return self._native
+
+
+def _given(table: dict[str, Any]) -> dict[str, Any]:
+    """Leave out the keys without a value."""
+    return {key: value for key, value in table.items() if value is not None}

@@ -38,7 +38,7 @@ pub(super) fn of_interrupted(
     if known.is_empty() {
         return format!("Interrupted before anything was known of \"{group}\".");
     }
-    format!("Interrupted. What is known of \"{group}\": {}.", known.join(", "))
+    format!("Interrupted. Known so far of \"{group}\": {}.", known.join(", "))
 }
 
 fn of_both(group: &str, associative: &Associative, path: &Path) -> String {

@@ -1,20 +1,17 @@
 //! Pairs of blocks close enough to touch.
 
-use nalgebra::Point2;
-
-use crate::geometry;
+use crate::geometry::{self, Extent, SAME_PLACE};
 use crate::ids::BlockId;
 use crate::model::Block;
 
 /// Pairs of blocks whose bounding boxes come within `reach` \[m\], in increasing order.
 ///
-/// Boxes are swept along the longer side of the whole structure, so that only neighbours in that
-/// direction are compared.
-pub(crate) fn near_pairs(blocks: &[Block], reach: f64, tolerance: f64) -> Vec<[BlockId; 2]> {
+/// Boxes are swept along the longer side of the whole structure, so that only neighbours in that direction are compared.
+pub(crate) fn near_pairs(blocks: &[Block], reach: f64) -> Vec<[BlockId; 2]> {
     let boxes: Vec<Extent> = blocks
         .iter()
         .map(|b| {
-            let margin = reach + tolerance * geometry::size(&b.corners);
+            let margin = reach + SAME_PLACE * geometry::size(&b.corners);
             Extent::of(&b.corners).grown(margin)
         })
         .collect();
@@ -33,32 +30,4 @@ pub(crate) fn near_pairs(blocks: &[Block], reach: f64, tolerance: f64) -> Vec<[B
     }
     pairs.sort_unstable();
     pairs.into_iter().map(|pair| pair.map(BlockId::new)).collect()
-}
-
-#[derive(Clone, Copy)]
-struct Extent {
-    low: Point2<f64>,
-    high: Point2<f64>,
-}
-
-impl Extent {
-    fn of(points: &[Point2<f64>]) -> Self {
-        let inf = Point2::new(f64::INFINITY, f64::INFINITY);
-        let of_none = Self { low: inf, high: -inf };
-        points.iter().fold(of_none, |all, p| all.union(Self { low: *p, high: *p }))
-    }
-
-    fn grown(mut self, by: f64) -> Self {
-        self.low.iter_mut().for_each(|x| *x -= by);
-        self.high.iter_mut().for_each(|x| *x += by);
-        self
-    }
-
-    fn union(self, other: Self) -> Self {
-        Self { low: self.low.inf(&other.low), high: self.high.sup(&other.high) }
-    }
-
-    fn meets(&self, other: &Self) -> bool {
-        (0..2).all(|k| self.low[k] <= other.high[k] && other.low[k] <= self.high[k])
-    }
 }

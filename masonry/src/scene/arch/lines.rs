@@ -4,8 +4,8 @@ use nalgebra::Point2;
 
 use super::{Arch, Line, Shape};
 use crate::geometry;
-use crate::scene::rules::{missing, positive, unwanted, value};
-use crate::scene::{ArchError, Fault, KeyPath, SceneErrorKind};
+use crate::scene::rules::{One, exactly_one, needed, positive, unwanted, value};
+use crate::scene::{ArchError, Fault, KeyPath};
 
 /// The joints from the left springing to the right, each from the intrados to the extrados \[length\].
 pub(crate) fn lines(arch: &Arch, at: &KeyPath) -> Result<Vec<Line>, Fault> {
@@ -36,20 +36,20 @@ pub(crate) fn lines(arch: &Arch, at: &KeyPath) -> Result<Vec<Line>, Fault> {
 fn given(arch: &Arch, at: &KeyPath) -> Result<Vec<Line>, Fault> {
     let because = "for `shape = \"joints\"`";
     let remedy = "lines = [[[0.0, 0.0], [0.0, 0.2]], [[0.5, 0.0], [0.5, 0.2]]]";
-    let lines = arch.lines.clone().ok_or_else(|| missing(at, "lines", because, remedy))?;
+    let lines = needed(arch.lines.clone(), at, "lines", because, remedy)?;
     let at = at.key("lines");
     let wanted = "give at least two joints, between which there is a voussoir";
     value(at.clone(), lines.len() as f64, lines.len() >= 2, wanted)?;
     for (k, [from, to]) in lines.iter().enumerate() {
         let [x, y] = *from;
         if (x - to[0]).abs().max((y - to[1]).abs()) <= 0.0 {
-            return Err(Fault::new(at.item(k), ArchError::NoLength { x, y }.into()));
+            return Err(Fault::new(at.item(k), ArchError::NoLength { x, y }));
         }
     }
     for (k, pair) in lines.windows(2).enumerate() {
         let corners = [pair[0][0], pair[1][0], pair[1][1], pair[0][1]];
         if geometry::check_convex(&corners.map(Point2::from)).is_err() {
-            return Err(Fault::new(at.item(k + 1), ArchError::NoVoussoir { number: k + 1 }.into()));
+            return Err(Fault::new(at.item(k + 1), ArchError::NoVoussoir(k + 1)));
         }
     }
     let [x, y] = arch.origin.unwrap_or_default();
@@ -71,10 +71,10 @@ fn refuse_others(arch: &Arch, at: &KeyPath) -> Result<(), Fault> {
         ("lines", arch.lines.is_some(), &[Joints]),
     ];
     let because = "follows from the shape or has no meaning for it";
-    match keys.iter().find(|(_, given, shapes)| *given && !shapes.contains(&arch.shape)) {
-        Some((key, ..)) => Err(unwanted(at, key, because, ", or choose another `shape`")),
-        None => Ok(()),
-    }
+    keys.iter().try_for_each(|(key, given, shapes)| {
+        let is_foreign = *given && !shapes.contains(&arch.shape);
+        unwanted(is_foreign, at, key, because, ", or choose another `shape`")
+    })
 }
 
 /// The data of all shapes except given joints.
@@ -92,13 +92,11 @@ const RIGHT_ANGLE: f64 = 0.5 * std::f64::consts::PI;
 impl Size {
     fn of(arch: &Arch, at: &KeyPath) -> Result<Self, Fault> {
         let because = "for this shape";
-        let span = arch.span.ok_or_else(|| missing(at, "span", because, "span = 2.0"))?;
+        let span = needed(arch.span, at, "span", because, "span = 2.0")?;
         positive(at.key("span"), span)?;
-        let thickness =
-            arch.thickness.ok_or_else(|| missing(at, "thickness", because, "thickness = 0.3"))?;
+        let thickness = needed(arch.thickness, at, "thickness", because, "thickness = 0.3")?;
         positive(at.key("thickness"), thickness)?;
-        let count =
-            arch.voussoirs.ok_or_else(|| missing(at, "voussoirs", because, "voussoirs = 11"))?;
+        let count = needed(arch.voussoirs, at, "voussoirs", because, "voussoirs = 11")?;
         let wanted = "an arch has between 1 and 10000 voussoirs";
         value(at.key("voussoirs"), f64::from(count), (1..=MOST).contains(&count), wanted)?;
         Ok(Self { origin: arch.origin.unwrap_or_default(), span, thickness, count })
@@ -124,16 +122,15 @@ impl Size {
 
     /// Two arcs about centres at the height of the springings, and a vertical joint at the crown.
     fn pointed(&self, arch: &Arch, at: &KeyPath) -> Result<Vec<Line>, Fault> {
-        let because = "for a pointed arch";
-        let rise = arch.rise.ok_or_else(|| missing(at, "rise", because, "rise = 2.0"))?;
+        let rise = needed(arch.rise, at, "rise", "for a pointed arch", "rise = 2.0")?;
         positive(at.key("rise"), rise)?;
         let (half, count) = (0.5 * self.span, self.count);
         if rise <= half {
-            return Err(Fault::new(at.key("rise"), ArchError::TooLow { rise, least: half }.into()));
+            return Err(Fault::new(at.key("rise"), ArchError::TooLow { rise, least: half }));
         }
         if !count.is_multiple_of(2) {
             let error = ArchError::Odd { count, even: count + 1 };
-            return Err(Fault::new(at.key("voussoirs"), error.into()));
+            return Err(Fault::new(at.key("voussoirs"), error));
         }
         let radius = (half * half + rise * rise) / self.span;
         let outer = radius + self.thickness;
@@ -154,8 +151,7 @@ impl Size {
     /// Joints at equal distances along the intrados, towards one point below its middle.
     fn flat(&self, arch: &Arch, at: &KeyPath) -> Result<Vec<Line>, Fault> {
         let because = "for a flat arch";
-        let skew =
-            arch.skew_deg.ok_or_else(|| missing(at, "skew_deg", because, "skew_deg = 20.0"))?;
+        let skew = needed(arch.skew_deg, at, "skew_deg", because, "skew_deg = 20.0")?;
         let wanted = "the springings of a flat arch lean by at least 0 and at most 80 degrees";
         value(at.key("skew_deg"), skew, (0.0..=80.0).contains(&skew), wanted)?;
         let widened = self.thickness * skew.to_radians().tan();
@@ -171,27 +167,17 @@ impl Size {
 
 /// Half the angle of an arc at its centre \[rad\].
 fn half_angle(arch: &Arch, at: &KeyPath, span: f64) -> Result<f64, Fault> {
-    match (arch.rise, arch.embrace_deg) {
-        (Some(_), Some(_)) => {
-            let (first, second) = ("rise", "embrace_deg");
-            Err(Fault::new(at.key(second), SceneErrorKind::Both { first, second }))
-        }
-        (None, None) => {
-            let (first, second) = ("rise", "embrace_deg");
-            Err(Fault::new(at.clone(), SceneErrorKind::Neither { first, second }))
-        }
-        (Some(rise), None) => {
+    match exactly_one(at, "rise", arch.rise, "embrace_deg", arch.embrace_deg)? {
+        One::First(rise) => {
             positive(at.key("rise"), rise)?;
             let largest = 0.5 * span;
             if rise > largest {
-                return Err(Fault::new(
-                    at.key("rise"),
-                    ArchError::TooHigh { rise, largest }.into(),
-                ));
+                let error = ArchError::TooHigh { rise, largest };
+                return Err(Fault::new(at.key("rise"), error));
             }
             Ok(2.0 * (rise / largest).atan())
         }
-        (None, Some(embrace)) => {
+        One::Second(embrace) => {
             let wanted = "an arc of a circle embraces more than 0 and at most 180 degrees";
             value(at.key("embrace_deg"), embrace, embrace > 0.0 && embrace <= 180.0, wanted)?;
             Ok(0.5 * embrace.to_radians())

@@ -85,12 +85,12 @@ fn pier(
     let (reach, rises) = (sign * (outer[0] - inner[0]), outer[1] - inner[1]);
     let level = SAME_PLACE * reach.hypot(rises);
     if rises < -level || reach < -level {
-        return Err(Fault::new(at.clone(), ArchError::Overhang { side }.into()));
+        return Err(Fault::new(at.clone(), ArchError::Overhang(side)));
     }
     let is_level = rises <= level;
     if width < reach - level || (!is_level && width <= reach + level) {
         let error = ArchError::NarrowPier { width, least: rounded(reach) };
-        return Err(Fault::new(at.key("width"), error.into()));
+        return Err(Fault::new(at.key("width"), error));
     }
     let far = inner[0] + sign * width;
     let (left, right) = (far.min(inner[0]), far.max(inner[0]));

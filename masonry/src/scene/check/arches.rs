@@ -1,18 +1,11 @@
 //! Checks of arches.
 
 use super::{Check, check_mesh, point, value};
-use crate::scene::{Arch, Fault, Joint, KeyPath, Scene, SceneErrorKind, arch};
+use crate::scene::{Arch, Fault, Joint, KeyPath, Scene, arch};
 
 impl Scene {
     /// Arches that can be built, and their names.
-    pub(super) fn check_arches(&self) -> Check {
-        for (k, arch) in self.arches.iter().enumerate() {
-            self.check_arch(&KeyPath::of("arches").item(k), arch)?;
-        }
-        Ok(())
-    }
-
-    fn check_arch(&self, at: &KeyPath, arch: &Arch) -> Check {
+    pub(super) fn check_arch(&self, at: &KeyPath, arch: &Arch) -> Check {
         let material = self.material_of(at, &arch.material)?;
         point(&at.key("origin"), arch.origin.unwrap_or_default())?;
         for (k, line) in arch.lines.iter().flatten().enumerate() {
@@ -30,9 +23,8 @@ impl Scene {
         arch::blocks(arch, at)?;
         for support in arch::supports(arch, at)? {
             if let Some(k) = self.supports.iter().position(|it| it.name == support.name) {
-                let first = KeyPath::of("supports").item(k).to_string();
-                let kind = SceneErrorKind::Duplicate { what: "support", name: support.name, first };
-                return Err(Fault::new(at.key("name"), kind));
+                let first = KeyPath::of("supports").item(k);
+                return Err(Fault::duplicate(at.key("name"), "support", &support.name, &first));
             }
         }
         Ok(())

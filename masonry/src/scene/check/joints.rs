@@ -1,6 +1,6 @@
 //! Checks of joints, of their mortar, and of the bricks that it leaves room for.
 
-use super::{Check, missing, not_negative, positive, unknown, unwanted, value};
+use super::{Check, needed, not_negative, positive, unwanted, value};
 use crate::scene::bond::{self, JointThickness};
 use crate::scene::rules::{One, exactly_one};
 use crate::scene::{Courses, Fault, Films, Joint, KeyPath, PointRule, Scene, SceneErrorKind, Wall};
@@ -11,35 +11,22 @@ const ROUNDING: f64 = 1e-12;
 impl Scene {
     /// Thickness and material of the mortar: none, or both, the material elastic.
     pub(super) fn check_mortar(&self, at: &KeyPath, joint: &Joint) -> Check {
-        let Some(thickness) = joint.thickness else {
-            return match joint.material {
-                Some(_) => {
-                    let because = "has no meaning without `thickness`";
-                    Err(unwanted(at, "material", because, ", or add `thickness`"))
-                }
-                None => Ok(()),
-            };
-        };
+        let otherwise = ", or add `thickness`";
+        let is_bare = joint.thickness.is_none() && joint.material.is_some();
+        unwanted(is_bare, at, "material", "has no meaning without `thickness`", otherwise)?;
+        let thickness = joint.mortar_thickness();
         not_negative(at.key("thickness"), thickness)?;
-        if thickness > 0.0 {
+        let is_filled = thickness > 0.0;
+        if is_filled {
             positive(at.key("thickness"), thickness)?;
-        }
-        let Some(name) = &joint.material else {
             let because = "because the joint has a thickness";
-            let remedy = "material = \"mortar\"";
-            return if thickness > 0.0 {
-                Err(missing(at, "material", because, remedy))
-            } else {
-                Ok(())
-            };
-        };
-        let Some(material) = self.materials.get(name) else {
-            let known = self.materials.keys().cloned().collect();
-            return Err(unknown(at.key("material"), "material", name, known, "materials"));
-        };
-        if thickness > 0.0 && material.young.is_none() {
+            needed(joint.material.as_ref(), at, "material", because, "material = \"mortar\"")?;
+        }
+        let Some(name) = &joint.material else { return Ok(()) };
+        let material = self.material_of(at, name)?;
+        if is_filled {
             let because = "because the material is the mortar of a joint";
-            return Err(missing(&KeyPath::of("materials").key(name), "E", because, "E = 1e6"));
+            needed(material.young, &KeyPath::of("materials").key(name), "E", because, "E = 1e6")?;
         }
         Ok(())
     }
@@ -51,16 +38,14 @@ impl Scene {
         }
         let filled = self.joints.values().filter(|joint| joint.mortar_thickness() > 0.0);
         let mut rules = filled.map(|joint| joint.points.unwrap_or(self.contact.points));
-        if self.contact.points != PointRule::Gauss || rules.any(|rule| rule != PointRule::Gauss) {
-            let because = "has strips, which are integrated at Gauss points only";
-            return Err(unwanted(at, "films", because, ", or set points = \"gauss\""));
-        }
-        if self.joints.values().all(|joint| joint.thickness.is_none()) {
-            let because = "needs mortar for its strips, but no joint class has a thickness";
-            let otherwise = ", or give a joint class `thickness` and `material`";
-            return Err(unwanted(at, "films", because, otherwise));
-        }
-        Ok(())
+        let is_other = |rule| rule != PointRule::Gauss;
+        let has_other = is_other(self.contact.points) || rules.any(is_other);
+        let because = "has strips, which are integrated at Gauss points only";
+        unwanted(has_other, at, "films", because, ", or set points = \"gauss\"")?;
+        let is_dry = self.joints.values().all(|joint| joint.thickness.is_none());
+        let because = "needs mortar for its strips, but no joint class has a thickness";
+        let otherwise = ", or give a joint class `thickness` and `material`";
+        unwanted(is_dry, at, "films", because, otherwise)
     }
 }
 
@@ -93,22 +78,20 @@ pub(super) fn check_room(at: &KeyPath, wall: &Wall, joints: JointThickness) -> C
     if joints.head <= 0.0 {
         return Ok(());
     }
-    let Some(thin) = bond::first_without_length(wall, joints) else { return Ok(()) };
-    match &wall.courses {
-        Courses::RunningBond(_) => {
-            let wanted = "a course would end in a head joint and no brick: with joints of thickness \
-                          t_y give a width of n (length + t_y) - t_y, or one with a longer last \
-                          brick";
-            let width = wall.width.unwrap_or(wall.brick.length);
-            value(at.key("width"), width, false, wanted)
-        }
-        Courses::List(courses) => {
-            let wanted = "the head joint leaves nothing of a brick of this length f: it measures \
-                          f (length + t_y) - t_y, t_y being the thickness of the head joints";
-            let [course, place] = thin;
-            let key = at.key("courses").item(course).item(place);
-            let length = courses.get(course).and_then(|it| it.get(place)).copied();
-            value(key, length.unwrap_or_default(), false, wanted)
-        }
-    }
+    let Some([course, place]) = bond::first_without_length(wall, joints) else { return Ok(()) };
+    let (at, length, wanted) = match &wall.courses {
+        Courses::RunningBond(_) => (
+            at.key("width"),
+            wall.width.unwrap_or(wall.brick.length),
+            "a course would end in a head joint and no brick: with joints of thickness t_y give a width of n (length + \
+             t_y) - t_y, or one with a longer last brick",
+        ),
+        Courses::List(courses) => (
+            at.key("courses").item(course).item(place),
+            courses[course][place],
+            "the head joint leaves nothing of a brick of this length f: it measures f (length + t_y) - t_y, t_y being \
+             the thickness of the head joints",
+        ),
+    };
+    value(at, length, false, wanted)
 }

@@ -1,21 +1,14 @@
 //! Checks of loads, and of the names by which stages call them.
 
-use super::{Check, finite, missing, point, segment, unknown, value};
+use super::{Check, finite, needed, point, segment, value};
 use crate::scene::groups::WEIGHT;
 use crate::scene::load::{EDGE, POINT};
-use crate::scene::rules::{One, exactly_one, plain};
+use crate::scene::rules::{One, exactly_one, plain, unknown};
 use crate::scene::{Fault, KeyPath, Load, LoadError, Scene, SceneErrorKind, Stage};
 
 impl Scene {
-    /// Loads of exactly one kind, whose numbers are in their range.
-    pub(super) fn check_loads(&self) -> Check {
-        for (k, load) in self.loads.iter().enumerate() {
-            self.check_load(&KeyPath::of("loads").item(k), load)?;
-        }
-        Ok(())
-    }
-
-    fn check_load(&self, at: &KeyPath, load: &Load) -> Check {
+    /// A load of exactly one kind, whose numbers are in their range.
+    pub(super) fn check_load(&self, at: &KeyPath, load: &Load) -> Check {
         if let Some(group) = &load.group {
             if group.trim().is_empty() {
                 return Err(Fault::new(at.key("group"), SceneErrorKind::EmptyName));
@@ -30,9 +23,9 @@ impl Scene {
             [_] => self.check_acceleration(at, load),
             [(one, first), (other, second), ..] => {
                 let error = LoadError::TwoKinds { first, one, second, other };
-                Err(Fault::new(at.key(second), error.into()))
+                Err(Fault::new(at.key(second), error))
             }
-            [] => Err(Fault::new(at.clone(), LoadError::NoKind { load: load.name.clone() }.into())),
+            [] => Err(Fault::new(at.clone(), LoadError::NoKind(load.name.clone()))),
         }
     }
 
@@ -48,7 +41,7 @@ impl Scene {
             return Ok(());
         };
         let error = LoadError::NoWeight { load: load.name.clone(), because };
-        Err(Fault::new(at.clone(), error.into()))
+        Err(Fault::new(at.clone(), error))
     }
 
     fn check_acceleration(&self, at: &KeyPath, load: &Load) -> Check {
@@ -61,7 +54,7 @@ impl Scene {
         if densities.count() > 0 || self.loads.iter().any(has_mass) {
             return Ok(());
         }
-        Err(Fault::new(at, LoadError::NoMass { load: load.name.clone() }.into()))
+        Err(Fault::new(at, LoadError::NoMass(load.name.clone())))
     }
 
     /// The loads of a stage: names that mean one load or one group, no load twice, factors in their range.
@@ -76,7 +69,7 @@ impl Scene {
             if let (Some(first), Some(second)) = (names.next(), names.next()) {
                 let (load, first) = (load.name.clone(), first.clone());
                 let error = LoadError::Twice { load, first, second: second.clone() };
-                return Err(Fault::new(at.key(second), error.into()));
+                return Err(Fault::new(at.key(second), error));
             }
         }
         Ok(())
@@ -92,7 +85,7 @@ impl Scene {
         if self.all_supports().iter().any(|support| support.name == *name)
             && !self.loads.iter().any(|load| load.is_called(name))
         {
-            return Err(Fault::new(at, LoadError::Support { name: name.clone() }.into()));
+            return Err(Fault::new(at, LoadError::Support(name.clone())));
         }
         self.check_load_name(&at, name, self.gravity.map(|_| WEIGHT))
     }
@@ -110,26 +103,22 @@ impl Scene {
             let others: Vec<String> = others.collect();
             let what = if others.is_empty() { "load" } else { "load or group" };
             let known = loads.iter().cloned().chain(others).chain(also.map(str::to_owned));
-            let known = known.collect();
-            return Err(unknown(at.clone(), what, name, known, "loads"));
+            let missing = "it under [[loads]]".to_owned();
+            return Err(unknown(at.clone(), what, name, known.collect(), missing));
         }
         // A member that has the name of its group does not make that mean something else.
         if members.is_empty() || single.iter().all(|load| members.contains(load)) {
             return Ok(());
         }
         let error = LoadError::Ambiguous { name: name.to_owned(), members, loads, groups };
-        Err(Fault::new(at.clone(), error.into()))
+        Err(Fault::new(at.clone(), error))
     }
 }
 
 fn check_edge(at: &KeyPath, load: &Load) -> Check {
     let because = "for the segment on which a load acts";
-    let Some(from) = load.from else {
-        return Err(missing(at, "from", because, "from = [0.0, 0.0]"));
-    };
-    let Some(to) = load.to else {
-        return Err(missing(at, "to", because, "to = [1.0, 0.0]"));
-    };
+    let from = needed(load.from, at, "from", because, "from = [0.0, 0.0]")?;
+    let to = needed(load.to, at, "to", because, "to = [1.0, 0.0]")?;
     segment(at, from, to)?;
     match exactly_one(at, "pressure", load.pressure, "traction", load.traction)? {
         One::First(pressure) => finite(at.key("pressure"), pressure),
@@ -144,15 +133,9 @@ fn check_force(at: &KeyPath, load: &Load, given: &'static str) -> Check {
         "at" => "with `at`",
         _ => "with `force`",
     };
-    if load.block.is_none() {
-        return Err(missing(at, "block", because, "block = \"wall/1/1\""));
-    }
-    let Some(place) = load.at else {
-        return Err(missing(at, "at", because, "at = [0.0, 0.0]"));
-    };
-    let Some(force) = load.force else {
-        return Err(missing(at, "force", because, "force = [0.0, -1.0]"));
-    };
+    needed(load.block.as_ref(), at, "block", because, "block = \"wall/1/1\"")?;
+    let place = needed(load.at, at, "at", because, "at = [0.0, 0.0]")?;
+    let force = needed(load.force, at, "force", because, "force = [0.0, -1.0]")?;
     point(&at.key("at"), place)?;
     point(&at.key("force"), force)
 }

@@ -1,6 +1,6 @@
 //! Checks of openings.
 
-use super::{Check, MAGNITUDES, not_negative, positive, value};
+use super::{Check, MAGNITUDES, at_least_one, not_negative, positive, value};
 use crate::geometry::SAME_PLACE;
 use crate::rounding::rounded;
 use crate::scene::bond::{JointThickness, taken};
@@ -19,19 +19,16 @@ pub(super) fn check(at: &KeyPath, wall: &Wall, joints: JointThickness, size: Wal
     for (k, opening) in wall.openings.iter().enumerate() {
         let at = at.key("openings").item(k);
         check_place(&at, wall, opening, size)?;
-        let others = wall.openings[..k].iter().enumerate();
-        for (other, before) in others {
-            let rows = |it: &Opening| it.rows().start..it.rows().end + 1;
-            let (a, b) = (rows(opening), rows(before));
-            let shared = a.start.max(b.start)..a.end.min(b.end);
+        for (other, before) in wall.openings[..k].iter().enumerate() {
             let meets = |course: &usize| {
                 let gap = |it: &Opening| taken(wall, joints, it, *course).map(|(gap, _)| gap);
                 let both = gap(opening).zip(gap(before));
                 both.is_some_and(|([a, b], [c, d])| a < d - SAME_PLACE && c < b - SAME_PLACE)
             };
-            if let Some(course) = shared.into_iter().find(meets) {
+            let highest = opening.rows().end.min(before.rows().end);
+            if let Some(course) = (0..=highest).find(meets) {
                 let error = OpeningError::Meets { other, course: course + 1 };
-                return Err(Fault::new(at, error.into()));
+                return Err(Fault::new(at, error));
             }
         }
     }
@@ -49,16 +46,14 @@ fn check_place(at: &KeyPath, wall: &Wall, opening: &Opening, size: WallSize) -> 
     let room = wide - x;
     if width > room + SAME_PLACE * wall.brick.length {
         let error = OpeningError::TooWide { width, x, wall: wide, room: rounded(room.max(0.0)) };
-        return Err(Fault::new(at.key("width"), error.into()));
+        return Err(Fault::new(at.key("width"), error));
     }
-    let wanted = "courses are counted from 1";
-    value(at.key("course"), f64::from(course), course > 0, wanted)?;
-    let wanted = "an opening is at least one course high";
-    value(at.key("courses"), f64::from(courses), courses > 0, wanted)?;
+    at_least_one(at.key("course"), course, "courses are counted from 1")?;
+    at_least_one(at.key("courses"), courses, "an opening is at least one course high")?;
     let room = (high + 1).saturating_sub(course);
     if courses > room {
         let error = OpeningError::TooHigh { courses, first: course, wall: high, room };
-        return Err(Fault::new(at.key("courses"), error.into()));
+        return Err(Fault::new(at.key("courses"), error));
     }
     let wanted =
         "a lintel rests on some length of wall on both sides; leave the key out for half a brick";
@@ -73,11 +68,8 @@ fn check_lintel(at: &KeyPath, wall: &Wall, k: usize, size: WallSize) -> Check {
     if top >= high as usize {
         return Ok(());
     }
-    let others = wall
-        .openings
-        .iter()
-        .enumerate()
-        .filter(|(other, it)| *other != k && it.rows().contains(&(top - 1)));
+    let others = wall.openings.iter().enumerate();
+    let others = others.filter(|(other, it)| *other != k && it.rows().contains(&(top - 1)));
     let (mut left, mut right) = (opening.x, wide - opening.x - opening.width);
     for (_, other) in others {
         if other.x < opening.x {
@@ -91,7 +83,7 @@ fn check_lintel(at: &KeyPath, wall: &Wall, k: usize, size: WallSize) -> Check {
         if bearing > room + SAME_PLACE * wall.brick.length {
             let (bearing, room) = (rounded(bearing), rounded(room.max(0.0)));
             let error = OpeningError::NoBearing { side, bearing, room };
-            return Err(Fault::new(at.clone(), error.into()));
+            return Err(Fault::new(at.clone(), error));
         }
     }
     Ok(())

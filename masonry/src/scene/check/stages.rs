@@ -1,6 +1,7 @@
 //! Checks of the load history.
 
-use super::{Check, finite, too_many, unique, unknown, unwanted, value};
+use super::{Check, at_least_one, at_most, finite, unwanted, value};
+use crate::scene::rules::unknown;
 use crate::scene::{KeyPath, Scene, Stage};
 
 /// Rotation of a support \[rad\] at which its joints' normals are off by a tenth.
@@ -9,33 +10,26 @@ const LARGEST_TURN: f64 = 0.1;
 const MOST_STEPS: u32 = 100_000;
 
 impl Scene {
-    /// Stages: names of their own, loads and supports that exist, numbers in their range.
-    pub(super) fn check_stages(&self) -> Check {
-        unique("stage", "stages", self.stages.iter().map(|stage| &stage.name))?;
-        for (k, stage) in self.stages.iter().enumerate() {
-            self.check_stage(&KeyPath::of("stages").item(k), stage)?;
-        }
-        Ok(())
-    }
-
-    fn check_stage(&self, at: &KeyPath, stage: &Stage) -> Check {
-        let (key, steps) = (at.key("steps"), stage.steps);
-        value(key.clone(), f64::from(steps), steps > 0, "a stage has at least one step")?;
-        if steps > MOST_STEPS {
-            return Err(too_many(key, "steps of one stage", f64::from(steps), MOST_STEPS));
-        }
+    /// A stage: loads and supports that exist, numbers in their range.
+    pub(super) fn check_stage(&self, at: &KeyPath, stage: &Stage) -> Check {
+        let steps = at.key("steps");
+        at_least_one(steps.clone(), stage.steps, "a stage has at least one step")?;
+        at_most(steps, "steps of one stage", f64::from(stage.steps), MOST_STEPS)?;
         if let Some(factor) = stage.gravity {
-            if self.gravity.is_none() {
-                let because = "is a factor of the gravity of the scene, which has none";
-                return Err(unwanted(at, "gravity", because, ", or add `gravity` to the scene"));
-            }
+            let because = "is a factor of the gravity of the scene, which has none";
+            let otherwise = ", or add `gravity` to the scene";
+            unwanted(self.gravity.is_none(), at, "gravity", because, otherwise)?;
             finite(at.key("gravity"), factor)?;
         }
         self.check_stage_loads(&at.key("loads"), stage)?;
+        let supports = self.all_supports();
         for (name, to) in &stage.moves {
             let at = at.key("moves").key(name);
-            let supports = self.all_supports();
-            there_is("support", "supports", name, supports.iter().map(|it| &it.name), &at)?;
+            if !supports.iter().any(|support| support.name == *name) {
+                let known = supports.iter().map(|support| support.name.clone()).collect();
+                let missing = "it under [[supports]]".to_owned();
+                return Err(unknown(at, "support", name, known, missing));
+            }
             finite(at.key("x"), to.x)?;
             finite(at.key("y"), to.y)?;
             finite(at.key("turn"), to.turn)?;
@@ -44,18 +38,4 @@ impl Scene {
         }
         Ok(())
     }
-}
-
-fn there_is<'a>(
-    what: &'static str,
-    table: &'static str,
-    name: &str,
-    names: impl Iterator<Item = &'a String>,
-    at: &KeyPath,
-) -> Check {
-    let known: Vec<String> = names.cloned().collect();
-    if known.iter().any(|known| known == name) {
-        return Ok(());
-    }
-    Err(unknown(at.clone(), what, name, known, table))
 }

@@ -9,18 +9,12 @@ use crate::scene::{ArchError, LoadError, OpeningError};
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum SceneErrorKind {
-    /// The file cannot be read.
-    #[error("cannot read the scene: {message}")]
-    Read {
-        /// The operating system's message.
-        message: String,
-    },
-    /// The scene cannot be written as TOML.
-    #[error("cannot write the scene as TOML: {message}")]
-    Write {
-        /// The writer's message.
-        message: String,
-    },
+    /// The file cannot be read, by this message of the operating system.
+    #[error("cannot read the scene: {0}")]
+    Read(String),
+    /// The scene cannot be written as TOML, by this message of the writer.
+    #[error("cannot write the scene as TOML: {0}")]
+    Write(String),
     /// The list of blocks cannot be read.
     #[error("cannot read the list of blocks {}: {message}: name a JSON file, relative to the scene", path.display())]
     BlockList {
@@ -29,12 +23,10 @@ pub enum SceneErrorKind {
         /// The operating system's message.
         message: String,
     },
-    /// The text is no TOML, or has unknown, missing or repeated keys, or values of a wrong type.
-    #[error("{message}")]
-    Syntax {
-        /// What is wrong and what was expected.
-        message: String,
-    },
+    /// The text is no TOML, or has unknown, missing or repeated keys, or values of a wrong type: what is wrong and what was
+    /// expected.
+    #[error("{0}")]
+    Syntax(String),
     /// A key is missing that other data of the scene call for.
     #[error("`{key}` is missing, but needed {because}: add `{remedy}`")]
     Missing {
@@ -82,12 +74,9 @@ pub enum SceneErrorKind {
     /// A name is empty.
     #[error("the name is empty: give a name by which messages and files can refer to it")]
     EmptyName,
-    /// A name or a title has a character that terminals obey.
-    #[error("the text has the control character {character:?}: remove it")]
-    Control {
-        /// The character.
-        character: char,
-    },
+    /// A name or a title has this character, which terminals obey.
+    #[error("the text has the control character {0:?}: remove it")]
+    Control(char),
     /// A name occurs twice.
     #[error("the {what} name \"{name}\" is taken by {first}: choose another")]
     Duplicate {
@@ -115,12 +104,9 @@ pub enum SceneErrorKind {
     /// Nothing to analyse.
     #[error("the scene has no blocks: add [[walls]], [[arches]] or [[blocks]]")]
     Empty,
-    /// A list has no items.
-    #[error("the list is empty: {remedy}")]
-    EmptyList {
-        /// The remedy.
-        remedy: &'static str,
-    },
+    /// A list has no items; the remedy.
+    #[error("the list is empty: {0}")]
+    EmptyList(&'static str),
     /// Nothing holds the structure.
     #[error(
         "the scene has no support, so that nothing holds it: add [[supports]], or `springing` to an arch"
@@ -165,15 +151,12 @@ pub enum SceneErrorKind {
         /// How many there are.
         count: usize,
     },
-    /// The edges of a block go around more than once.
+    /// The edges of the block of this name go around more than once.
     #[error(
-        "the edges of block \"{block}\" cross: list its corners in the order in which they follow each other, \
+        "the edges of block \"{0}\" cross: list its corners in the order in which they follow each other, \
          counter-clockwise"
     )]
-    CrossingEdges {
-        /// Name of the block.
-        block: String,
-    },
+    CrossingEdges(String),
     /// A block of an elastic material that is no quadrilateral.
     #[error(
         "block \"{block}\" has {count} corners, but only blocks with four can be elastic: give it a rigid material \
@@ -225,8 +208,9 @@ pub enum SceneErrorKind {
     },
     /// A support runs through a block.
     #[error(
-        "support \"{support}\" runs through the inside of block \"{block}\" for a length of {} \
-         {unit}: move it to an edge", number(*length)
+        "support \"{support}\" runs through the inside of block \"{block}\" for a length of {} {unit}: move it to an \
+         edge; if corners of single blocks are rounded, set `contact.tolerance` to three times the error of rounding",
+        number(*length)
     )]
     Pierced {
         /// Name of the support.
@@ -238,33 +222,24 @@ pub enum SceneErrorKind {
         /// Unit of length.
         unit: &'static str,
     },
-    /// A block meets neither another block nor a support.
+    /// The block of this name meets neither another block nor a support.
     #[error(
-        "block \"{block}\" touches no other block and no support, so that it can move in every \
+        "block \"{0}\" touches no other block and no support, so that it can move in every \
          direction: move it, or raise contact.gap_limit"
     )]
-    LooseBlock {
-        /// Name of the block.
-        block: String,
-    },
-    /// No block meets a support.
+    LooseBlock(String),
+    /// No block meets the support of this name.
     #[error(
-        "no block touches support \"{support}\": move it to an edge of a block, raise \
+        "no block touches support \"{0}\": move it to an edge of a block, raise \
          contact.gap_limit, or remove it"
     )]
-    IdleSupport {
-        /// Name of the support.
-        support: String,
-    },
-    /// No free edge lies on the segment of a load.
+    IdleSupport(String),
+    /// No free edge lies on the segment of the load of this name.
     #[error(
-        "load \"{load}\" acts on nothing: no free edge of a block lies on its segment (edges \
+        "load \"{0}\" acts on nothing: no free edge of a block lies on its segment (edges \
          within joints are not free): move it to an edge, or remove it"
     )]
-    IdleLoad {
-        /// Name of the load.
-        load: String,
-    },
+    IdleLoad(String),
     /// Two blocks meet in a joint whose class is not given.
     #[error(
         "blocks \"{first}\" and \"{second}\" meet in a joint of class \"{class}\", which is \
