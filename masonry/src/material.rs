@@ -1,4 +1,4 @@
-//! What blocks and mortar are made of.
+//! Materials of blocks and mortar, in SI units.
 
 use nalgebra::Matrix3;
 use serde::{Deserialize, Serialize};

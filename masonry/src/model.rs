@@ -219,7 +219,7 @@ pub enum Body {
 /// The overlap of an edge of one block with an edge of another, or with a support.
 #[derive(Debug, Clone)]
 pub struct Joint {
-    /// The body behind: the normal points away from it. A support, where there is one.
+    /// The body behind: the normal points away from it. A support is always this side.
     pub a: Body,
     /// The body in front.
     pub b: BlockId,
@@ -269,7 +269,7 @@ pub struct Anchor {
 pub struct ContactPoint {
     /// The joint on which it lies.
     pub joint: JointId,
-    /// Its place \[m\]; in a film half way between the faces, where the film's forces act.
+    /// Its place \[m\]; in a film half way between the faces, at which the film's forces act.
     pub position: Point2<f64>,
     /// The area that it stands for \[m^2\]: traction = force / weight.
     pub weight: f64,
@@ -285,7 +285,7 @@ pub struct ContactPoint {
     /// The law of its joint's class, for the area that it stands for.
     pub law: PointLaw,
     /// Compression and shear of the joint itself, by its [stiffness](JointLaw::stiffness), under a unit of force \[m/N\];
-    /// zeros where it does not give way.
+    /// zeros if it does not give way.
     pub compliance: [f64; 2],
     /// Additional data of a point of a film; `None` in a dry joint.
     pub film: Option<FilmPoint>,
@@ -312,7 +312,7 @@ pub struct FilmPoint {
     pub b: [Anchor; 2],
     /// Compression and shear of this part of the film under a unit of force \[m/N\].
     pub compliance: [f64; 2],
-    /// Its terms along the joint; `None` where films act across their joints only.
+    /// Its terms along the joint; `None` if films act across their joints only.
     pub stretch: Option<Stretch>,
 }
 

@@ -13,7 +13,7 @@ use crate::method::auto::{self, Facts};
 use crate::model::Model;
 use crate::scene::{Form, Route, Scene};
 
-/// What will be built for a scene, determined before anything is assembled.
+/// The parts of the equations that a scene calls for, determined before anything is assembled.
 ///
 /// Nothing that is off is built: no mesh and no stiffness without an elastic material, no
 /// tangential unknowns without friction, no films without a thickness of joints, no stresses when no output shows them.
@@ -33,7 +33,7 @@ pub struct Plan {
     pub frictional_points: usize,
     /// Rigid amplitudes: three per block, and as many isostatic rows (3.18).
     pub rigid_modes: usize,
-    /// Order of the complementarity problem of the first route. For Lemke's method: m, and two more per frictional
+    /// Order of the complementarity problem of the first route, which of Lemke's method is m, and two more per frictional
     /// point (3m); in the Stewart-Trinkle form three more (4m), in the mixed form also two per rigid amplitude and
     /// per bar of mortar strips. On the sparse routes: m, two more per frictional point, and all displacements.
     pub order: usize,
@@ -62,7 +62,7 @@ pub struct Effect {
     pub on: bool,
     /// The reason in the scene why the effect is on or off.
     pub because: String,
-    /// What the effect adds to the [`order`](Plan::order) of the plan, contact points being the same: on the pivoting
+    /// The unknowns that the effect adds to the [`order`](Plan::order) of the plan, contact points being the same: on the pivoting
     /// route displacements are eliminated, and add nothing.
     pub unknowns: usize,
     /// The expected cost on the first route, in words: `none` if the effect is off.
@@ -146,7 +146,7 @@ fn routes(scene: &Scene, model: &Model, sizes: &Sizes) -> Vec<Choice> {
     routes.map(|(route, because)| Choice { because, ..sizes.choice(route, form) }).collect()
 }
 
-/// What solves on a route, and why.
+/// The solver of a route, and why it is taken.
 fn solver(route: Route, form: Form, has_friction: bool) -> (&'static str, &'static str) {
     match (route, form) {
         (Route::Forces, _) => {

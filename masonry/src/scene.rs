@@ -1,4 +1,4 @@
-//! Scenes: what a wall or an arch is made of, as a TOML file or built in Rust.
+//! Scenes: walls and arches as their authors describe them, in a TOML file or built in Rust.
 //!
 //! A [`Scene`] holds the data as they were written, in the units of the scene; conversion to SI
 //! happens once, in [`Model::from_scene`](crate::model::Model::from_scene). A scene that is read
@@ -74,8 +74,8 @@ pub(crate) const HEAD: &str = "head";
 
 /// A scene as its author describes it, in the scene's own units.
 ///
-/// The fields are the keys of the TOML file. Unknown keys are errors. What a key leaves out is
-/// never guessed where it is physics: see [`Scene::check`].
+/// The fields are the keys of the TOML file. Unknown keys are errors, and no physical quantity is guessed if its key is left
+/// out: see [`Scene::check`].
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
@@ -102,7 +102,7 @@ pub struct Scene {
         deserialize_with = "strict::read"
     )]
     pub materials: BTreeMap<String, Material>,
-    /// Joint classes by name. Blocks meet in `bed` joints where the joint's normal is closer to
+    /// Joint classes by name. Blocks meet in `bed` joints if the joint's normal is closer to
     /// the vertical than to the horizontal, in `head` joints elsewhere.
     #[serde(
         default,
@@ -110,8 +110,7 @@ pub struct Scene {
         deserialize_with = "strict::read"
     )]
     pub joints: BTreeMap<String, Joint>,
-    /// Classes of the joints between certain blocks, where they differ from `bed` and `head`; of several that fit, the
-    /// last counts.
+    /// Classes of the joints between certain blocks, instead of `bed` and `head`; the last one that fits counts.
     #[serde(default, skip_serializing_if = "Vec::is_empty", deserialize_with = "strict::read")]
     pub between: Vec<Between>,
     /// Walls of bricks in courses.
@@ -166,7 +165,7 @@ pub struct Block {
     pub mesh: Option<[u32; 2]>,
 }
 
-/// A rigid straight support, which moves only where a [`Stage`] moves it. It has no inner side: blocks may lie on either.
+/// A rigid straight support, which moves only if a [`Stage`] moves it. Blocks may lie on either side of it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]

@@ -45,7 +45,7 @@ pub struct SegmentOverlap {
     /// Unit normal from the first segment to the second: the mean of the right-hand normal of the
     /// first and the left-hand normal of the second.
     pub normal: Vector2<f64>,
-    /// Distance along the normal at the two ends \[m\]; exactly zero where the segments touch within the tolerance.
+    /// Distance along the normal at the two ends \[m\]; exactly zero if the segments touch within the tolerance.
     pub gap: [f64; 2],
 }
 
@@ -60,7 +60,7 @@ pub fn facing_normal(first: [Point2<f64>; 2], second: [Point2<f64>; 2]) -> Optio
 /// right-hand side of the first: two edges of counter-clockwise blocks, say.
 ///
 /// `slack` \[m\] is the distance that counts as touching and `limit` \[m\] the largest gap that
-/// still counts as facing. With a limit gaps below the slack are kept, too, and only those are zero that are as
+/// still counts as facing. If there is a limit, gaps below the slack are kept, too, and only those are zero that are as
 /// small as the rounding errors of the coordinates. `None` when the segments are not antiparallel, lie apart, penetrate by
 /// more than `slack`, or share no more than `slack` of length.
 pub fn facing_overlap(

@@ -6,7 +6,7 @@ use super::{Block, BlockLoad, Model, PlacedForce};
 use crate::geometry;
 use crate::ids::LoadId;
 
-/// Where a force comes from.
+/// The cause of a force.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Cause {
     /// The weight of the block.
@@ -18,11 +18,11 @@ pub enum Cause {
 impl Model {
     /// The acceleration of all mass \[m/s^2\]: gravity and those among the loads.
     pub fn acceleration(&self) -> Vector2<f64> {
-        // From gravity on: added to zero, -0 would become 0.
+        // The sum starts from gravity: added to zero, -0 would become 0.
         self.accelerations.iter().fold(self.gravity, |sum, it| sum + it.value)
     }
 
-    /// The resultant of everything that acts on a block, and where it comes from: its weight, each acceleration of
+    /// The resultants of all forces on a block, and their causes: its weight, each acceleration of
     /// its mass, and each load on it.
     pub fn causes_on(&self, block: &Block) -> Vec<(Cause, PlacedForce)> {
         let mut forces = Vec::with_capacity(1 + self.accelerations.len() + block.loads.len());

@@ -1,4 +1,4 @@
-//! From a scene to a model: conversion to SI units, meshes, joints.
+//! The way from a scene to a model: conversion to SI units, meshes, joints.
 
 use nalgebra::{Point2, Vector2};
 
@@ -47,7 +47,7 @@ fn build(scene: &Scene) -> Result<Model, Fault> {
     let classes = Classes::of(scene, &blocks, walls)?;
     let found = find_joints(scene, &blocks, &supports, classes, thickness)?;
     placement::check_touching(&blocks, &keys, &supports, &found.joints)?;
-    // Loads are where the corners were.
+    // Loads have the places that corners had before they were moved.
     let moved = healed.map_or(0.0, |it| it.largest);
     let (loads, accelerations) =
         place_loads::place(scene, &mut blocks, &found.joints, &found.contacts, moved)?;
@@ -58,7 +58,7 @@ fn build(scene: &Scene) -> Result<Model, Fault> {
         joints: found.joints,
         contacts: found.contacts,
         joint_classes: found.classes,
-        // Without an elastic material the scene may leave it out, and nothing depends on it.
+        // A scene without an elastic material may leave it out, and nothing depends on it.
         plane: scene.plane.unwrap_or(Plane::Stress),
         thickness,
         gravity: scene.gravity.map_or_else(Vector2::zeros, Vector2::from),

@@ -1,10 +1,10 @@
-//! Joints and contact points: where blocks can touch each other and the supports.
+//! Joints and contact points: the places at which blocks can touch each other and the supports.
 //!
 //! A joint is the overlap of two edges that face each other. Its contact points are places on both
 //! edges, in general between nodes: the relative displacement is interpolated on each side by
 //! that side's own shape functions, so that meshes need not match.
 //!
-//! In a joint class with mortar the two edges are apart by the thickness of the mortar, and the joint is a film
+//! The two edges of a joint with mortar are apart by the thickness of the mortar, and the joint is a film
 //! between them: a gap is the excess of their distance over that thickness.
 //!
 //! # Orientation
@@ -154,7 +154,7 @@ fn between_blocks(blocks: &[Block], first: BlockId, second: BlockId) -> Vec<Cand
 
 /// Bed or head, and whether the normal already points the agreed way.
 fn classify(normal: Vector2<f64>) -> (JointKind, bool) {
-    // At exactly 45 degrees rounding must not decide.
+    // Rounding must not decide at exactly 45 degrees.
     if normal.y.abs() >= normal.x.abs() * (1.0 - SAME_PLACE) {
         (JointKind::Bed, normal.y > 0.0)
     } else {

@@ -6,7 +6,7 @@ use crate::geometry;
 use crate::ids::LoadId;
 use crate::model::mesh::BlockMesh;
 
-/// A force \[N\] and where it acts \[m\].
+/// A force \[N\] and the place at which it acts \[m\].
 pub type PlacedForce = (Point2<f64>, Vector2<f64>);
 
 /// A load of the scene: its name and its factor.

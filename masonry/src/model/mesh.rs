@@ -102,7 +102,7 @@ impl BlockMesh {
     }
 }
 
-/// Which of `n` equal parts of an edge a fraction of it lies in, and where in this part.
+/// The one of `n` equal parts of an edge in which a fraction of it lies, and its place in this part.
 fn within(n: usize, at: f64) -> (usize, f64) {
     let place = at.clamp(0.0, 1.0) * n as f64;
     let first = (1..n).take_while(|k| *k as f64 <= place).count();

@@ -65,7 +65,7 @@ pub(super) fn place(
     Ok((loads, accelerations))
 }
 
-/// Lets accelerations act on the masses whose weights are loads, where these act.
+/// Lets accelerations act on the masses whose weights are loads, at the places of these loads.
 fn accelerate(
     scene: &Scene,
     blocks: &mut [Block],
@@ -188,7 +188,7 @@ fn covered_part(
     if high - low <= slack {
         return None;
     }
-    // Only where the segment runs along the edge must it lie on it: far away it may be off by rounding.
+    // The segment must lie on the edge only beside it: far away it may be off by rounding.
     let distance = |s: f64| (from + (to - from) * ((s - a) / (b - a)) - start).dot(&normal);
     if distance(low).abs() > slack || distance(high).abs() > slack {
         return None;

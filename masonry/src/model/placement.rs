@@ -1,4 +1,4 @@
-//! Checks of where blocks and supports lie relative to each other.
+//! Checks of the places of blocks and supports relative to each other.
 
 use std::collections::BTreeMap;
 

@@ -1,4 +1,4 @@
-//! What calls for each effect, and what it costs.
+//! The reasons and the costs of all effects.
 
 use std::collections::BTreeSet;
 
@@ -59,7 +59,7 @@ impl Effect {
     }
 }
 
-/// What calls for effects.
+/// The data that call for effects.
 struct Called<'a> {
     scene: &'a Scene,
     model: &'a Model,

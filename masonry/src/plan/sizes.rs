@@ -22,7 +22,7 @@ pub(super) struct Sizes {
     strips: bool,
 }
 
-/// What a contact point has that routes pay for.
+/// The parts of a contact point that routes pay for.
 #[derive(Debug, Clone, Copy)]
 #[expect(clippy::struct_excessive_bools, reason = "each is an effect that may be left out")]
 pub(super) struct Point {
@@ -169,7 +169,7 @@ impl Sizes {
         };
         let orders: Vec<usize> = auto::forms(form).iter().map(order_of).collect();
         let largest_order = orders.iter().copied().max().unwrap_or(0);
-        // At the peak about nine matrices of the largest order (the problem, its equilibrated copy, the
+        // About nine matrices of the largest order at the peak (the problem, its equilibrated copy, the
         // tableau at the start and now, factors), and stiffness and factor of the largest block.
         let square = |n: usize| n.saturating_mul(n);
         let matrices = square(largest_order).saturating_mul(9);

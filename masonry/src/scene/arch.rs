@@ -46,7 +46,7 @@ pub struct Arch {
     pub thickness: Option<f64>,
     /// Number of voussoirs.
     pub voussoirs: Option<u32>,
-    /// The joints from left to right, each from the intrados to the extrados \[length\], where no shape gives them.
+    /// The joints from left to right, each from the intrados to the extrados \[length\], if no shape gives them.
     #[serde(default, deserialize_with = "strict::read")]
     pub lines: Option<Vec<Line>>,
     /// The class of the joints within the arch, instead of `bed` and `head`.
@@ -81,7 +81,7 @@ pub enum Shape {
     Joints,
 }
 
-/// Piers below both ends of an arch. The inner face is in line with the end of the intrados; where the springing is inclined, a
+/// Piers below both ends of an arch. The inner face is in line with the end of the intrados; if the springing is inclined, a
 /// block with that face lies on top.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]

@@ -1,6 +1,6 @@
-//! What is impossible about an arch.
+//! Errors of arches.
 
-/// What is impossible about an arch. Lengths are in units of the scene.
+/// A mistake in an arch. Lengths are in units of the scene.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ArchError {

@@ -21,7 +21,7 @@ struct Listed {
 /// The blocks of a list. Those without a name are called by the name of the file and their number in the list.
 ///
 /// # Errors
-/// What does not fit the format, and where.
+/// The first part that does not fit the format, and its place.
 pub(super) fn blocks(list: &List) -> Result<Vec<Block>, SceneError> {
     let listed: Vec<Listed> = serde_json::from_str(&list.text).map_err(|error| {
         let message = error.to_string();

@@ -154,7 +154,7 @@ fn ends(bond: Bond, course: usize, width: f64) -> Vec<f64> {
     if bond == Bond::English && !is_even && width > 0.5 + SAME_PLACE {
         ends.push(0.5);
     }
-    // Within 1.5 there is no room for two closers.
+    // A course of up to 1.5 bricks has no room for two closers.
     let closed = bond == Bond::English && !is_even && width > 1.5 + SAME_PLACE;
     let last = if closed { width - 0.75 } else { width };
     ends.extend(

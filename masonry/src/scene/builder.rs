@@ -79,7 +79,7 @@ impl Scene {
         pub fn stage(mut self, stage: Stage) { self.stages.push(stage) }
         /// Names the load or group of loads that grows to its limit.
         pub fn limit_group(mut self, name: &str) { self.limit.group = Some(name.to_owned()) }
-        /// Sets where on a joint the contact law is enforced.
+        /// Sets the places on a joint at which the contact law is enforced.
         pub fn contact_points(mut self, points: PointRule) { self.contact.points = points }
         /// Sets which terms of mortar films are kept.
         pub fn films(mut self, films: Films) { self.contact.films = films }
@@ -141,7 +141,7 @@ impl Joint {
         pub fn tension(mut self, tension: f64) { self.tension = Some(tension) }
         /// Sets the normal and the tangential stiffness of the faces \[force/length^3\].
         pub fn stiffness(mut self, stiffness: [f64; 2]) { self.stiffness = Some(stiffness) }
-        /// Sets where on the joints of the class the law is enforced.
+        /// Sets the places on the joints of the class at which the law is enforced.
         pub fn points(mut self, points: PointRule) { self.points = Some(points) }
         /// Fills the joints of the class with mortar of a thickness \[length\] and an elastic material.
         pub fn mortar(mut self, thickness: f64, material: &str) {

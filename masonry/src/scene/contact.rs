@@ -7,31 +7,31 @@ use serde::{Deserialize, Serialize};
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(default, deny_unknown_fields)]
 pub struct Contact {
-    /// Where on a joint the contact law is enforced.
+    /// The places on a joint at which the contact law is enforced.
     pub points: PointRule,
     /// Bodies closer than this may meet \[length\]; zero: only bodies that touch.
     pub gap_limit: f64,
     /// Corners of single blocks that are nearer than this to corners and edges of other blocks and to supports are put onto them
-    /// \[length\], by the least movements. Without a tolerance corners are moved only if blocks overlap, by up to 1e-5 of the
+    /// \[length\], by the least movements. If no tolerance is given, corners are moved only if blocks overlap, by up to 1e-5 of the
     /// shortest edge of a single block: six decimals of a metre leave less of bricks that are 0.2 m high.
     pub tolerance: Option<f64>,
     /// Which terms of mortar films are kept.
     pub films: Films,
 }
 
-/// Where on a joint the contact law is enforced.
+/// The places on a joint at which the contact law is enforced.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum PointRule {
-    /// At both ends of every part of the overlap on which the shape functions of both sides are
+    /// Both ends of every part of the overlap on which the shape functions of both sides are
     /// linear, with trapezoidal weights.
     #[default]
     Vertices,
-    /// Only where a node of each side lies (on a support: at the nodes of the block), weighted by
+    /// Places of a node of each side (on a support: of a node of the block), weighted by
     /// tributary length: the node pairs of the paper.
     NodalPairs,
-    /// At two Gauss points in every part on which the shape functions of both sides are linear.
+    /// Two Gauss points in every part on which the shape functions of both sides are linear.
     Gauss,
 }
 
@@ -40,7 +40,7 @@ pub enum PointRule {
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum Films {
-    /// What acts across the joint: a compliance in series with each contact point, without strain along the joint.
+    /// Terms across the joint: a compliance in series with each contact point, without strain along the joint.
     #[default]
     Compliance,
     /// The whole strip (3.28)-(3.39), also with the stress along the joint and the strain that it

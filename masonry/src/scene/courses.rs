@@ -12,7 +12,7 @@ impl<'de> Deserialize<'de> for Courses {
     }
 }
 
-// Written out because an untagged enum would forget where in the list a mistake is.
+// Written out because an untagged enum would forget the place of a mistake in the list.
 struct CoursesVisitor;
 
 impl<'de> Visitor<'de> for CoursesVisitor {

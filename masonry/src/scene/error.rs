@@ -1,4 +1,4 @@
-//! What can be wrong with a scene, and where.
+//! Errors of scenes, with their places.
 
 mod contact;
 mod kind;
@@ -15,7 +15,7 @@ use known::with_nearest;
 use super::source::Excerpt;
 use super::{KeyPath, Scene};
 
-/// Something is wrong with a scene: what, where, and how to mend it.
+/// A mistake in a scene, its place and its remedy.
 ///
 /// The message of a scene that was read from text shows the line with carets below the mistake.
 #[derive(Debug, Clone, PartialEq)]
@@ -30,7 +30,7 @@ struct Details {
 }
 
 impl SceneError {
-    /// What is wrong.
+    /// The kind of the mistake.
     pub fn kind(&self) -> &SceneErrorKind {
         &self.0.kind
     }
@@ -56,7 +56,7 @@ impl SceneError {
         self.0.file.as_deref()
     }
 
-    /// What does not fit the format, and where in which file.
+    /// A text that does not fit the format.
     pub(super) fn syntax(message: &str, place: Option<Excerpt>, file: Option<&Path>) -> Self {
         let kind = SceneErrorKind::Syntax(with_nearest(message));
         Self::new(kind, KeyPath::default(), place, file)

@@ -1,4 +1,4 @@
-//! Loads: what acts on edges, at places in blocks and on all mass, and what can be wrong with it.
+//! Loads on edges, at places in blocks and on all mass, and their errors.
 
 use serde::{Deserialize, Serialize};
 
@@ -48,7 +48,7 @@ pub struct Load {
     #[serde(default, deserialize_with = "strict::read")]
     pub acceleration: Option<[f64; 2]>,
     /// The part of a load on edges or at a place, from 0 to 1, that is the weight of a mass, such as that of a roof: accelerations
-    /// act on this mass as on that of the blocks, where the load acts. `true` is 1 and `false` 0. The mass is that of the component
+    /// act on this mass at the place of the load. `true` is 1 and `false` 0. The mass is that of the component
     /// along gravity, times the factor of the load; factors of stages and limit loads do not change it.
     #[serde(default, deserialize_with = "strict::part")]
     #[cfg_attr(test, schemars(with = "Option<Part>"))]
@@ -75,7 +75,7 @@ pub enum LoadKind<'a> {
         from: [f64; 2],
         /// The other end \[length\].
         to: [f64; 2],
-        /// What acts there.
+        /// The force per area.
         stress: EdgeStress,
     },
     /// A force at a place of a block: `block`, `at` and `force`.
@@ -94,9 +94,9 @@ pub enum LoadKind<'a> {
 /// A force per area on an edge \[force/length^2\].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum EdgeStress {
-    /// Against the outward normal.
+    /// A pressure against the outward normal.
     Pressure(f64),
-    /// In global axes.
+    /// A traction in global axes.
     Traction([f64; 2]),
 }
 
@@ -213,7 +213,7 @@ pub(super) const EDGE: &str = "on edges";
 pub(super) const POINT: &str = "at a place of a block";
 pub(super) const MASS: &str = "on all mass";
 
-/// What is wrong with a load.
+/// A mistake in a load.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum LoadError {
@@ -242,7 +242,7 @@ pub enum LoadError {
     NoWeight {
         /// Name of the load.
         load: String,
-        /// What keeps the load from being a weight.
+        /// The reason.
         because: &'static str,
     },
     /// A force on a block that does not exist.

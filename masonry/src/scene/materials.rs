@@ -1,4 +1,4 @@
-//! Materials of blocks and mortar, and what joints resist.
+//! Materials of blocks and mortar, and the resistance of joints.
 
 use serde::{Deserialize, Serialize};
 
@@ -39,14 +39,14 @@ pub struct Joint {
     pub mu: Option<f64>,
     /// Angle of friction \[degrees\].
     pub phi_deg: Option<f64>,
-    /// Cohesion \[force/length^2\]: what resists sliding without a normal force.
+    /// Cohesion \[force/length^2\]: the resistance to sliding without a normal force.
     pub cohesion: Option<f64>,
     /// Tensile strength \[force/length^2\], at most the cohesion divided by the coefficient of friction.
     pub tension: Option<f64>,
     /// Normal and tangential stiffness of the faces `[k_n, k_t]` \[force/length^3\]; without them the faces do not give way.
     #[serde(default, deserialize_with = "strict::read")]
     pub stiffness: Option<[f64; 2]>,
-    /// Where on the joints of the class the law is enforced, if not as [`Contact::points`](super::Contact::points) says.
+    /// The places on the joints of the class at which the law is enforced, if not as [`Contact::points`](super::Contact::points) says.
     pub points: Option<PointRule>,
     /// Thickness of the mortar \[length\]; without it, or with zero, the joint is dry.
     pub thickness: Option<f64>,
@@ -55,7 +55,7 @@ pub struct Joint {
 }
 
 impl Joint {
-    /// The coefficient of friction \[-\]; zero where neither `mu` nor `phi_deg` is given.
+    /// The coefficient of friction \[-\]; zero if neither `mu` nor `phi_deg` is given.
     pub fn friction(&self) -> f64 {
         self.mu.or(self.phi_deg.map(|phi| phi.to_radians().tan())).unwrap_or(0.0)
     }

@@ -23,7 +23,7 @@ pub enum Bond {
 /// An opening in a wall, with a lintel above it.
 ///
 /// Bricks are cut at its sides; a piece that would be shorter than a quarter of a brick is laid as one with its neighbour. The
-/// lintel is one block in the course above, a brick as any other for its name, and there is none where the opening
+/// lintel is one block in the course above, a brick as any other for its name, and there is none if the opening
 /// reaches the top of the wall.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
@@ -68,13 +68,13 @@ impl Opening {
         first..first.saturating_add(self.courses as usize)
     }
 
-    /// Length on which the lintel rests on either side, where a whole brick has this length.
+    /// Length on which the lintel rests on either side, in a wall of bricks of this length.
     pub(crate) fn bearing_on(&self, brick: f64) -> f64 {
         self.bearing.unwrap_or(0.5 * brick)
     }
 }
 
-/// What is impossible about an opening. Lengths are in units of the scene.
+/// A mistake in an opening. Lengths are in units of the scene.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum OpeningError {

@@ -9,7 +9,7 @@ impl Scene {
     /// Reads a scene from TOML text and [checks](Scene::check) it.
     ///
     /// # Errors
-    /// What is wrong with the text or the data, with line and column.
+    /// The first mistake in the text or the data, with line and column.
     pub fn from_toml(text: &str) -> Result<Self, SceneError> {
         Self::parse(&Source::new(text, None))
     }

@@ -102,7 +102,7 @@ pub(super) fn unwanted(
     if given { Err(Fault::new(at.key(key), kind)) } else { Ok(()) }
 }
 
-/// What the scene gives under a name in one of its tables.
+/// The item of this name in one of the tables of the scene.
 pub(super) fn named<'a, T>(
     at: KeyPath,
     name: &str,

@@ -4,7 +4,7 @@ use super::Scene;
 
 impl Scene {
     /// The JSON schema of scene files (draft 2020-12), pretty-printed: keys, types, and what they mean. Editors complete and check
-    /// TOML by it. What needs more than one value, such as names that refer to others, only [`Scene::check`] knows.
+    /// TOML by it. Rules for more than one value, such as names that refer to others, are not in it: see [`Scene::check`].
     ///
     /// ```
     /// assert!(masonry::Scene::schema().contains("\"title\""));

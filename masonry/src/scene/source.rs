@@ -11,7 +11,7 @@ use super::key_path::{KeyPath, PathStep};
 
 /// The text that a scene was read from; empty for a scene built in Rust.
 ///
-/// All sources are equal: where a scene came from is no part of what it says.
+/// All sources are equal: two scenes from different files may be the same.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Source(Arc<Text>);
 
@@ -125,7 +125,7 @@ pub(super) struct Excerpt {
     pub(super) line: usize,
     /// Column in characters, from 1.
     pub(super) column: usize,
-    /// What is shown before the mistake, of it, and after it.
+    /// The text that is shown before the mistake, of it, and after it.
     before: String,
     marked: String,
     after: String,

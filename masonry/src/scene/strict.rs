@@ -24,7 +24,7 @@ pub(super) trait Strict<'de>: Sized {
     fn read<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error>;
 }
 
-/// What serde reads in this way.
+/// A value that serde reads in this way.
 struct Read<T>(T);
 
 impl<'de, T: Strict<'de>> Deserialize<'de> for Read<T> {

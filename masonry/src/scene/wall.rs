@@ -74,7 +74,7 @@ pub enum Courses {
     /// half brick, and the last brick of a course is cut to the width.
     RunningBond(u32),
     /// Bottom to top, each a list of brick lengths in units of one brick from left to right; a
-    /// negative number is an opening of that length. In mortar the unit is one brick and one head
+    /// negative number is an opening of that length. In a wall with mortar the unit is one brick and one head
     /// joint: a brick of length `f` measures `f (l + t_y) - t_y`, a half brick `(l - t_y) / 2`.
     List(Vec<Vec<f64>>),
 }

@@ -163,7 +163,9 @@ impl<'a> Tokens<'a> {
         what: &'static str,
     ) -> Result<Vec<f64>, ReadError> {
         self.room_for(Some(count), what)?;
-        (1..=count).map(|k| self.number(format_args!("number {k} in {what}, which has {count}"))).collect()
+        (1..=count)
+            .map(|k| self.number(format_args!("number {k} in {what}, which has {count}")))
+            .collect()
     }
 
     /// Refuses numbers where the format has none left. Words may follow, which are for people, and before them

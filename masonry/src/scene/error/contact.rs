@@ -1,4 +1,4 @@
-//! What is in the way of contact points.
+//! Errors of contact points.
 
 /// Why contact points could not be placed.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]

@@ -68,7 +68,7 @@ pub enum SceneErrorKind {
     Value {
         /// The number.
         value: f64,
-        /// What is allowed.
+        /// The allowed values.
         wanted: &'static str,
     },
     /// A name is empty.
