@@ -15,6 +15,7 @@ mod loads;
 mod marks;
 mod materials;
 mod mechanism;
+mod names;
 mod path;
 pub(super) mod pictures;
 mod scene;

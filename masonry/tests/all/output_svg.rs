@@ -199,6 +199,45 @@ fn the_scene_names_blocks_and_loads() {
     assert!(texts(&document).contains("10 kPa"));
 }
 
+/// A script finds every block, joint, support and load of a picture by its name or number, whatever the name.
+#[test]
+fn elements_know_what_they_are() {
+    let mut outcome = synthetic::solved(Wall::PANEL);
+    let model = &mut outcome.model;
+    model.blocks[0].name = "a <\"stone\"> & mortar".to_owned();
+    let model = &outcome.model;
+    let state = outcome.state.as_ref().unwrap();
+    let named = |picture: &str, name: &str| -> Vec<String> {
+        let document = checked(picture);
+        let values = document.descendants().filter_map(|it| it.attribute(name));
+        let mut values: Vec<String> = values.map(str::to_owned).collect();
+        values.sort();
+        values.dedup();
+        values
+    };
+    let mut blocks: Vec<String> = model.blocks.iter().map(|it| it.name.clone()).collect();
+    let mut supports: Vec<String> = model.supports.iter().map(|it| it.name.clone()).collect();
+    blocks.sort();
+    supports.sort();
+    let scene = svg::scene("", model);
+    let pictures = [
+        scene.clone(),
+        svg::deformed("", model, state),
+        svg::forces("", model, &state.contacts),
+        svg::cracks("", model, &state.contacts).unwrap(),
+    ];
+    for picture in &pictures {
+        assert_eq!(named(picture, "data-block"), blocks);
+        assert_eq!(named(picture, "data-support"), supports);
+    }
+    assert_eq!(named(&scene, "data-joint").len(), model.joints.len());
+    assert_eq!(named(&scene, "data-load"), ["1"]);
+    let mut classes: Vec<usize> = model.joints.iter().map(|it| it.class).collect();
+    classes.sort_unstable();
+    classes.dedup();
+    assert_eq!(named(&scene, "data-class").len(), classes.len());
+}
+
 #[test]
 fn a_mechanism_shows_what_moves() {
     let outcome = synthetic::unsolved(Wall::PANEL);

@@ -70,9 +70,10 @@ impl Canvas {
     }
 
     /// A line in the shortest form, for the thousands of strokes of a stress picture.
-    pub(super) fn stroke(&mut self, from: Pixel, to: Pixel) {
+    pub(super) fn stroke(&mut self, from: Pixel, to: Pixel, attributes: &str) {
         let [x1, y1, x2, y2] = [from.x, from.y, to.x, to.y].map(fixed);
-        self.push(format_args!("<path d=\"M{x1} {y1}L{x2} {y2}\"/>\n"));
+        let attributes = spaced(attributes);
+        self.push(format_args!("<path d=\"M{x1} {y1}L{x2} {y2}\"{attributes}/>\n"));
     }
 
     /// A closed polygon.

@@ -4,8 +4,10 @@ use nalgebra::Vector2;
 
 use super::canvas::{Canvas, Pixel, fixed};
 use super::marks::{self, BRICK};
+use super::names;
 use super::sheet::{Frame, Margins, Sheet};
 use crate::data::state::ContactState;
+use crate::ids::JointId;
 use crate::model::{Joint, Model};
 use crate::report::format::{round_down, significant};
 use crate::report::joints::{self, Opening};
@@ -18,6 +20,13 @@ const HAIRLINE: &str = "#b9b3aa";
 const SLIDING: &str = "#7b3294";
 /// Pieces into which a joint is divided where its width changes.
 const PIECES: usize = 6;
+
+/// A part of a joint whose widths are of one class.
+#[derive(Clone)]
+struct Piece {
+    joint: JointId,
+    ends: [Pixel; 2],
+}
 
 /// The structure with its open joints, wider ones darker; the legend is in millimetres. Joints that are closed and have
 /// slid have a line of their own colour. `None` where no joint has opened or slid.
@@ -71,7 +80,7 @@ fn draw_widths(
     let round = round_down(1e3 * widest_of_all) * 1e-3;
     let class_of =
         |value: f64| CLASSES.iter().rposition(|least| value >= least * round * (1.0 - 1e-9));
-    let mut pieces: Vec<Vec<(Pixel, Pixel)>> = vec![Vec::new(); 1 + CLASSES.len()];
+    let mut pieces: Vec<Vec<Piece>> = vec![Vec::new(); 1 + CLASSES.len()];
     for opening in openings.iter().filter(|it| it.widest > 0.0) {
         let joint = &model.joints[opening.joint.index()];
         let open = pieces_of(opening, joint, &frame).into_iter().filter(|(.., it)| *it > 0.0);
@@ -80,8 +89,8 @@ fn draw_widths(
             let class = class_of(value).map_or(0, |class| class + 1);
             match pieces[class].last_mut() {
                 // One stroke as long as the class and the joint stay the same.
-                Some(piece) if last == Some((class, from)) => piece.1 = to,
-                _ => pieces[class].push((from, to)),
+                Some(piece) if last == Some((class, from)) => piece.ends[1] = to,
+                _ => pieces[class].push(Piece { joint: opening.joint, ends: [from, to] }),
             }
             last = Some((class, to));
         }
@@ -94,8 +103,8 @@ fn draw_widths(
             fixed(stroke)
         );
         sheet.canvas.group(&style, |canvas: &mut Canvas| {
-            for (from, to) in pieces {
-                canvas.stroke(*from, *to);
+            for Piece { joint, ends: [from, to] } in pieces {
+                canvas.stroke(*from, *to, &names::joint(model, *joint));
             }
         });
     }
@@ -160,7 +169,8 @@ fn draw_slips(sheet: &mut Sheet, model: &Model, openings: &[Opening], largest: f
     sheet.canvas.group(&style, |canvas| {
         for it in &found {
             let joint = &model.joints[it.joint.index()];
-            canvas.stroke(frame.at(joint.from), frame.at(joint.to));
+            let name = names::joint(model, it.joint);
+            canvas.stroke(frame.at(joint.from), frame.at(joint.to), &name);
         }
     });
     let count = marks::counted(found.len(), "joint");

@@ -5,6 +5,7 @@ use nalgebra::{Point2, Vector2};
 
 use super::canvas::{Pixel, before, fixed};
 use super::marks;
+use super::names;
 use super::sheet::{BLOCK, Bounds, Margins, Sheet};
 use super::style::OUTLINE;
 use crate::model::{Block, Model};
@@ -110,7 +111,8 @@ fn draw_moved(sheet: &mut Sheet, model: &Model, state: &State, by: &Magnified, w
             let nodes = moved_nodes(block, moves, factor);
             nodes_of_line.iter().filter_map(|k| nodes.get(*k)).map(|p| frame.at(*p)).collect()
         };
-        let still = if by.for_page { before(&pixels(0.0)) } else { String::new() };
+        let name = names::block(block);
+        let still = if by.for_page { format!("{name} {}", before(&pixels(0.0))) } else { name };
         (pixels(by.factor), still)
     };
     let blocks = || model.blocks.iter().zip(&state.displacements);

@@ -9,6 +9,7 @@ use super::canvas::{Canvas, Pixel, fixed};
 use super::labels::Labels;
 use super::loads::Loads;
 use super::marks::{self, BRICK, COMPRESSION, TENSION};
+use super::names;
 use super::sheet::{Bounds, Margins, SYMBOL, Sheet};
 use crate::model::{Body, Model};
 use crate::report::format::InUnits;
@@ -96,7 +97,7 @@ pub(in crate::report) fn shared(
         large.iter().copied().filter(|it| it.eccentricity.abs() <= ENDS).collect();
     draw_paths(&mut sheet, model, &drawn, largest);
     draw_uses(&mut sheet, model, &drawn);
-    draw_resultants(&mut sheet, &drawn, largest, units);
+    draw_resultants(&mut sheet, model, &drawn, largest);
     let mut labels = Labels::within(sheet.room());
     marks::avoid_supports(&sheet.frame, model, &mut labels);
     loads.mark(&sheet.frame, &mut labels);
@@ -174,7 +175,8 @@ fn draw_uses(sheet: &mut Sheet, model: &Model, drawn: &[&JointForce]) {
         sheet.canvas.group(&style, |canvas| {
             for it in &found {
                 let joint = &model.joints[it.joint.index()];
-                canvas.line(frame.at(joint.from), frame.at(joint.to), "");
+                let name = names::joint(model, it.joint);
+                canvas.line(frame.at(joint.from), frame.at(joint.to), &name);
             }
         });
         let text = format!("{name}: {}", marks::counted(found.len(), "joint"));
@@ -182,18 +184,17 @@ fn draw_uses(sheet: &mut Sheet, model: &Model, drawn: &[&JointForce]) {
     }
 }
 
-fn draw_resultants(sheet: &mut Sheet, drawn: &[&JointForce], largest: f64, units: InUnits) {
-    let frame = sheet.frame;
+fn draw_resultants(sheet: &mut Sheet, model: &Model, drawn: &[&JointForce], largest: f64) {
+    let (frame, units) = (sheet.frame, InUnits(model.units));
     let (width, radius) =
         ((0.03 * sheet.brick).clamp(0.6, 2.0), (0.035 * sheet.brick).clamp(0.8, 2.8));
-    let dot = |canvas: &mut Canvas, at: Pixel, radius: f64, colour: &str, inside: bool| {
+    let look = |radius: f64, colour: &str, inside: bool| {
         let fill = if inside { colour } else { "#ffffff" };
         let rim = fixed(0.45 * radius);
-        canvas.circle(
-            at,
-            radius,
-            &format!("fill=\"{fill}\" stroke=\"{colour}\" stroke-width=\"{rim}\""),
-        );
+        format!("fill=\"{fill}\" stroke=\"{colour}\" stroke-width=\"{rim}\"")
+    };
+    let dot = |canvas: &mut Canvas, colour: &str, inside: bool| {
+        canvas.circle(Pixel::new(0.0, 0.0), 2.8, &look(2.8, colour, inside));
     };
     for (presses, colour, name) in [(true, COMPRESSION, "pressing"), (false, TENSION, "pulling")] {
         let of_kind = || drawn.iter().filter(move |it| (it.normal > 0.0) == presses);
@@ -203,27 +204,31 @@ fn draw_resultants(sheet: &mut Sheet, drawn: &[&JointForce], largest: f64, units
         }
         let style =
             format!("class=\"{name}\" stroke=\"{colour}\" stroke-width=\"{}\"", fixed(width));
-        let strokes: Vec<_> = of_kind().map(|it| stroke(sheet, it, largest)).collect();
+        let identity = |it: &JointForce| names::joint(model, it.joint);
+        let strokes: Vec<_> =
+            of_kind().map(|it| (stroke(sheet, it, largest), identity(it))).collect();
         sheet.canvas.group(&style, |canvas| {
-            for [from, to] in strokes {
-                canvas.stroke(from, to);
+            for ([from, to], identity) in strokes {
+                canvas.stroke(from, to, &identity);
             }
         });
         sheet.canvas.group(&format!("class=\"{name} points\""), |canvas| {
             for it in of_kind() {
-                dot(canvas, frame.at(it.at), radius, colour, is_inside(it));
+                let attributes =
+                    format!("{} {}", look(radius, colour, is_inside(it)), identity(it));
+                canvas.circle(frame.at(it.at), radius, &attributes);
             }
         });
         let text = format!("resultant in a joint, {name}, up to {}", units.force_text(most));
         sheet.entry(&text, |symbol| {
             let style = format!("stroke=\"{colour}\" stroke-width=\"1.8\"");
             symbol.line(Pixel::new(-SYMBOL, 0.0), Pixel::new(SYMBOL, 0.0), &style);
-            dot(symbol, Pixel::new(0.0, 0.0), 2.8, colour, true);
+            dot(symbol, colour, true);
         });
         let outside = of_kind().filter(|it| !is_inside(it)).count();
         if outside > 0 {
             let text = format!("outside the middle third: {}", marks::counted(outside, "joint"));
-            sheet.entry(&text, |symbol| dot(symbol, Pixel::new(0.0, 0.0), 2.8, colour, false));
+            sheet.entry(&text, |symbol| dot(symbol, colour, false));
         }
     }
 }

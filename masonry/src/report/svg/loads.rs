@@ -5,9 +5,11 @@ use nalgebra::{Point2, Vector2};
 use super::canvas::{Anchor, Canvas, Pixel};
 use super::labels::Labels;
 use super::marks;
+use super::names;
 use super::sheet::{Bounds, Frame, Margins, Sheet, label_room};
 use super::style::TEXT;
 use crate::geometry;
+use crate::ids::LoadId;
 use crate::model::Model;
 use crate::report::format::{InUnits, acceleration_text, significant, stress_text};
 use crate::report::summary::loaded_part;
@@ -27,7 +29,7 @@ pub(super) struct Loads {
     accelerations: Vec<Acceleration>,
 }
 
-/// A force at a place of a block, or one traction on edges in one line, which share a label.
+/// A force at a place of a block, or the traction of a load on edges in one line, which share a label.
 #[derive(Debug)]
 struct Push {
     on: On,
@@ -38,6 +40,8 @@ struct Push {
     /// Size relative to the largest one of its kind in the model.
     part: f64,
     label: String,
+    /// The load of the scene that it is.
+    load: LoadId,
 }
 
 /// Where a load acts.
@@ -74,6 +78,20 @@ impl Push {
                 let arrow = if n.dot(&self.value) > 0.0 { [at, far] } else { [far, at] };
                 vec![Strokes { arrows: vec![arrow], bar: None }]
             }
+        }
+    }
+
+    fn draw(&self, canvas: &mut Canvas, frame: &Frame) {
+        for Strokes { arrows, bar } in self.strokes(frame) {
+            for [tail, tip] in arrows {
+                canvas.arrow(tail, tip, COLOUR);
+            }
+            if let Some([from, to]) = bar {
+                canvas.line(from, to, &format!("stroke=\"{COLOUR}\" stroke-width=\"1\""));
+            }
+        }
+        if let On::Place(at) = self.on {
+            canvas.circle(frame.at(at), 2.2, &format!("fill=\"{COLOUR}\""));
         }
     }
 
@@ -124,6 +142,7 @@ impl Push {
 struct Acceleration {
     value: Vector2<f64>,
     label: String,
+    load: LoadId,
 }
 
 impl Acceleration {
@@ -141,14 +160,14 @@ impl Acceleration {
 impl Loads {
     pub(super) fn of(model: &Model, units: InUnits) -> Self {
         let accelerations = model.accelerations.iter().filter(|it| it.value.norm() > 0.0);
-        let acceleration = |value: Vector2<f64>| {
-            let label = acceleration_text(value.norm());
-            Acceleration { value, label }
+        let acceleration = |it: &crate::model::Acceleration| {
+            let label = acceleration_text(it.value.norm());
+            Acceleration { value: it.value, label, load: it.load }
         };
         Self {
             edges: tractions(model),
             points: forces(model, units),
-            accelerations: accelerations.map(|it| acceleration(it.value)).collect(),
+            accelerations: accelerations.map(acceleration).collect(),
         }
     }
 
@@ -209,25 +228,17 @@ impl Loads {
         let frame = sheet.frame;
         sheet.canvas.group("class=\"loads\"", |canvas| {
             for push in self.pushes() {
-                for Strokes { arrows, bar } in push.strokes(&frame) {
-                    for [tail, tip] in arrows {
-                        canvas.arrow(tail, tip, COLOUR);
-                    }
-                    if let Some([from, to]) = bar {
-                        canvas.line(from, to, &format!("stroke=\"{COLOUR}\" stroke-width=\"1\""));
-                    }
-                }
-                if let On::Place(at) = push.on {
-                    canvas.circle(frame.at(at), 2.2, &format!("fill=\"{COLOUR}\""));
-                }
+                canvas.group(&names::load(model, push.load), |canvas| push.draw(canvas, &frame));
             }
             for it in self.pushes() {
-                labels.draw(canvas, it.label_at(&frame), it.outwards, TEXT, &it.label);
+                canvas.group(&names::load(model, it.load), |canvas| {
+                    labels.draw(canvas, it.label_at(&frame), it.outwards, TEXT, &it.label);
+                });
             }
         });
         if !self.accelerations.is_empty() {
             sheet.canvas.group("class=\"accelerations\"", |canvas| {
-                self.draw_accelerations(canvas, &frame, marks::bounds(model));
+                self.draw_accelerations(canvas, &frame, model);
             });
         }
         let units = InUnits(model.units);
@@ -242,7 +253,8 @@ impl Loads {
     }
 
     /// One below the other at half the height of the structure.
-    fn draw_accelerations(&self, canvas: &mut Canvas, frame: &Frame, bounds: Bounds) {
+    fn draw_accelerations(&self, canvas: &mut Canvas, frame: &Frame, model: &Model) {
+        let bounds = marks::bounds(model);
         let Margins { left, right, .. } = self.margins_of_forces();
         let (low, high) = (frame.at(bounds.low), frame.at(bounds.high));
         for is_right in [false, true] {
@@ -254,16 +266,18 @@ impl Loads {
                 let x = if is_right { high.x + right + half } else { low.x - left - half };
                 let (middle, a) = (Pixel::new(x, y), it.value);
                 let tail = middle.shifted(-a.x, a.y, 0.5 * LONGEST);
-                canvas.arrow(tail, middle.shifted(a.x, -a.y, 0.5 * LONGEST), COLOUR);
                 let base = y + 0.5 * LONGEST + TEXT;
-                canvas.rimmed_text(Pixel::new(x, base), Anchor::Middle, TEXT, &it.label);
+                canvas.group(&names::load(model, it.load), |canvas| {
+                    canvas.arrow(tail, middle.shifted(a.x, -a.y, 0.5 * LONGEST), COLOUR);
+                    canvas.rimmed_text(Pixel::new(x, base), Anchor::Middle, TEXT, &it.label);
+                });
                 y += ACCELERATION_ROOM;
             }
         }
     }
 }
 
-/// All edge loads that are not zero, those of one traction in one line together.
+/// All edge loads that are not zero, those of one load with one traction in one line together.
 fn tractions(model: &Model) -> Vec<Push> {
     let near = 1e-9 * marks::bounds(model).diagonal();
     let mut list: Vec<Push> = Vec::new();
@@ -277,7 +291,8 @@ fn tractions(model: &Model) -> Vec<Push> {
             let normal = Vector2::new(along.y, -along.x).normalize();
             let same = list.iter_mut().find_map(|it| match &mut it.on {
                 On::Edges(pieces)
-                    if it.value == load.traction
+                    if it.load == load.load
+                        && it.value == load.traction
                         && it.outwards.dot(&normal) > 1.0 - 1e-9
                         && (from - pieces[0][0]).dot(&normal).abs() <= near =>
                 {
@@ -290,7 +305,7 @@ fn tractions(model: &Model) -> Vec<Push> {
             } else {
                 let (on, value) = (On::Edges(vec![[from, to]]), load.traction);
                 let label = stress_text(value.norm());
-                list.push(Push { on, value, outwards: normal, part: 1.0, label });
+                list.push(Push { on, value, outwards: normal, part: 1.0, label, load: load.load });
             }
         }
     }
@@ -311,7 +326,8 @@ fn forces(model: &Model, units: InUnits) -> Vec<Push> {
                 });
             let outwards = if pulls { force.normalize() } else { -force.normalize() };
             let label = units.force_text(force.norm());
-            list.push(Push { on: On::Place(at), value: force, outwards, part: 1.0, label });
+            let (on, load) = (On::Place(at), load.load);
+            list.push(Push { on, value: force, outwards, part: 1.0, label, load });
         }
     }
     in_parts(list)

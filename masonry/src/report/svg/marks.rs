@@ -4,6 +4,7 @@ use nalgebra::{Point2, Vector2};
 
 use super::canvas::{Canvas, Pixel, before, fixed};
 use super::labels::Labels;
+use super::names;
 use super::sheet::{Bounds, Frame, Sheet};
 use super::style::OUTLINE;
 use crate::data::state::{ContactState, ContactStatus};
@@ -63,7 +64,7 @@ pub(super) fn outlines<'a>(
     sheet.canvas.group(style, |canvas| {
         for block in blocks {
             let corners: Vec<_> = block.corners.iter().map(|corner| frame.at(*corner)).collect();
-            canvas.polygon(&corners, "");
+            canvas.polygon(&corners, &names::block(block));
         }
     });
 }
@@ -99,13 +100,15 @@ pub(super) fn moved_supports(sheet: &mut Sheet, model: &Model, factor: f64, for_
                 |factor: f64| ends.map(|end| frame.at(end + support.displacement_at(end) * factor));
             let ticks = ticks(at(0.0));
             let (still, moved) = (hatch(at(0.0), ticks, inward), hatch(at(factor), ticks, inward));
-            for (index, (from, to)) in still.into_iter().zip(moved).enumerate() {
-                let mut attributes = String::from(if index == 0 { LINE } else { "" });
-                if for_page && from != to {
-                    attributes = format!("{attributes} {}", before(&from));
+            canvas.group(&names::support(support), |canvas| {
+                for (index, (from, to)) in still.into_iter().zip(moved).enumerate() {
+                    let mut attributes = String::from(if index == 0 { LINE } else { "" });
+                    if for_page && from != to {
+                        attributes = format!("{attributes} {}", before(&from));
+                    }
+                    canvas.line(to[0], to[1], attributes.trim_start());
                 }
-                canvas.line(to[0], to[1], attributes.trim_start());
-            }
+            });
         }
     });
     sheet.entry("support", |symbol| {

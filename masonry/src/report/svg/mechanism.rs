@@ -6,6 +6,7 @@ use super::canvas::{Canvas, Pixel, before, fixed};
 use super::deformed::{PAGE, magnification};
 use super::labels::Labels;
 use super::marks::{self, BRICK, counted};
+use super::names;
 use super::sheet::{Bounds, Margins, Sheet};
 use super::style::OUTLINE;
 use crate::model::{Anchor, Model};
@@ -72,7 +73,8 @@ fn drawn(title: &str, model: &Model, rates: &[Vec<Vector2<f64>>], for_page: bool
                 (true, true) => ("moving", MOVING_SLOWLY),
                 (false, _) => ("still", BRICK),
             };
-            let mut style = format!("class=\"{class}\" fill=\"{fill}\"");
+            let name = names::block(block);
+            let mut style = format!("class=\"{class}\" fill=\"{fill}\" {name}");
             let pixels = |corners: &[Point2<f64>]| -> Vec<Pixel> {
                 corners.iter().map(|corner| frame.at(*corner)).collect()
             };
@@ -133,13 +135,9 @@ fn draw_yielding(sheet: &mut Sheet, model: &Model, joints: &[YieldingJoint], by:
     sheet.canvas.group("class=\"yielding\"", |canvas| {
         for (number, it) in &marked {
             let (at, still) = (place(it), frame.at(it.at));
-            let moves = format!(
-                "class=\"{}\" data-moved=\"{},{}\"",
-                it.does.name(),
-                fixed(at.x - still.x),
-                fixed(at.y - still.y)
-            );
-            let class = format!("class=\"{}\"", it.does.name());
+            let class = format!("class=\"{}\" {}", it.does.name(), names::joint(model, it.joint));
+            let [dx, dy] = [at.x - still.x, at.y - still.y].map(fixed);
+            let moves = format!("{class} data-moved=\"{dx},{dy}\"");
             canvas.group(if for_page { &moves } else { &class }, |canvas| {
                 draw_mark(canvas, it.does, mark(it, model, at, radius), radius);
                 if all <= NUMBERED {

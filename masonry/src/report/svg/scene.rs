@@ -8,9 +8,11 @@ use super::labels::Labels;
 use super::loads::Loads;
 use super::marks;
 use super::materials;
+use super::names;
 use super::sheet::{SYMBOL, Sheet};
 use super::style::DARK;
 use crate::geometry;
+use crate::ids::JointId;
 use crate::law::JointLaw;
 use crate::model::Model;
 use crate::report::format::{InUnits, acceleration_text, significant, stress_text};
@@ -47,16 +49,18 @@ fn draw_joints(sheet: &mut Sheet, model: &Model) {
             format!("class=\"joints\" stroke=\"{colour}\" stroke-width=\"{}\"", fixed(stroke));
         let mut used = false;
         sheet.canvas.group(&style, |canvas| {
-            for joint in model.joints.iter().filter(|joint| joint.class == index) {
+            for (k, joint) in model.joints.iter().enumerate().filter(|(_, it)| it.class == index) {
                 used = true;
-                canvas.line(frame.at(joint.from), frame.at(joint.to), "");
+                let name = names::joint(model, JointId::new(k));
+                canvas.line(frame.at(joint.from), frame.at(joint.to), &name);
             }
         });
         let style = format!("class=\"contacts\" fill=\"{colour}\"");
         sheet.canvas.group(&style, |canvas| {
             let of_class = |joint: usize| model.joints[joint].class == index;
             for contact in model.contacts.iter().filter(|it| of_class(it.joint.index())) {
-                canvas.circle(frame.at(contact.position), radius, "");
+                let name = names::joint(model, contact.joint);
+                canvas.circle(frame.at(contact.position), radius, &name);
             }
         });
         if used {
@@ -108,7 +112,7 @@ fn draw_names(sheet: &mut Sheet, model: &Model) {
         for (block, centre) in model.blocks.iter().zip(centres) {
             let at = frame.at(centre);
             let base = Pixel::new(at.x, at.y + 0.36 * size);
-            canvas.text(base, Anchor::Middle, size, &block.name);
+            canvas.text_with(base, Anchor::Middle, size, &names::block(block), &block.name);
         }
     });
 }

@@ -178,8 +178,8 @@ fn draw_strokes(sheet: &mut Sheet, model: &Model, state: &State, large: [f64; 2]
 fn draw_stroke(canvas: &mut Canvas, frame: &Frame, centre: Point2<f64>, half: f64, angle: f64) {
     let centre = frame.at(centre);
     let (dx, dy) = (half * angle.cos(), -half * angle.sin());
-    canvas
-        .stroke(Pixel::new(centre.x - dx, centre.y - dy), Pixel::new(centre.x + dx, centre.y + dy));
+    let [from, to] = [-1.0, 1.0].map(|way| Pixel::new(centre.x + way * dx, centre.y + way * dy));
+    canvas.stroke(from, to, "");
 }
 
 /// Pixels per pascal: large stresses fill an element, and the largest overlap the next one or two

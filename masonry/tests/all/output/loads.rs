@@ -4,8 +4,9 @@ use masonry::model::Model;
 use masonry::report::svg;
 use masonry::scene::{Brick, Joint, Load, Material, Scene, Support, Wall};
 use masonry::units::{ForceUnit, LengthUnit, Units};
+use roxmltree::{Document, Node};
 
-use super::{checked, groups, kept, marks, number, texts};
+use super::{checked, groups, kept, number, texts};
 
 fn wall(loads: &[Load]) -> Model {
     let brick = Brick { length: 0.5, height: 0.25 };
@@ -20,6 +21,12 @@ fn wall(loads: &[Load]) -> Model {
     Model::from_scene(&scene).expect("a good scene")
 }
 
+/// How many shapes and texts a group has.
+fn leaves(document: &Document<'_>, class: &str) -> usize {
+    let all = groups(document, class)[0].descendants().filter(Node::is_element);
+    all.filter(|it| !it.has_tag_name("g")).count()
+}
+
 /// An arrow is a line and a head; a force has a dot at its place besides, and each label a rim of its own.
 #[test]
 fn forces_are_arrows_at_their_places_with_their_values() {
@@ -31,17 +38,25 @@ fn forces_are_arrows_at_their_places_with_their_values() {
     ];
     let picture = kept("forces.svg", svg::scene("Forces & a rope", &wall(&loads)));
     let document = checked(&picture);
-    assert_eq!(marks(&document, "loads"), 3 * (3 + 2));
+    assert_eq!(leaves(&document, "loads"), 3 * (3 + 2));
+    // Two groups a load, of its arrow and of its label, with its number in the scene.
+    let numbers: Vec<_> = groups(&document, "loads")[0]
+        .children()
+        .filter_map(|it| it.attribute("data-load"))
+        .collect();
+    assert_eq!(numbers, ["3", "2", "1", "3", "2", "1"]);
     let texts = texts(&document);
     for label in ["7.5 kN", "2.5 kN", "3.536 kN", "point loads, 2.5 to 7.5 kN"] {
         assert!(texts.contains(label), "no {label} in {texts}");
     }
     assert!(!texts.contains("edge load") && !texts.contains("acceleration"));
     // The rope pulls at the edge: its head lies beyond its place, on the right.
-    let dots: Vec<_> =
-        groups(&document, "loads")[0].children().filter(|it| it.has_tag_name("circle")).collect();
+    let dots: Vec<_> = groups(&document, "loads")[0]
+        .descendants()
+        .filter(|it| it.has_tag_name("circle"))
+        .collect();
     let lines: Vec<_> =
-        groups(&document, "loads")[0].children().filter(|it| it.has_tag_name("line")).collect();
+        groups(&document, "loads")[0].descendants().filter(|it| it.has_tag_name("line")).collect();
     let (dot, line) = (dots[1], lines[1]);
     let starts_at_dot = (number(line, "x1") - number(dot, "cx")).abs() < 0.02;
     assert!(starts_at_dot && number(line, "x2") > number(line, "x1"), "{picture}");
@@ -61,7 +76,7 @@ fn accelerations_are_arrows_beside_the_structure() {
     ];
     let picture = kept("accelerations.svg", svg::scene("Accelerations", &wall(&loads)));
     let document = checked(&picture);
-    assert_eq!(marks(&document, "accelerations"), 3 * (2 + 2));
+    assert_eq!(leaves(&document, "accelerations"), 3 * (2 + 2));
     let texts = texts(&document);
     for label in [
         "0.98 m/s²",
@@ -75,7 +90,7 @@ fn accelerations_are_arrows_beside_the_structure() {
     // Each pushes from its side, outside of the arrows of the wind.
     let ends = |class| -> Vec<[f64; 2]> {
         let group = groups(&document, class)[0];
-        let lines = group.children().filter(|it| it.has_tag_name("line"));
+        let lines = group.descendants().filter(|it| it.has_tag_name("line"));
         lines.map(|line| ["x1", "x2"].map(|end| number(line, end))).collect()
     };
     let (shakes, winds) = (ends("accelerations"), ends("loads"));

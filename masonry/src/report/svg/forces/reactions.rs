@@ -7,6 +7,7 @@ use crate::report::format::InUnits;
 use crate::report::joints::{self, JointForce};
 use crate::report::svg::canvas::Pixel;
 use crate::report::svg::labels::Labels;
+use crate::report::svg::names;
 use crate::report::svg::sheet::{Frame, Margins, Sheet, label_room};
 use crate::report::svg::style::TEXT;
 
@@ -27,6 +28,8 @@ struct Reaction {
     outwards: Vector2<f64>,
     length: f64,
     label: String,
+    /// The attributes of its elements.
+    name: String,
 }
 
 impl Reaction {
@@ -47,6 +50,7 @@ impl Reactions {
             outwards: -it.force.normalize(),
             length: SHORTEST + (LONGEST - SHORTEST) * it.force.norm() / largest,
             label: units.force_text(it.force.norm()),
+            name: names::support(&model.supports[it.support.index()]),
         };
         Self(large.map(reaction).collect())
     }
@@ -81,7 +85,7 @@ impl Reactions {
         sheet.canvas.group("class=\"reactions\"", |canvas| {
             for it in &self.0 {
                 let [tail, tip] = it.arrow(&frame);
-                canvas.arrow(tail, tip, COLOUR);
+                canvas.group(&it.name, |canvas| canvas.arrow(tail, tip, COLOUR));
             }
         });
         sheet.canvas.group(&format!("class=\"reactions\" fill=\"{COLOUR}\""), |canvas| {
