@@ -32,6 +32,8 @@ pub(crate) use unique::circulating;
 /// All that the verdict depends on.
 #[derive(Clone, Copy)]
 pub(crate) struct Findings<'a> {
+    /// What a sentence calls the structure: `wall` or `arch`.
+    pub(crate) structure: &'static str,
     pub(crate) model: &'a Model,
     pub(crate) step: &'a StepResult,
     /// The load history, of several steps only.

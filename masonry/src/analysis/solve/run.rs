@@ -57,6 +57,8 @@ use crate::verify::verdict::{self, Findings};
 /// ```
 #[derive(Debug)]
 pub struct Run {
+    /// What a sentence calls it.
+    structure: &'static str,
     title: String,
     /// The model under the only step; if there are several, with all loads in full and all supports in
     /// their places.
@@ -123,6 +125,7 @@ impl Run {
         let [max_pivots, max_steps] =
             [max_pivots, max_steps].map(|limit| limit.map(|it| it as usize));
         Ok(Self {
+            structure: noun(scene),
             title: scene.title.clone(),
             model,
             plan,
@@ -422,6 +425,7 @@ impl Run {
             Some(verdict::circulating(&model, &sparse.problem, state))
         });
         let judgement = Judgement::of(&Findings {
+            structure: self.structure,
             model: &model,
             step: &step,
             history: history.as_ref(),
@@ -449,4 +453,9 @@ impl Run {
 
 fn largest_displacement(state: &State) -> f64 {
     state.displacements.iter().flatten().map(nalgebra::Matrix::amax).fold(0.0, f64::max)
+}
+
+/// What sentences call the structure of a scene.
+fn noun(scene: &Scene) -> &'static str {
+    if scene.walls.is_empty() && !scene.arches.is_empty() { "arch" } else { "wall" }
 }

@@ -15,23 +15,25 @@ pub(super) fn of(
     evidence: Evidence,
     movement: Option<Drift>,
 ) -> String {
+    let structure = known.structure;
     let failed = known.history.and_then(|history| history.failed.as_ref());
     let at = failed.map(at_step).unwrap_or_default();
     let first = match (verdict, evidence) {
-        (Verdict::Stands, Evidence::AdmissibleForces) => {
-            match known.step.loading {
-                Some(_) => "The wall stands: contact forces within friction balance the loads (verified), and loading leads \
-                     to rest.",
-                None => "The wall stands: contact forces within friction balance the loads (verified).",
-            }
-            .to_owned()
-        }
+        (Verdict::Stands, Evidence::AdmissibleForces) => match known.step.loading {
+            Some(_) => format!(
+                "The {structure} stands: contact forces within friction balance the loads (verified), and loading leads \
+                     to rest."
+            ),
+            None => format!(
+                "The {structure} stands: contact forces within friction balance the loads (verified)."
+            ),
+        },
         (Verdict::Stands, _) => match known.history {
-            Some(history) => in_all_steps(history),
-            None => "The wall stands: equilibrium found and verified.".to_owned(),
+            Some(history) => in_all_steps(structure, history),
+            None => format!("The {structure} stands: equilibrium found and verified."),
         },
         (Verdict::Falls, Evidence::Motion) => format!(
-            "The wall falls{at}: its blocks do not come to rest within small displacements (evidence, not a proof).{}",
+            "The {structure} falls{at}: its blocks do not come to rest within small displacements (evidence, not a proof).{}",
             match known.step.statics {
                 _ if known.step.loading.is_some() => {
                     " Contact forces within friction that balance the loads exist, as a prestress might bring them about, \
@@ -44,7 +46,7 @@ pub(super) fn of(
             }
         ),
         (Verdict::Falls, _) => format!(
-            "The wall falls{at}: no contact forces within friction balance the loads (proof checked)."
+            "The {structure} falls{at}: no contact forces within friction balance the loads (proof checked)."
         ),
         (Verdict::Undecided, _) => {
             format!("Undecided{at}: {}", undecided(known, evidence, movement))
@@ -61,14 +63,14 @@ pub(super) fn of(
 }
 
 /// The findings in the steps of a history, as far as they were checked.
-fn in_all_steps(history: &History) -> String {
+fn in_all_steps(structure: &str, history: &History) -> String {
     let steps = history.steps;
     let stands = match history.steps_against_law() {
         0 => format!(
-            "The wall stands in all {steps} steps: equilibrium found, and Coulomb's law verified, in each."
+            "The {structure} stands in all {steps} steps: equilibrium found, and Coulomb's law verified, in each."
         ),
         count => format!(
-            "The wall stands in all {steps} steps: equilibrium found and verified in each, but {count} of them {} \
+            "The {structure} stands in all {steps} steps: equilibrium found and verified in each, but {count} of them {} \
              Coulomb's law along the way only in part.",
             if count == 1 { "keeps" } else { "keep" }
         ),
