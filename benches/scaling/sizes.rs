@@ -104,7 +104,7 @@ impl Sizes {
         let bounds = BRICKS.split(',').enumerate().filter_map(bound);
         let series = families.iter().enumerate().map(line).chain(bounds).collect();
         let axes = ["number of bricks [-]", "time [s]"].map(str::to_owned);
-        let diagram = Diagram { title: String::new(), axes, least: None, series };
+        let diagram = Diagram { axes, series, ..Diagram::default() };
         let notes = [
             "Filled markers: elastic bricks of 2 x 1 elements; hollow ones: rigid bricks."
                 .to_owned(),

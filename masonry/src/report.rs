@@ -31,19 +31,19 @@ use thiserror::Error;
 use crate::analysis::outcome::Outcome;
 use crate::files::write_atomically;
 use svg::ReferenceLines;
-use svg::pictures::{Pictures, Shown, pictures};
+use svg::pictures::{Pictures, Shown, of_outcome};
 
 /// A kind of file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Format {
-    /// `scene.svg` always; `principal_stresses.svg` where stresses were recovered, `deformed.svg` and `forces.svg`
-    /// when solved, with `cracks.svg` where joints have opened or slid; `mechanism.svg` when a mechanism is known;
-    /// `history.svg` where there is a load history.
+    /// `scene.svg` always; `principal_stresses.svg` if stresses were recovered, `deformed.svg` and `forces.svg`
+    /// if solved, with `cracks.svg` if joints have opened or slid; `mechanism.svg` if a mechanism is known;
+    /// `history.svg` if there is a load history.
     Svg,
     /// `panel.vtu`.
     Vtu,
-    /// `contacts.csv`, when solved; `history.csv` where there is a load history.
+    /// `contacts.csv`, if solved; `history.csv` if there is a load history.
     Csv,
     /// `report.txt`.
     Text,
@@ -56,7 +56,7 @@ impl Format {
     pub const ALL: [Self; 5] = [Self::Svg, Self::Vtu, Self::Csv, Self::Text, Self::Json];
 }
 
-/// What [`write_all`] writes. By default everything.
+/// The choice of files that [`write_all`] writes; by default all.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Options {
     /// The formats wanted.
@@ -104,7 +104,7 @@ pub enum OutputError {
     Directory {
         /// The directory.
         path: PathBuf,
-        /// What the system said.
+        /// The error of the system.
         source: io::Error,
     },
     /// Some files could not be written; all others were.
@@ -141,21 +141,10 @@ fn contents(outcome: &Outcome, options: &Options) -> Vec<(&'static str, Vec<u8>)
     let title = &titled(outcome);
     let mut files = Vec::new();
     if options.formats.contains(&Format::Svg) {
-        files.push(("scene.svg", svg::scene(title, model).into_bytes()));
-        if let Some(state) = state {
-            let shown = [Shown { title, model, state }];
-            for Pictures { file, pictures } in pictures(&shown, options.reference.as_ref(), false) {
-                files.extend(pictures.into_iter().map(|text| (file, text.into_bytes())));
-            }
-        }
-        if let Some(history) = &outcome.history
-            && let Some(picture) = svg::history(title, model, history)
-        {
-            files.push(("history.svg", picture.into_bytes()));
-        }
-        if let Some(rates) = &outcome.mechanism {
-            files.push(("mechanism.svg", svg::mechanism(title, model, rates).into_bytes()));
-        }
+        let shown: Vec<Shown<'_>> =
+            state.into_iter().map(|state| Shown { title, model, state }).collect();
+        let reference = options.reference.as_ref();
+        files.extend(self::files(of_outcome(outcome, title, &shown, reference, false)));
     }
     if options.formats.contains(&Format::Vtu) {
         files.push(("panel.vtu", vtu::vtu(model, state)));
@@ -170,6 +159,14 @@ fn contents(outcome: &Outcome, options: &Options) -> Vec<(&'static str, Vec<u8>)
         files.push(("report.txt", table::report(outcome).into_bytes()));
     }
     files
+}
+
+/// Pictures as files.
+fn files(pictures: Vec<Pictures>) -> impl Iterator<Item = (&'static str, Vec<u8>)> {
+    let of_kind = |Pictures { file, pictures }| {
+        pictures.into_iter().map(move |text: String| (file, text.into_bytes()))
+    };
+    pictures.into_iter().flat_map(of_kind)
 }
 
 /// The title of the pictures: the verdict, and of what.

@@ -1,5 +1,7 @@
 //! Rounding errors of numbers, which in the equations alone would be couplings or loads.
 
+use std::borrow::Borrow;
+
 /// Sums and products of the data are wrong by this part of their largest term.
 const ROUNDING: f64 = 1.0 / (1_u64 << 48) as f64;
 
@@ -9,8 +11,8 @@ pub(crate) fn cleared(value: f64, size: f64) -> f64 {
 }
 
 /// The largest size of some numbers.
-pub(crate) fn largest<'a>(values: impl IntoIterator<Item = &'a f64>) -> f64 {
-    values.into_iter().fold(0.0, |largest, v| largest.max(v.abs()))
+pub(crate) fn largest(values: impl IntoIterator<Item = impl Borrow<f64>>) -> f64 {
+    values.into_iter().fold(0.0, |largest, v| largest.max(v.borrow().abs()))
 }
 
 /// The side of a number on which its text is.

@@ -18,7 +18,7 @@ const USUAL: f64 = 1e-8;
 
 fn drawn(title: &str, axes: [&str; 2], series: Vec<Series>, notes: &[String]) -> Option<String> {
     let axes = axes.map(str::to_owned);
-    picture(title, &[Diagram { title: String::new(), axes, least: None, series }], notes)
+    picture(title, &[Diagram { axes, series, ..Diagram::default() }], notes)
 }
 
 fn line(name: impl Into<String>, style: usize, points: Vec<[f64; 2]>) -> Series {

@@ -271,7 +271,7 @@ fn diagram((sweep, points): &(Sweep, Vec<Point>)) -> Diagram {
         series.extend(line(route.name(), style(*route), &ends.collect::<Vec<_>>()));
     }
     let axes = [sweep.parameter, "error [-]"].map(str::to_owned);
-    Diagram { title: sweep.title.clone(), axes, least: Some(ERRORS), series }
+    Diagram { title: sweep.title.clone(), axes, least: Some(ERRORS), series, ..Diagram::default() }
 }
 
 fn of_problem(sweep: &problems::Sweep) -> Diagram {
@@ -281,7 +281,13 @@ fn of_problem(sweep: &problems::Sweep) -> Diagram {
         series.extend(line(method.name(), style_of_method(*method), &ends.collect::<Vec<_>>()));
     }
     let axes = [format!("{} [-]", sweep.parameter), "error [-]".to_owned()];
-    Diagram { title: sweep.name.to_owned(), axes, least: Some(ERRORS), series }
+    Diagram {
+        title: sweep.name.to_owned(),
+        axes,
+        least: Some(ERRORS),
+        series,
+        ..Diagram::default()
+    }
 }
 
 fn bound(points: Vec<[f64; 2]>) -> Series {

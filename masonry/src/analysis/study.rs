@@ -73,7 +73,7 @@ pub struct Settings {
     /// Names of the meshes in reports, in their order; missing ones are named by their factors.
     pub mesh_names: Vec<String>,
     /// Wall-clock time of one solve. It is checked by the observer, so a single factorisation or program is never
-    /// interrupted: [`Record::overrun`] shows where one took longer.
+    /// interrupted: [`Record::overrun`] shows the solves that took longer.
     pub time_limit: Duration,
     /// Number of runs of a solve of less than a second; its time is the median.
     pub repeats: usize,

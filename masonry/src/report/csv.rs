@@ -15,8 +15,8 @@ use crate::model::Model;
 /// and `t_t_kN`, tractions `traction_n_kN/m2` and `traction_t_kN/m2` (force over area), `gap_m`,
 /// `slip_m`, `mu`, and `status` (`open`, `stick`, `slip`). Where there are mortar films, also
 /// `film_sigma_y_kN/m2` (tension positive) and `film_tau_kN/m2`, empty for points of dry joints, and before them
-/// `film_sigma_x_kN/m2` where films are whole strips. Numbers read back exactly; fields are
-/// quoted where RFC 4180 asks for it, and lines end with CR LF.
+/// `film_sigma_x_kN/m2` if films are whole strips. Numbers read back exactly; fields are
+/// quoted if RFC 4180 asks for it, and lines end with CR LF.
 pub fn contacts(model: &Model, state: &State) -> String {
     text(&tables::contacts(model, state))
 }

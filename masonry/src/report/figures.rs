@@ -1,7 +1,8 @@
 //! Figures and tables that a user sees of a result, as one kind of value in the units of the scene, with their names,
 //! quantities and digits.
 //!
-//! Text, pages, JSON and CSV only choose and write them, so that a figure is added here and nowhere else.
+//! Text, pages, JSON and CSV write them as they are; they only have an order of their own for some. So a figure is added
+//! here and nowhere else.
 
 pub(super) mod history;
 pub(super) mod limit;
@@ -11,7 +12,7 @@ pub(super) mod tables;
 mod value;
 
 pub(super) use table::{Column, Columns, Digits, Table};
-pub(super) use value::{Value, members};
+pub(super) use value::{Members, Value, members};
 
 /// A name and the words beside it.
 pub(super) type Said = (&'static str, String);
@@ -19,12 +20,12 @@ pub(super) type Said = (&'static str, String);
 /// A number or a few, as files and readers see them.
 #[derive(Debug, Clone)]
 pub(super) struct Figure {
-    /// In JSON; empty if it is not there.
+    /// Its name in JSON; empty if it is not there.
     pub(super) key: &'static str,
     pub(super) value: Value,
-    /// In the report as text, if it is there.
+    /// Its words in the report as text, if it is there.
     text: Option<Said>,
-    /// On a page, if it is there.
+    /// Its words on a page, if it is there.
     page: Option<Said>,
 }
 
@@ -57,10 +58,19 @@ pub(super) fn on_page(figures: &[Figure]) -> Vec<Said> {
     figures.iter().filter_map(|it| it.page.clone()).collect()
 }
 
-/// Figures as members of an object of JSON, null if they are not known.
-pub(super) fn in_json(figures: &[Figure], keys: &str) -> Vec<(String, Value)> {
-    let value = |key: &str| figures.iter().find(|it| it.key == key).map(|it| it.value.clone());
-    keys.split(' ').map(|key| (key.to_owned(), value(key).into())).collect()
+/// Takes the figures of these keys out, as members of an object of JSON, null if they are not known.
+pub(super) fn taken(figures: &mut Vec<Figure>, keys: &str) -> Members {
+    let mut member = |key: &str| {
+        let found = figures.extract_if(.., |it| it.key == key).last();
+        (key.to_owned(), found.map(|it| it.value).into())
+    };
+    keys.split(' ').map(&mut member).collect()
+}
+
+/// All figures that have a key, as members of an object of JSON.
+pub(super) fn in_json(figures: Vec<Figure>) -> Members {
+    let with_key = figures.into_iter().filter(|it| !it.key.is_empty());
+    with_key.map(|it| (it.key.to_owned(), it.value)).collect()
 }
 
 pub(super) fn yes_or_no(it: bool) -> String {

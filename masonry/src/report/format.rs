@@ -2,6 +2,7 @@
 
 use crate::ids::BlockId;
 use crate::model::{Body, Model};
+use crate::rounding::largest;
 use crate::units::Units;
 
 /// The kind of number that a unit belongs to.
@@ -91,7 +92,7 @@ impl InUnits {
 /// A stress \[Pa\] for people, in pascals or thousands, millions or billions of them, with its unit after a space that does not break.
 pub(super) fn stress_text(pascals: f64) -> String {
     let prefixes = [(1e9, "G"), (1e6, "M"), (1e3, "k")];
-    // What is rounded to a thousand of a unit is one of the next.
+    // A value that is rounded to a thousand of a unit is one of the next.
     let fits = |(unit, _): &(f64, &str)| pascals.abs() >= unit * (1.0 - 5e-5);
     let (unit, prefix) = prefixes.into_iter().find(fits).unwrap_or((1.0, ""));
     format!("{}\u{a0}{prefix}Pa", significant(pascals / unit, 4))
@@ -108,7 +109,7 @@ pub(super) fn shortest(value: f64) -> String {
     format!("{:?}", value + 0.0)
 }
 
-/// `digits` significant digits without trailing zeros, with an exponent where that is shorter.
+/// `digits` significant digits without trailing zeros, with an exponent if that is shorter.
 pub(super) fn significant(value: f64, digits: usize) -> String {
     if !value.is_finite() {
         return "-".to_owned();
@@ -126,9 +127,9 @@ pub(super) fn significant(value: f64, digits: usize) -> String {
 }
 
 /// How numbers of one column are written: with equally many decimals, so that the largest has `digits` significant
-/// digits; with exponents where that would take too many zeros.
+/// digits; with exponents if that would take too many zeros.
 pub(super) fn aligned(values: &[f64], digits: usize) -> impl Fn(f64) -> String + use<> {
-    let largest = values.iter().fold(0.0, |largest, value| f64::max(largest, value.abs()));
+    let largest = largest(values);
     let exponent = if largest > 0.0 { decimal(largest, digits).1 } else { 0 };
     let decimals = i32::try_from(digits).unwrap_or(i32::MAX) - (exponent + 1);
     let decimals = usize::try_from(decimals).unwrap_or(0);
@@ -178,7 +179,8 @@ fn decimal(value: f64, digits: usize) -> (String, i32) {
     (mantissa.to_owned(), exponent.parse().unwrap_or(0))
 }
 
-fn trim_zeros(text: &str) -> &str {
+/// A decimal number without zeros at its end.
+pub(super) fn trim_zeros(text: &str) -> &str {
     if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.') } else { text }
 }
 

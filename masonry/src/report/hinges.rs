@@ -1,15 +1,18 @@
-//! What the joints of a mechanism do: they turn about a hinge, slide, or come apart.
+//! Joints of a mechanism, which turn about a hinge, slide, or come apart.
 
 use nalgebra::{Point2, Vector2};
 
 use crate::ids::JointId;
 use crate::model::{Anchor, Model};
+use crate::rounding::largest;
 
 /// Joints that move by less than this part of the fastest are taken for closed. Chosen: hardly seen in a picture, and above what
 /// springs in joints make of a motion.
 const STILL: f64 = 1e-2;
+/// Relative difference up to which a joint opens as associated flow lifts it. Chosen: far above rounding errors.
+const AS_LIFTED: f64 = 1e-6;
 
-/// What a joint does.
+/// Behaviour of a joint in a mechanism.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Yield {
     /// It opens about a place that stays closed.
@@ -21,12 +24,7 @@ pub enum Yield {
 }
 
 impl Yield {
-    /// Whether pictures mark it with a number: what comes apart is seen without.
-    pub fn is_marked(self) -> bool {
-        self != Self::Opens
-    }
-
-    /// What a reader is told: `hinge`, `slides`, `opens`.
+    /// The word for it: `hinge`, `slides`, `opens`.
     pub fn name(self) -> &'static str {
         match self {
             Self::Hinge => "hinge",
@@ -41,7 +39,7 @@ impl Yield {
 pub struct YieldingJoint {
     /// The joint.
     pub joint: JointId,
-    /// What it does.
+    /// Its behaviour.
     pub does: Yield,
     /// Where its sides touch, or its middle \[m\].
     pub at: Point2<f64>,
@@ -51,9 +49,13 @@ pub struct YieldingJoint {
     pub opens: f64,
     /// The largest rate at which it slides, relative to the fastest joint.
     pub slides: f64,
+    /// Whether it slides and opens just so far that no force inside its friction cone does work: associated flow.
+    pub dilates: bool,
+    /// Its number in pictures and tables, from one; `None` if its sides come apart, which is seen without a mark.
+    pub number: Option<usize>,
 }
 
-/// What happens at a contact point.
+/// Rates at a contact point.
 struct PointRate {
     at: Point2<f64>,
     mean: Vector2<f64>,
@@ -80,16 +82,21 @@ pub fn yielding(model: &Model, rates: &[Vec<Vector2<f64>>]) -> Vec<YieldingJoint
             lifts: contact.law.cone().lift(slides),
         });
     }
-    let fastest = of_joints.iter().flatten().map(|it| it.opens.max(it.slides)).fold(0.0, f64::max);
+    let fastest = largest(of_joints.iter().flatten().map(|it| it.opens.max(it.slides)));
     let joints = of_joints.iter().enumerate();
-    joints.filter_map(|(index, points)| of_joint(JointId::new(index), points, fastest)).collect()
+    let of_joint =
+        |(index, points): (usize, &Vec<_>)| of_joint(JointId::new(index), points, fastest);
+    let mut list: Vec<YieldingJoint> = joints.filter_map(of_joint).collect();
+    let marked = list.iter_mut().filter(|it| it.does != Yield::Opens);
+    (1..).zip(marked).for_each(|(number, it)| it.number = Some(number));
+    list
 }
 
-/// What a joint does with these points; `None` where it stays as it is.
+/// The behaviour of a joint with these points; `None` if it stays as it is.
 fn of_joint(joint: JointId, points: &[PointRate], fastest: f64) -> Option<YieldingJoint> {
     let still = STILL * fastest;
-    let largest = |of: fn(&PointRate) -> f64| points.iter().map(of).fold(0.0, f64::max);
-    let (opens, slides) = (largest(|it| it.opens), largest(|it| it.slides));
+    let opens = largest(points.iter().map(|it| it.opens));
+    let slides = largest(points.iter().map(|it| it.slides));
     if opens.max(slides) <= still || fastest <= 0.0 {
         return None;
     }
@@ -107,7 +114,10 @@ fn of_joint(joint: JointId, points: &[PointRate], fastest: f64) -> Option<Yieldi
     let at: Vector2<f64> = places.iter().map(|it| it.at.coords * share).sum();
     let rate: Vector2<f64> = places.iter().map(|it| it.mean * share).sum();
     let (opens, slides) = (opens / fastest, slides / fastest);
-    Some(YieldingJoint { joint, does, at: Point2::from(at), rate, opens, slides })
+    let follows = |it: &PointRate| (it.opens - it.lifts).abs() <= AS_LIFTED * it.lifts;
+    let dilates = points.iter().any(|it| it.lifts > still && follows(it));
+    let at = Point2::from(at);
+    Some(YieldingJoint { joint, does, at, rate, opens, slides, dilates, number: None })
 }
 
 fn rate_at(rates: &[Vec<Vector2<f64>>], anchor: Anchor) -> Vector2<f64> {

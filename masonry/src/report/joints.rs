@@ -1,4 +1,4 @@
-//! What every joint carries, how much of its friction is used, and how far it has opened.
+//! The forces in every joint, the part of its friction that is used, and its opening.
 
 use nalgebra::{Point2, Vector2};
 
@@ -6,6 +6,7 @@ use crate::data::state::ContactState;
 use crate::ids::{JointId, SupportId};
 use crate::model::{Body, Joint, Model};
 use crate::recover;
+use crate::rounding::largest;
 
 /// Forces below this part of the largest are rounding errors.
 const NO_FORCE: f64 = 1e-9;
@@ -31,7 +32,7 @@ pub struct JointForce {
     /// Distance of `at` from the middle of the joint, in lengths of the joint: `-0.5` and `0.5` at its ends, more than
     /// a sixth outside its middle third.
     pub eccentricity: f64,
-    /// `|T| / (mu N + c A)`: one where all points slide; `None` where nothing resists sliding.
+    /// `|T| / (mu N + c A)`: one if all points slide; `None` if nothing resists sliding.
     pub utilisation: Option<f64>,
 }
 
@@ -50,7 +51,7 @@ pub fn forces(model: &Model, contacts: &[ContactState]) -> Vec<JointForce> {
             *sum += part;
         }
     }
-    let largest = sums.iter().map(|(force, _)| force.norm()).fold(0.0, f64::max);
+    let largest = largest(sums.iter().map(|(force, _)| force.norm()));
     let placed = |(index, (joint, (force, parts))): (usize, (&Joint, Sum))| {
         let [normal, tangential, moment, bound] = parts;
         if normal == 0.0 || normal.abs() <= NO_FORCE * largest {
@@ -83,7 +84,7 @@ pub struct SupportForce {
     pub force: Vector2<f64>,
 }
 
-/// The reactions of all supports that press or pull, but those whose line passes beside the support.
+/// The reactions of all supports that press or pull, except those whose line passes beside the support.
 pub fn reactions(model: &Model, forces: &[JointForce]) -> Vec<SupportForce> {
     let of = |index: usize| {
         let support = SupportId::new(index);

@@ -1,7 +1,7 @@
 //! The result of a scene as one JSON object.
 
 use super::figures::tables::{forces, loads, rates_by_name, reactions};
-use super::figures::{Value, history, in_json, members, solved};
+use super::figures::{Members, Value, history, in_json, members, solved, taken};
 use super::format::InUnits;
 use super::summary::{self, CornerSum, LoadGroup, Resultant, corner_sums, load_groups, reason};
 use crate::analysis::outcome::{Outcome, PhaseTime};
@@ -14,8 +14,8 @@ use crate::model::Model;
 /// Physical quantities are in the units of the scene, which `units` names one by one. Without a
 /// solution `residuals`, `balance`, `reactions`, `contacts`, `strain_energy`, `max_displacement` and the stresses
 /// are null, and `reason` says why; `mechanism` gives displacement rates of the corners of every
-/// block, the largest component one, where one is known. `films`, the extremes of the stresses in
-/// mortar films, is there with films only, and `history`, one record a step, with a load history only: where a step failed, the state
+/// block, the largest component one, if one is known. `films`, the extremes of the stresses in
+/// mortar films, is there with films only, and `history`, one record a step, with a load history only: if a step failed, the state
 /// is that after the step before. `springs`, `proved` and `soft` are those of
 /// [`SolveInfo`](crate::analysis::outcome::SolveInfo). Numbers that are not finite become null.
 ///
@@ -24,7 +24,7 @@ use crate::model::Model;
 pub fn result(outcome: &Outcome, files: &[String]) -> Result<String, serde_json::Error> {
     let (model, solve, judgement) = (&outcome.model, &outcome.solve, &outcome.judgement);
     let (units, state) = (InUnits(model.units), outcome.state.as_ref());
-    let figures = [solved::checks(outcome), solved::state(outcome)].concat();
+    let mut figures = [solved::checks(outcome), solved::state(outcome)].concat();
     let mut object = members! {
         "verdict": Value::of(&judgement.verdict)?,
         "evidence": Value::of(&judgement.evidence)?,
@@ -56,7 +56,7 @@ pub fn result(outcome: &Outcome, files: &[String]) -> Result<String, serde_json:
         "residuals": Value::of(&state.map(|_| solve.residuals))?,
         "coulomb_residuals": Value::of(&solve.coulomb_residuals)?,
     });
-    object.extend(in_json(&figures, "balance"));
+    object.extend(taken(&mut figures, "balance"));
     object.extend(members! {
         "reactions": state.map(|_| reactions(units, &outcome.reactions).by_name()),
         "corners": state.map(|_| corners(outcome)),
@@ -64,10 +64,8 @@ pub fn result(outcome: &Outcome, files: &[String]) -> Result<String, serde_json:
     object.extend(totals(model));
     object.extend(members! { "load_groups": groups(model) });
     let of_state = "contacts strain_energy max_displacement max_compression max_tension";
-    object.extend(in_json(&figures, of_state));
-    if figures.iter().any(|it| it.key == "films") {
-        object.extend(in_json(&figures, "films"));
-    }
+    object.extend(taken(&mut figures, of_state));
+    object.extend(in_json(figures));
     object.extend(members! { "proved": solve.proved, "soft": Value::of(&solve.soft)? });
     if let Some(found) = &outcome.history {
         object.extend(members! { "history": history::in_json(model, found)? });
@@ -122,12 +120,12 @@ fn corners(outcome: &Outcome) -> Value {
 }
 
 /// The resultants of self weights and of loads.
-fn totals(model: &Model) -> Vec<(String, Value)> {
+fn totals(model: &Model) -> Members {
     let both = [("weight", summary::weight(model)), ("loads", summary::loads(model))];
     forces(InUnits(model.units), both).by_name()
 }
 
-fn parts(units: InUnits, sum: Resultant) -> Vec<(String, Value)> {
+fn parts(units: InUnits, sum: Resultant) -> Members {
     forces(units, [("", sum)]).without("support").objects().remove(0)
 }
 

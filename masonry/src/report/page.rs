@@ -14,14 +14,29 @@ pub use limit::{limit, thickness};
 pub use solved::{is_framed, solved};
 
 use super::figures::Said;
-use super::svg::{counted, escaped};
+use super::format::significant;
+use super::svg::pictures::Pictures;
+use super::svg::{self, counted, escaped};
+use crate::analysis::outcome::PhaseTime;
 use crate::model::Model;
 
 const STYLE: &str = include_str!("page/page.css");
 const SCRIPT: &str = include_str!("page/page.js");
 
-/// What a page shows.
-#[derive(Debug, Default)]
+/// The files of pictures to choose from and the names of their switches, in their order: first is what a headline is about.
+const CHOICES: [(&str, &str); 8] = [
+    ("path_mechanism.svg", "Mechanism, path"),
+    ("mechanism.svg", "Mechanism"),
+    ("path_forces.svg", "Forces, path"),
+    ("forces.svg", "Forces"),
+    ("principal_stresses.svg", "Stresses"),
+    ("cracks.svg", "Cracks"),
+    ("deformed.svg", "Deformed"),
+    ("scene.svg", "Scene"),
+];
+
+/// The contents of a page.
+#[derive(Debug)]
 struct Page {
     title: String,
     /// `stands`, `falls` or `undecided`: the colour of the verdict.
@@ -30,11 +45,10 @@ struct Page {
     warnings: Vec<String>,
     /// Names and values.
     figures: Vec<Said>,
-    pictures: Vec<Choice>,
-    /// The steps that pictures have, by their names; empty or one without a history.
+    /// Those that are no choice are curves, which are always seen.
+    pictures: Vec<Pictures>,
+    /// The steps that pictures have; empty or one without a history.
     steps: Vec<Step>,
-    /// Curves, always seen.
-    curves: Option<String>,
     /// One below the other.
     tables: String,
     /// The report as text.
@@ -50,34 +64,34 @@ struct Step {
 }
 
 /// Pictures of one kind, of which one is seen: one for every step, or one for all.
-#[derive(Debug)]
-struct Choice {
-    /// In the address of the page.
-    key: &'static str,
+struct Choice<'a> {
+    /// Its name in the address of the page.
+    key: &'a str,
     /// On the switch.
-    name: &'static str,
-    pictures: Vec<String>,
-}
-
-impl Choice {
-    fn one(key: &'static str, name: &'static str, picture: String) -> Self {
-        Self { key, name, pictures: vec![picture] }
-    }
+    name: &'a str,
+    pictures: &'a [String],
 }
 
 impl Page {
     /// The text of the file.
     fn finish(&self) -> String {
         let title = escaped(&self.title);
+        let is_choice = |it: &&Pictures| CHOICES.iter().any(|(file, _)| *file == it.file);
+        let curves = self.pictures.iter().filter(|it| !is_choice(it)).flat_map(|it| &it.pictures);
+        let curve = |it: &String| {
+            format!(
+                "<figure class=\"curves\">
+{}</figure>
+",
+                bare(it)
+            )
+        };
+        let curves: Vec<String> = curves.map(curve).collect();
         let body = [
             self.header(),
             self.key_figures(),
-            self.controls(),
-            self.pictures.iter().map(|it| self.figure(it)).collect(),
-            if self.pictures.is_empty() { String::new() } else { "</section>\n".to_owned() },
-            self.curves.as_ref().map_or_else(String::new, |curves| {
-                format!("<figure class=\"curves\">\n{curves}</figure>\n")
-            }),
+            self.choices(),
+            curves.concat(),
             self.tables.clone(),
             format!(
                 "<details>\n<summary>Report as text</summary>\n<pre>{}</pre>\n</details>\n",
@@ -90,8 +104,9 @@ impl Page {
              <meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; \
              style-src 'unsafe-inline'; script-src 'unsafe-inline'\">\n\
              <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
-             <title>{title}</title>\n<style>\n{STYLE}</style>\n</head>\n<body>\n{body}\
-             <script>\n{SCRIPT}</script>\n</body>\n</html>\n"
+             <title>{title}</title>\n<style>\n{STYLE}</style>\n{}</head>\n<body>\n{body}\
+             <script>\n{SCRIPT}</script>\n</body>\n</html>\n",
+            svg::STYLE
         )
     }
 
@@ -114,15 +129,22 @@ impl Page {
         format!("<dl class=\"figures\">\n{figures}</dl>\n")
     }
 
-    /// The switches and sliders at the head of the pictures, if there are any.
-    fn controls(&self) -> String {
-        if self.pictures.is_empty() {
+    /// The pictures to choose from, with switches and sliders at their head.
+    fn choices(&self) -> String {
+        let choices: Vec<Choice<'_>> = CHOICES
+            .iter()
+            .filter_map(|(file, name)| {
+                let pictures = &self.pictures.iter().find(|it| it.file == *file)?.pictures;
+                Some(Choice { key: file.trim_end_matches(".svg"), name, pictures })
+            })
+            .collect();
+        if choices.is_empty() {
             return String::new();
         }
-        let switch = |Choice { key, name, .. }: &Choice| {
+        let switch = |Choice { key, name, .. }: &Choice<'_>| {
             format!("<button type=\"button\" data-picture=\"{key}\">{name}</button>\n")
         };
-        let switches: String = self.pictures.iter().map(switch).collect();
+        let switches: String = choices.iter().map(switch).collect();
         let steps = match self.steps.len() {
             0 | 1 => String::new(),
             steps => {
@@ -133,23 +155,24 @@ impl Page {
                 )
             }
         };
+        let figures: String = choices.iter().map(|it| self.figure(it)).collect();
         format!(
             "<section id=\"pictures\">\n<div class=\"controls\">\n\
              <div id=\"switches\" role=\"group\" aria-label=\"picture\">\n{switches}</div>\n{steps}\
              <label id=\"scales\">displacements <input id=\"scale\" type=\"range\" min=\"0\" max=\"2\" \
-             step=\"0.01\" value=\"1\"> <output></output></label>\n</div>\n"
+             step=\"0.01\" value=\"1\"> <output></output></label>\n</div>\n{figures}</section>\n"
         )
     }
 
     /// The pictures of one kind.
-    fn figure(&self, Choice { key, name, pictures }: &Choice) -> String {
+    fn figure(&self, Choice { key, name, pictures }: &Choice<'_>) -> String {
         let frame = |(index, picture): (usize, &String)| {
             let step = self.steps.get(index).filter(|_| pictures.len() > 1);
             let attributes = step.map_or_else(String::new, |step| {
                 let (position, name) = (step.position, escaped(&step.name));
                 format!(" data-step=\"{index}\" data-position=\"{position}\" data-name=\"{name}\"")
             });
-            format!("<div class=\"frame\"{attributes}>\n{picture}</div>\n")
+            format!("<div class=\"frame\"{attributes}>\n{}</div>\n", bare(picture))
         };
         let frames: String = pictures.iter().enumerate().map(frame).collect();
         format!("<figure data-picture=\"{key}\" aria-label=\"{name}\">\n{frames}</figure>\n")
@@ -160,6 +183,17 @@ impl Page {
 fn size(model: &Model) -> String {
     let (blocks, joints) = (model.blocks.len(), model.joints.len());
     format!("{}, {}", counted(blocks, "block"), counted(joints, "joint"))
+}
+
+/// The time of all phases.
+fn taken(times: &[PhaseTime]) -> String {
+    let seconds: f64 = times.iter().map(|it| it.seconds).sum();
+    format!("{} s", significant(seconds, 2))
+}
+
+/// A picture without its style sheet, which the page has once for all.
+fn bare(picture: &str) -> String {
+    picture.replacen(svg::STYLE, "", 1)
 }
 
 /// Text in which lines stay lines.

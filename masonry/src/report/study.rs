@@ -16,7 +16,7 @@ pub use table::table;
 use super::{OutputError, csv, write_files};
 use crate::analysis::study::Study;
 
-/// Writes `study.csv`, the picture `accuracy.svg` where there is something in it, and `study.json`, which lists them
+/// Writes `study.csv`, the picture `accuracy.svg` if there is something in it, and `study.json`, which lists them
 /// all, into `dir`, which is created.
 ///
 /// # Errors
@@ -33,7 +33,7 @@ pub fn write(study: &Study, dir: &Path) -> Result<Vec<PathBuf>, OutputError> {
 ///
 /// Columns: `mesh` (factor), `route`, `tolerance`, `status` (a status, `Refused` or `Skipped`), `residual`,
 /// `time_s`, `overrun` (whether that is more than the limit), `iterations` (pivots by `lemke`), relative errors `error_force`, `error_stress`, `error_energy`,
-/// and the `reason` why it was refused or skipped. What is not known is empty. Numbers read back exactly,
+/// and the `reason` why it was refused or skipped. Unknown values are empty. Numbers read back exactly,
 /// and lines end with CR LF.
 pub fn csv(study: &Study) -> String {
     csv::text(&figures::records(study, study.records.iter()).without("asked took"))

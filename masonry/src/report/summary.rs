@@ -23,7 +23,7 @@ pub struct LargestDisplacement {
     pub position: Point2<f64>,
 }
 
-/// A principal stress and where it acts.
+/// A principal stress and its place.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ExtremeStress {
     /// The stress \[Pa\], tension positive.
@@ -71,7 +71,7 @@ pub fn largest_displacement(model: &Model, state: &State) -> Option<LargestDispl
     largest
 }
 
-/// The most compressive and the most tensile principal stress; `None` where no element is in
+/// The most compressive and the most tensile principal stress; `None` if no element is in
 /// compression, or in tension.
 pub fn extreme_stresses(state: &State) -> (Option<ExtremeStress>, Option<ExtremeStress>) {
     let mut compression: Option<ExtremeStress> = None;
@@ -96,7 +96,7 @@ pub struct FilmExtremes {
     pub compression: FilmStress,
     /// Where the film is sheared most, in either direction.
     pub shear: FilmStress,
-    /// Where the stress along the film is largest, pressure or tension; it has none where films act
+    /// The place of the largest stress along the film, pressure or tension; there is none if films act
     /// across their joints only.
     pub along: FilmStress,
 }

@@ -1,8 +1,12 @@
 //! Pictures as SVG: the scene, principal stresses, the deformed structure, forces in joints, cracks, a mechanism, curves
 //! of load histories, diagrams.
 //!
-//! Every function returns the text of a whole file, with the legend outside the drawing. Numbers have a fixed count of digits, so that equal input gives equal bytes.
+//! Every function returns the text of a whole file, with the legend outside the drawing. Numbers have two decimals at most,
+//! so that equal input gives equal bytes.
 
+mod arrows;
+mod axis;
+mod bond_lines;
 mod canvas;
 mod cracks;
 mod deformed;
@@ -11,27 +15,27 @@ mod dimensions;
 mod forces;
 mod history;
 mod labels;
-mod loads;
-mod marks;
-mod materials;
+mod legend;
 mod mechanism;
+mod motion;
 mod names;
-mod path;
 pub(super) mod pictures;
 mod scene;
 mod sheet;
 mod stresses;
+mod structure;
 mod style;
 
+pub(super) use arrows::Growth;
+pub use bond_lines::ReferenceLines;
 pub(super) use canvas::escape as escaped;
 pub use cracks::cracks;
 pub use deformed::deformed;
 pub use forces::forces;
-pub(super) use history::curves;
-pub use history::history;
-pub(super) use marks::counted;
+pub use history::{history, path};
 pub use mechanism::mechanism;
-pub(super) use mechanism::mechanism_on_page;
-pub use path::path;
+pub(super) use mechanism::{Collapse, collapse};
 pub use scene::scene;
-pub use stresses::{ReferenceLines, principal_stresses};
+pub use stresses::principal_stresses;
+pub(super) use structure::counted;
+pub(super) use style::STYLE;

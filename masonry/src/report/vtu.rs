@@ -17,7 +17,7 @@ const POLYGON: u8 = 7;
 ///
 /// Blocks share no points, so that joints can open. Point data: `displacement_m` (3 components).
 /// Cell data: `block` (position in the model), `deformable` (0 for rigid blocks, whose stresses are
-/// unknown and written as zero), and, where stresses were recovered, `sigma_x_kN/m2` and so on.
+/// unknown and written as zero), and, if stresses were recovered, `sigma_x_kN/m2` and so on.
 /// The names carry the units of the scene. Without a state only the geometry is written.
 pub fn vtu(model: &Model, state: Option<&State>) -> Vec<u8> {
     let units = InUnits(model.units);

@@ -100,7 +100,9 @@ fn a_history_has_a_picture_of_every_kind_for_every_step() {
     assert_whole(&page);
     assert!(page.contains("<h1>The wall stands in all 4 steps"), "the verdict");
     assert!(page.contains("Two blocks &lt;pushed&gt;"));
-    for (picture, frames) in [("forces", 4), ("stresses", 4), ("deformed", 4), ("scene", 1)] {
+    for (picture, frames) in
+        [("forces", 4), ("principal_stresses", 4), ("deformed", 4), ("scene", 1)]
+    {
         let figure = page.split(&format!("<figure data-picture=\"{picture}\"")).nth(1).unwrap();
         let figure = figure.split("</figure>").next().unwrap();
         assert_eq!(figure.matches("<div class=\"frame\"").count(), frames, "{picture}");
@@ -113,10 +115,16 @@ fn a_history_has_a_picture_of_every_kind_for_every_step() {
 fn limit_loads_and_thicknesses_have_pages() {
     let (_, page_) = page("limit", "limit", &given("ferris_wall_1.toml"), &[]);
     assert_whole(&page_);
-    for text in ["cannot stand above", "data-picture=\"mechanism\"", "data-picture=\"path-forces\""]
+    for text in ["cannot stand above", "data-picture=\"mechanism\"", "data-picture=\"path_forces\""]
     {
         assert!(page_.contains(text), "{text}");
     }
+    // It opens on the motion that its headline is about, with the load and its factor.
+    let opened = page_.split("<button").nth(1).unwrap();
+    assert!(opened.contains("data-picture=\"path_mechanism\""), "{opened}");
+    let mechanism = page_.split("<figure data-picture=\"path_mechanism\"").nth(1).unwrap();
+    let mechanism = mechanism.split("</figure>").next().unwrap();
+    assert!(mechanism.contains("data-load=\"1\"") && mechanism.contains("(factor 0."), "the load");
     assert!(page_.contains("Joints of the mechanism"));
     assert!(page_.contains("load factor along the path"));
 

@@ -7,8 +7,9 @@ use crate::data::state::State;
 use crate::geometry;
 use crate::model::{Anchor, Block, Model};
 use crate::recover;
+use crate::rounding::largest;
 
-/// Errors of an answer relative to a reference \[-\]; `None` where the reference has nothing but zeros.
+/// Errors of an answer relative to a reference \[-\]; `None` if the reference has only zeros.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Errors {
     /// Largest error of a component of the contact forces, as the blocks feel them, relative to the
@@ -68,7 +69,7 @@ impl Figures {
 
     /// Which blocks carry anything; one that hangs in its gaps has no unique place.
     pub(super) fn loaded_blocks(&self) -> Vec<bool> {
-        let most: Vec<f64> = self.forces.iter().map(|forces| largest(forces)).collect();
+        let most: Vec<f64> = self.forces.iter().map(largest).collect();
         let all = largest(&most);
         most.into_iter().map(|most| most > IDLE * all).collect()
     }
@@ -115,10 +116,6 @@ fn elastic_nodes(block: &Block) -> Option<usize> {
 pub(super) fn relative(values: &[f64], reference: &[f64]) -> Option<f64> {
     let size = largest(reference);
     let differences = values.iter().zip(reference).map(|(value, expected)| value - expected);
-    let error = differences.fold(0.0, |most: f64, it| most.max(it.abs())) / size;
+    let error = largest(differences) / size;
     (values.len() == reference.len() && error.is_finite()).then_some(error)
-}
-
-fn largest(values: &[f64]) -> f64 {
-    values.iter().fold(0.0, |most, value| most.max(value.abs()))
 }

@@ -2,8 +2,8 @@
 
 use std::thread::available_parallelism;
 
-/// The processor and the number of its threads that there are, for tables and pictures; where the system does
-/// not tell its model, what kind it is.
+/// The processor and the number of its threads that there are, for tables and pictures; the kind of processor
+/// if the system does not tell its model.
 ///
 /// ```
 /// assert!(masonry::analysis::study::machine().contains("thread"));

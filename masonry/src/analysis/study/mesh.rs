@@ -49,7 +49,7 @@ pub struct Values {
     pub displacement: [f64; 2],
 }
 
-/// Relative errors of a mesh \[-\]; `None` where there is nothing to compare with.
+/// Relative errors of a mesh \[-\]; `None` if there is nothing to compare with.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct MeshErrors {
     /// Error of the strain energy.
@@ -155,7 +155,7 @@ pub(super) fn compared(mut meshes: Vec<Mesh>) -> Vec<Mesh> {
     meshes
 }
 
-/// The horizontal force of the supports left of the middle on the structure; zero where there are only
+/// The horizontal force of the supports left of the middle on the structure; zero if there are only
 /// rounding errors.
 fn thrust(model: &Model, state: &State) -> f64 {
     let corners = || model.blocks.iter().flat_map(|block| block.corners.iter().map(|it| it.x));

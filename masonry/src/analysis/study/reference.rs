@@ -54,7 +54,7 @@ pub(super) struct FoundReference {
     pub(super) reference: Reference,
     pub(super) outcome: Outcome,
     pub(super) figures: Figures,
-    /// The refined answer, where it is better.
+    /// The refined answer, if it is better.
     pub(super) exact: Option<Exact>,
 }
 
@@ -127,7 +127,7 @@ fn tightest(
             };
             return Some(RankedReference { reference, ran, exact });
         }
-        // A looser tolerance helps where the residual was too large, and nowhere else.
+        // A looser tolerance helps if the residual was too large, and not otherwise.
         let End::Ended(status) = ran.end else { return None };
         if !matches!(status, Status::AlmostSolved | Status::Stalled | Status::IterationLimit) {
             return None;

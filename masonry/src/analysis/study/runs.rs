@@ -23,7 +23,7 @@ const OVERRUN: f64 = 1.1;
 /// can cut short.
 const LARGEST_DENSE: usize = 4000;
 
-/// What one solve came to.
+/// The result of one solve.
 pub(super) struct Ran {
     pub(super) end: End,
     pub(super) seconds: Option<f64>,
@@ -91,7 +91,7 @@ impl<'a> Runner<'a> {
         self.is_interrupted
     }
 
-    /// What reports call a mesh.
+    /// The name of a mesh in reports.
     pub(super) fn mesh_name(&self, factor: u32) -> String {
         self.settings.mesh_name(factor)
     }

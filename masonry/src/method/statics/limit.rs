@@ -131,7 +131,7 @@ impl Growing<'_> {
 
     /// The factor under which what grows is as large as the loads that stay; one where there are none.
     fn size(&self) -> f64 {
-        let size = rounding::largest(&self.system.resultants()) / rounding::largest(self.growth);
+        let size = rounding::largest(self.system.resultants()) / rounding::largest(self.growth);
         if size > 0.0 && size.is_finite() { size } else { 1.0 }
     }
 

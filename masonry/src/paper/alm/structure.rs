@@ -54,7 +54,7 @@ impl<'a> Structure<'a> {
         without.for_each(|(i, _)| tangent[i].clear());
         let load = largest(problem.loads());
         let ways = problem.loads().iter().zip(&diagonal).map(|(f, k)| f / k);
-        let way = largest(&ways.collect::<Vec<_>>());
+        let way = largest(ways.collect::<Vec<_>>());
         let normal = rows(problem.normal());
         Ok(Self { problem, films, diagonal, normal, tangent, load, way })
     }

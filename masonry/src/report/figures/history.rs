@@ -99,9 +99,13 @@ pub(crate) fn on_page(model: &Model, history: &History) -> Table {
         .only("number stage step max_displacement work dissipation open stick slip")
 }
 
+/// The table of the report as text; a paragraph below it tells the meanings and units of its short names.
 pub(crate) fn in_text(model: &Model, history: &History) -> Table {
     steps(model, history)
         .only("stage place W D strain_energy balance max_displacement open stick slip way")
+        .with_names([
+            "stage", "step", "W", "D", "U", "W-U-D", "moved", "open", "stick", "slip", "found by",
+        ])
 }
 
 /// The object of a history; `failed` is the step that could not be solved.

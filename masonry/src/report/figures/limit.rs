@@ -49,7 +49,7 @@ fn moves(model: &Model, rates: &[Vec<nalgebra::Vector2<f64>>]) -> Figure {
     Figure::new("mechanism", rates_by_name(model, rates)).both("moves", part)
 }
 
-/// What the rest of a structure carries if the part that moves is held.
+/// The factor that the rest of a structure carries if the part that moves is held.
 fn carried_by_rest(Rest { load_factor, bound }: Rest) -> String {
     let told = |it, side| outwards(it, side, |it| significant(it, 5));
     let if_held = "if the blocks that move are held (they may support others)";

@@ -12,6 +12,7 @@ use crate::report::joints;
 use crate::report::summary::{
     ExtremeStress, extreme_film_stresses, extreme_stresses, largest_displacement,
 };
+use crate::rounding::largest;
 
 /// Errors of balances, and how many contact points are open, stick and slip.
 pub(crate) fn checks(outcome: &Outcome) -> Vec<Figure> {
@@ -59,7 +60,7 @@ pub(crate) fn state(outcome: &Outcome) -> Vec<Figure> {
     list.extend(cracks(model, state));
     list.extend(stresses(model, state));
     let forces = joints::forces(model, &state.contacts);
-    let most = forces.iter().filter_map(|it| it.utilisation).fold(0.0, f64::max);
+    let most = largest(forces.iter().filter_map(|it| it.utilisation));
     if most > 0.0 {
         let text = format!("{} %", significant(100.0 * most, 3));
         list.push(Figure::new("", most).page("friction used at most", text));
@@ -102,8 +103,8 @@ fn displacement(model: &Model, state: &State) -> Option<Figure> {
 
 fn cracks(model: &Model, state: &State) -> impl Iterator<Item = Figure> {
     let openings = joints::openings(model, &state.contacts);
-    let widest = openings.iter().map(|it| it.widest).fold(0.0, f64::max);
-    let slip = openings.iter().map(|it| it.slip).fold(0.0, f64::max);
+    let widest = largest(openings.iter().map(|it| it.widest));
+    let slip = largest(openings.iter().map(|it| it.slip));
     let found = [("widest crack", widest), ("largest slip", slip)].into_iter();
     found.filter(|(_, metres)| *metres > 0.0).map(|(name, metres)| {
         let text = format!("{}\u{a0}mm", significant(1e3 * metres, 3));

@@ -1,6 +1,6 @@
 //! Tables whose columns know their names, quantities and digits.
 
-use super::Value;
+use super::{Members, Value};
 use crate::report::format::{InUnits, Quantity};
 
 /// How a text writes the numbers of a column.
@@ -18,9 +18,9 @@ pub(crate) enum Digits {
 /// A column of a table.
 #[derive(Debug, Clone)]
 pub(crate) struct Column {
-    /// In JSON and CSV.
+    /// Its name in JSON and CSV.
     pub(crate) key: String,
-    /// For readers.
+    /// Its name for readers.
     pub(crate) name: String,
     pub(crate) quantity: Quantity,
     pub(crate) digits: Digits,
@@ -108,7 +108,7 @@ impl<'a, T> Columns<'a, T> {
 pub(crate) struct Table {
     pub(crate) units: InUnits,
     pub(crate) columns: Vec<Column>,
-    /// In the units of the scene; rows without values are gaps.
+    /// Values in the units of the scene; rows without values are gaps.
     pub(crate) rows: Vec<Vec<Value>>,
 }
 
@@ -137,6 +137,12 @@ impl Table {
         Self { units: self.units, columns, rows: self.rows.iter().map(row).collect() }
     }
 
+    /// The table with other names of its columns, all of which have one.
+    pub(crate) fn with_names<const N: usize>(mut self, names: [&str; N]) -> Self {
+        self.columns.iter_mut().zip(names).for_each(|(it, name)| name.clone_into(&mut it.name));
+        self
+    }
+
     /// The table with so many digits of all numbers.
     pub(crate) fn with_digits(mut self, digits: usize) -> Self {
         self.columns.iter_mut().for_each(|it| it.digits = Digits::Significant(digits));
@@ -161,14 +167,14 @@ impl Table {
     }
 
     /// Every row as the members of an object.
-    pub(crate) fn objects(&self) -> Vec<Vec<(String, Value)>> {
+    pub(crate) fn objects(&self) -> Vec<Members> {
         let keys = || self.columns.iter().map(|it| it.key.clone());
         self.rows.iter().map(|row| keys().zip(row.iter().cloned()).collect()).collect()
     }
 
     /// An object with a member for every row, which the first column names.
-    pub(crate) fn by_name(&self) -> Vec<(String, Value)> {
-        let named = |mut row: Vec<(String, Value)>| match row.remove(0).1 {
+    pub(crate) fn by_name(&self) -> Members {
+        let named = |mut row: Members| match row.remove(0).1 {
             Value::Words(name) => (name, Value::Object(row)),
             _ => (String::new(), Value::Object(row)),
         };

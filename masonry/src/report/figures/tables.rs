@@ -87,7 +87,7 @@ struct JointRow<'a> {
     opened: Option<&'a Opening>,
 }
 
-/// What every joint carries and how far it has opened.
+/// The forces and openings of all joints.
 pub(crate) fn joints(model: &Model, contacts: &[ContactState]) -> Table {
     let (forces, openings) = (joints::forces(model, contacts), joints::openings(model, contacts));
     let rows = model.joints.iter().enumerate().map(|(index, joint)| JointRow {
@@ -118,19 +118,14 @@ pub(crate) fn hinges(model: &Model, rates: &[Vec<Vector2<f64>>]) -> Table {
     const NO_RATE: f64 = 1e-9;
     let rate = |it: f64| if it > NO_RATE { it } else { 0.0 };
     let joint = |it: &YieldingJoint| &model.joints[it.joint.index()];
-    let mut numbers = 1..;
-    let rows = yielding(model, rates).into_iter().map(|it| {
-        let number = if it.does.is_marked() { numbers.next() } else { None };
-        (number, it)
-    });
-    Columns::<(Option<usize>, YieldingJoint)>::new()
-        .count("number", |it| it.0)
-        .words("between", |it| sides(model, joint(&it.1))[0])
-        .words("and", |it| sides(model, joint(&it.1))[1])
-        .words("what it does", |it| it.1.does.name())
-        .number("opens", Pure, Significant(3), |it| rate(it.1.opens))
-        .number("slides", Pure, Significant(3), |it| rate(it.1.slides))
-        .table(InUnits(model.units), rows)
+    Columns::<YieldingJoint>::new()
+        .count("number", |it| it.number)
+        .words("between", |it| sides(model, joint(it))[0])
+        .words("and", |it| sides(model, joint(it))[1])
+        .words("what it does", |it| it.does.name())
+        .number("opens", Pure, Significant(3), |it| rate(it.opens))
+        .number("slides", Pure, Significant(3), |it| rate(it.slides))
+        .table(InUnits(model.units), yielding(model, rates))
 }
 
 /// A contact point and what happens there.

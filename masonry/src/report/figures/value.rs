@@ -12,10 +12,13 @@ pub(crate) enum Value {
     Number(f64),
     Words(String),
     List(Vec<Value>),
-    Object(Vec<(String, Value)>),
+    Object(Members),
     /// The pretty-printed text of something else.
     Json(String),
 }
+
+/// Members of an object, by their keys.
+pub(crate) type Members = Vec<(String, Value)>;
 
 /// Members of an object.
 macro_rules! members {
@@ -84,7 +87,7 @@ from! {
     String => Self::Words,
     &str => |it: &str| Self::Words(it.to_owned()),
     &String => |it: &String| Self::Words(it.clone()),
-    Vec<(String, Value)> => Self::Object,
+    Members => Self::Object,
     &[String] => |list: &[String]| Self::List(list.iter().map(Self::from).collect()),
 }
 

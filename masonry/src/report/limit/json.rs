@@ -6,7 +6,7 @@ use crate::analysis::limit::{
 use crate::data::statics::Extreme;
 use crate::model::Model;
 use crate::report::figures::tables::{reactions, sides};
-use crate::report::figures::{self, Value, in_json, members};
+use crate::report::figures::{self, Value, in_json, members, taken};
 use crate::report::format::InUnits;
 use crate::report::json::times;
 
@@ -20,7 +20,7 @@ type Written = Result<Value, serde_json::Error>;
 /// corners of every block, the largest component one. If a single block or a tenth of them at most move in the mechanism, `rest` has the
 /// `load_factor` and the `bound` of the other blocks while the moving ones are held. `path` has the `load_factor` up to which blocks rest, the factor at which
 /// it `falls`, whether that is `decided`, the `last_stable` state, the `mechanism` after it, the `events` on the way and the
-/// `curve`. What is not known is null, and so is a law of friction that was not chosen. `units` names the units.
+/// `curve`. Unknown values are null, and so is a law of friction that was not chosen. `units` names the units.
 ///
 /// # Errors
 /// None that this data can cause; the signature is that of the serialiser.
@@ -63,20 +63,18 @@ fn report(limit: &Limit, files: &[String]) -> Written {
 }
 
 fn associative(found: &Associative, model: &Model) -> Written {
-    let figures = figures::limit::associative(found, model);
+    let mut figures = figures::limit::associative(found, model);
     let mut object = members! { "answer": Value::of(&found.answer)? };
-    object.extend(in_json(&figures, "load_factor bound gap proved"));
+    object.extend(taken(&mut figures, "load_factor bound gap proved"));
     let reactions = reactions(InUnits(model.units), &found.reactions);
     object.extend(members! { "reactions": reactions.by_name() });
-    object.extend(in_json(
-        &figures,
-        if found.rest.is_some() { "mechanism rest" } else { "mechanism" },
-    ));
+    object.extend(taken(&mut figures, "mechanism"));
+    object.extend(in_json(figures));
     Ok(Value::Object(object))
 }
 
 fn path(path: &Path) -> Written {
-    let figures = figures::limit::path(path);
+    let mut figures = figures::limit::path(path);
     let units = InUnits(path.model.units);
     let curve = figures::limit::curve(path).objects();
     let last = curve.last().map(|state| {
@@ -85,9 +83,10 @@ fn path(path: &Path) -> Written {
         state
     });
     let events: Result<Vec<_>, _> = path.events.iter().map(|it| event(&path.model, it)).collect();
-    let mut object = in_json(&figures, "load_factor falls decided");
+    let mut object = taken(&mut figures, "load_factor falls decided");
     object.extend(members! { "last_stable": last });
-    object.extend(in_json(&figures, "mechanism"));
+    object.extend(taken(&mut figures, "mechanism"));
+    object.extend(in_json(figures));
     object.extend(members! {
         "events": Value::List(events?),
         "curve": Value::List(curve.into_iter().map(Value::Object).collect()),
@@ -123,7 +122,7 @@ fn names_of_units(model: &Model) -> Value {
 }
 
 /// The object of `masonry limit --range --json`, pretty-printed: by support the `min` and `max` of `fx` and `fy`, each with its
-/// `value`, the `bound` that no forces exceed, and whether it is `unlimited`; `range` is null where no forces balance the loads.
+/// `value`, the `bound` that no forces exceed, and whether it is `unlimited`; `range` is null if no forces balance the loads.
 ///
 /// # Errors
 /// As [`json`].
@@ -168,7 +167,9 @@ pub fn thickness_json(it: &Thickness, files: &[String]) -> Result<String, serde_
         "arch": &it.arch,
         "length": it.model.units.length_name(),
     };
-    object.extend(in_json(&figures::limit::thickness(it), "falls stands proved"));
+    let mut figures = figures::limit::thickness(it);
+    object.extend(taken(&mut figures, "falls"));
+    object.extend(in_json(figures));
     let rates = it.mechanism.as_ref();
     object.extend(members! {
         "mechanism": rates.map(|rates| figures::tables::rates_by_name(&it.model, rates)),

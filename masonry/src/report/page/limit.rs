@@ -1,121 +1,70 @@
 //! The pages of a limit load and of the least thickness of an arch.
 
-use nalgebra::Vector2;
-
 use super::tables::{self, section};
-use super::{Choice, Page, size};
+use super::{Page, size, taken};
 use crate::analysis::limit::{Answer, Associative, Limit, Path, Thickness};
-use crate::data::state::{ContactState, Reaction};
-use crate::model::Model;
 use crate::report::figures::{self, Said, on_page};
-use crate::report::format::significant;
-use crate::report::limit::{table, thickness_table};
-use crate::report::svg;
-
-/// Rates of the corners of one block.
-type Rates = Vec<Vector2<f64>>;
+use crate::report::limit::{
+    ByLaw, by_law, pictures, pictures_of_thickness, table, thickness_table,
+};
+use crate::report::svg::{self, pictures::Pictures};
 
 /// The page of a limit load.
 pub fn limit(limit: &Limit) -> String {
-    let title = &limit.title;
-    let mut page = Page {
-        title: title.clone(),
+    let mut pictures = pictures(limit, true);
+    pictures.push(Pictures::one("scene.svg", svg::scene(&limit.title, &limit.model)));
+    Page {
+        title: limit.title.clone(),
         verdict: verdict(limit),
         sentence: limit.sentence.clone(),
         warnings: limit.warnings.clone(),
         figures: figures(limit),
+        pictures,
+        steps: Vec::new(),
+        // The headline is about the path, if there is one.
+        tables: by_law(limit).rev().map(|it| tables_of(&it)).collect(),
         text: table(limit),
-        ..Page::default()
-    };
-    if let Some(found) = &limit.associative {
-        let law = ByLaw {
-            of: ", associative flow",
-            names: [("forces", "Forces"), ("mechanism", "Mechanism")],
-            model: &limit.model,
-            forces: found.forces.as_deref(),
-            mechanism: found.mechanism.as_deref(),
-            reactions: &found.reactions,
-            events: String::new(),
-        };
-        law.show(&mut page);
     }
-    if let Some(path) = &limit.path {
-        let (title, note) =
-            ("Joints that open and slide along the path", "Each between two load factors.");
-        let law = ByLaw {
-            of: ", path",
-            names: [("path-forces", "Forces, path"), ("path-mechanism", "Mechanism, path")],
-            model: &path.model,
-            forces: path.contacts.as_deref(),
-            mechanism: path.mechanism.as_deref(),
-            reactions: &path.reactions,
-            events: section(title, note, &figures::limit::events(path)),
-        };
-        law.show(&mut page);
-        page.curves = svg::path(&limit.title, &limit.group, path);
-    }
-    page.pictures.push(Choice::one("scene", "Scene", svg::scene(title, &limit.model)));
-    page.finish()
+    .finish()
 }
 
-/// What a page shows of one law of friction.
-struct ByLaw<'a> {
-    /// The law, in titles.
-    of: &'static str,
-    /// Keys and switches of the pictures of forces and of the mechanism.
-    names: [(&'static str, &'static str); 2],
-    model: &'a Model,
-    forces: Option<&'a [ContactState]>,
-    mechanism: Option<&'a [Rates]>,
-    reactions: &'a [Reaction],
-    events: String,
-}
-
-impl ByLaw<'_> {
-    fn show(self, page: &mut Page) {
-        let Self { of, names: [forces, mechanism], model, .. } = self;
-        let title = format!("{}{of}", page.title);
-        if let Some(found) = self.forces {
-            let picture = svg::forces(&title, model, found);
-            page.pictures.push(Choice::one(forces.0, forces.1, picture));
-        }
-        if let Some(rates) = self.mechanism {
-            let picture = svg::mechanism_on_page(&title, model, rates);
-            page.pictures.push(Choice::one(mechanism.0, mechanism.1, picture));
-            page.tables += &tables::hinges(&format!("Joints of the mechanism{of}"), model, rates);
-        }
-        page.tables += &tables::reactions(&format!("Reactions{of}"), model, self.reactions);
-        page.tables += &self.events;
-        if let Some(found) = self.forces {
-            page.tables += &tables::joints(&format!("Joints{of}"), model, found);
-        }
+fn tables_of(ByLaw { of, model, forces, mechanism, reactions, path, .. }: &ByLaw<'_>) -> String {
+    let joints = format!("Joints of the mechanism{of}");
+    let mut list = mechanism.map_or_else(String::new, |it| tables::hinges(&joints, model, it));
+    list += &tables::reactions(&format!("Reactions{of}"), model, reactions);
+    if let Some(path) = path {
+        let title = "Joints that open and slide along the path";
+        list += &section(title, "Each between two load factors.", &figures::limit::events(path));
     }
+    let joints = |it| tables::joints(&format!("Joints{of}"), model, it);
+    list + &forces.map_or_else(String::new, joints)
 }
 
 /// The page of the least thickness of an arch.
 pub fn thickness(thickness: &Thickness) -> String {
     let (title, model) = (&thickness.title, &thickness.model);
-    let mut page = Page {
+    let mut pictures = pictures_of_thickness(thickness, true);
+    pictures.push(Pictures::one("scene.svg", svg::scene(title, model)));
+    let mut tables = String::new();
+    if let Some(forces) = &thickness.forces {
+        tables += &tables::joints("Joints", model, forces);
+    }
+    if let Some(rates) = &thickness.mechanism {
+        let of = "Joints of the mechanism, of the thicker that falls";
+        tables += &tables::hinges(of, model, rates);
+    }
+    Page {
         title: title.clone(),
         verdict: verdict_of(thickness),
         sentence: thickness.sentence.clone(),
+        warnings: Vec::new(),
         figures: on_page(&figures::limit::thickness(thickness)),
+        pictures,
+        steps: Vec::new(),
+        tables,
         text: thickness_table(thickness),
-        ..Page::default()
-    };
-    if let Some(forces) = &thickness.forces {
-        let picture = svg::forces(title, model, forces);
-        page.pictures.push(Choice::one("forces", "Forces", picture));
-        page.tables += &tables::joints("Joints", model, forces);
     }
-    if let Some(rates) = &thickness.mechanism {
-        let of = ", of the thicker that falls";
-        let picture = svg::mechanism_on_page(&format!("{title}{of}"), model, rates);
-        page.pictures.push(Choice::one("mechanism", "Mechanism", picture));
-        page.tables += &tables::hinges(&format!("Joints of the mechanism{of}"), model, rates);
-    }
-    page.pictures.push(Choice::one("scene", "Scene", svg::scene(title, model)));
-    page.finish()
+    .finish()
 }
 
 /// Whether the arch stands at the thickness of the scene.
@@ -128,7 +77,7 @@ fn verdict_of(thickness: &Thickness) -> &'static str {
     }
 }
 
-/// Says whether the structure stands under the loads that stay, and some part of those that grow.
+/// Whether the structure stands under the loads that stay, and some part of those that grow.
 fn verdict(limit: &Limit) -> &'static str {
     if limit.falls_by_weight || limit.associative.as_ref().is_some_and(Associative::carries_nothing)
     {
@@ -161,8 +110,6 @@ fn figures(limit: &Limit) -> Vec<Said> {
         found.sort_by_key(|it| place(it.key).unwrap_or(usize::MAX));
         list.extend(on_page(&found));
     }
-    list.push(("size", size(&limit.model)));
-    let seconds: f64 = limit.times.iter().map(|it| it.seconds).sum();
-    list.push(("time", format!("{} s", significant(seconds, 2))));
+    list.extend([("size", size(&limit.model)), ("time", taken(&limit.times))]);
     list
 }

@@ -11,32 +11,26 @@
   const scale = one("#scale");
   const seen = { picture: keys[0], step: step ? Number(step.max) : 0, scale: 1 };
 
-  const numbers = (list) => list.split(/[ ,]+/).map(Number);
   const short = (value) => String(Number(value.toPrecision(3)));
 
-  // What the file says of the places of an element.
-  const places = new WeakMap();
-  function after(element, read) {
-    if (!places.has(element)) places.set(element, read());
-    return places.get(element);
+  // The data that the file has for a path.
+  const paths = new WeakMap();
+  function ofFile(path) {
+    if (!paths.has(path)) paths.set(path, path.getAttribute("d"));
+    return paths.get(path);
   }
 
   // Places of elements: from where they were before by the scale to where the file has them, or further.
   function moveTo(svg, by) {
-    const between = (before, after) => before.map((it, k) => (it + (after[k] - it) * by).toFixed(2));
+    const number = /-?[0-9.]+/g;
     for (const it of all("[data-before]", svg)) {
-      const before = numbers(it.dataset.before);
-      if (it.tagName === "line") {
-        const names = ["x1", "y1", "x2", "y2"];
-        const ends = after(it, () => names.map((name) => Number(it.getAttribute(name))));
-        between(before, ends).forEach((value, k) => it.setAttribute(names[k], value));
-      } else {
-        const points = after(it, () => numbers(it.getAttribute("points")));
-        it.setAttribute("points", between(before, points).join(" "));
-      }
+      const after = ofFile(it).match(number).map(Number);
+      let k = 0;
+      const between = (before) => Number(before) + (after[k++] - before) * by;
+      it.setAttribute("d", it.dataset.before.replace(number, (before) => between(before).toFixed(2)));
     }
     for (const it of all("[data-moved]", svg)) {
-      const [x, y] = numbers(it.dataset.moved).map((value) => (value * (by - 1)).toFixed(2));
+      const [x, y] = it.dataset.moved.split(",").map((value) => (value * (by - 1)).toFixed(2));
       it.setAttribute("transform", `translate(${x} ${y})`);
     }
   }
@@ -73,9 +67,7 @@
       }
     }
     for (const line of position === null ? [] : all("[data-steps]")) {
-      const at = line.dataset.steps.split(" ")[position];
-      line.setAttribute("x1", at);
-      line.setAttribute("x2", at);
+      line.setAttribute("transform", `translate(${line.dataset.steps.split(" ")[position]} 0)`);
     }
     if (step) step.value = seen.step;
     scale.value = seen.scale;

@@ -1,24 +1,18 @@
 //! The page of a scene that was solved, or was not.
 
 use super::tables::{self, section};
-use super::{Choice, Page, Step, size};
+use super::{Page, Step, size, taken};
 use crate::analysis::outcome::{Frame, Outcome};
 use crate::data::verdict::Verdict;
+use crate::history;
 use crate::report::figures::history::place;
 use crate::report::figures::{self, Said, on_page};
 use crate::report::format::{InUnits, significant};
 use crate::report::summary::{self, Resultant, load_groups, reason, weight};
-use crate::report::svg::pictures::{Pictures, Shown, pictures};
-use crate::report::svg::{self, ReferenceLines};
+use crate::report::svg::ReferenceLines;
+use crate::report::svg::pictures::{Pictures, Shown, of_outcome};
 use crate::report::table;
 
-/// The files of pictures, their keys and switches in the order of a page.
-const SHOWN: [(&str, &str, &str); 4] = [
-    ("forces.svg", "forces", "Forces"),
-    ("principal_stresses.svg", "stresses", "Stresses"),
-    ("cracks.svg", "cracks", "Cracks"),
-    ("deformed.svg", "deformed", "Deformed"),
-];
 /// So many steps of a load history have pictures; of more, every second, third and so on.
 const FRAMES: usize = 40;
 
@@ -31,24 +25,16 @@ pub fn is_framed(position: usize, steps: usize) -> bool {
 /// The page of an outcome. Of a load history, `frames` are the steps that have pictures; the last one that was solved
 /// has them always.
 pub fn solved(outcome: &Outcome, frames: &[Frame], reference: Option<&ReferenceLines>) -> String {
-    let model = &outcome.model;
-    let (steps, pictures) = pictures_of(outcome, frames, reference);
-    let mut warnings = outcome.judgement.warnings.clone();
-    warnings.extend(reason(outcome));
-    let scene = if outcome.title.is_empty() { "Untitled scene" } else { &outcome.title };
-    let curves = outcome
-        .history
-        .as_ref()
-        .and_then(|history| svg::curves(&outcome.title, model, history, true));
+    let steps = steps(outcome, frames);
+    let judgement = &outcome.judgement;
     Page {
-        title: scene.to_owned(),
-        verdict: verdict(outcome.judgement.verdict),
-        sentence: outcome.judgement.sentence.clone(),
-        warnings,
+        title: if outcome.title.is_empty() { "Untitled scene" } else { &outcome.title }.to_owned(),
+        verdict: verdict(judgement.verdict),
+        sentence: judgement.sentence.clone(),
+        warnings: judgement.warnings.iter().cloned().chain(reason(outcome)).collect(),
         figures: figures(outcome),
-        pictures,
+        pictures: pictures(outcome, frames, &steps, reference),
         steps,
-        curves,
         tables: tables_of(outcome),
         text: table::report(outcome),
     }
@@ -63,49 +49,45 @@ pub(super) fn verdict(verdict: Verdict) -> &'static str {
     }
 }
 
-fn pictures_of(
-    outcome: &Outcome,
-    frames: &[Frame],
-    reference: Option<&ReferenceLines>,
-) -> (Vec<Step>, Vec<Choice>) {
-    let model = &outcome.model;
-    let mut choices = Vec::new();
-    let (steps, titles) = steps(outcome, frames);
-    if let Some(state) = &outcome.state {
-        let last = Shown { title: titles.last().map_or("", String::as_str), model, state };
-        let earlier = frames.iter().take(steps.len().saturating_sub(1)).zip(&titles);
-        let mut shown: Vec<Shown<'_>> = earlier
-            .map(|(frame, title)| Shown { title, model: &frame.model, state: &frame.state })
-            .collect();
-        shown.push(last);
-        let mut list = pictures(&shown, reference, true);
-        for (file, key, name) in SHOWN {
-            let of_kind = list.extract_if(.., |it: &mut Pictures| it.file == file);
-            choices.extend(of_kind.map(|it| Choice { key, name, pictures: it.pictures }));
-        }
-    }
-    if let Some(rates) = &outcome.mechanism {
-        let picture = svg::mechanism_on_page(&outcome.title, model, rates);
-        choices.push(Choice::one("mechanism", "Mechanism", picture));
-    }
-    choices.push(Choice::one("scene", "Scene", svg::scene(&outcome.title, model)));
-    (steps, choices)
+/// The steps that have pictures: those before the last one that was solved, and that one.
+fn steps(outcome: &Outcome, frames: &[Frame]) -> Vec<Step> {
+    let records = outcome.history.iter().flat_map(|history| &history.records);
+    let Some((last, record)) = records.enumerate().last() else { return Vec::new() };
+    let step = |it: &history::Step, position| {
+        let name = format!("{} {}", it.stage, place(it));
+        Step { name, position }
+    };
+    let earlier = frames.iter().take_while(|frame| frame.position < last);
+    let earlier = earlier.map(|frame| step(&frame.step, frame.position));
+    earlier.chain([step(&record.step, last)]).collect()
 }
 
-/// The steps that have pictures, and the titles of these; the last is that of the outcome.
-fn steps(outcome: &Outcome, frames: &[Frame]) -> (Vec<Step>, Vec<String>) {
-    let Some(last) = outcome.history.as_ref().and_then(|history| history.records.last()) else {
-        return (Vec::new(), vec![outcome.title.clone()]);
+/// Pictures of the steps, or of the outcome if it has none.
+fn pictures(
+    outcome: &Outcome,
+    frames: &[Frame],
+    steps: &[Step],
+    reference: Option<&ReferenceLines>,
+) -> Vec<Pictures> {
+    let title = &outcome.title;
+    let mut titles: Vec<String> =
+        steps.iter().map(|step| format!("{title}, {}", step.name)).collect();
+    let last_title = titles.pop().unwrap_or_else(|| title.clone());
+    let earlier = frames.iter().zip(&titles).map(|(frame, title)| Shown {
+        title,
+        model: &frame.model,
+        state: &frame.state,
+    });
+    let last = outcome.state.iter().map(|state| Shown {
+        title: &last_title,
+        model: &outcome.model,
+        state,
+    });
+    let shown: Vec<Shown<'_>> = match &outcome.state {
+        Some(_) => earlier.chain(last).collect(),
+        None => Vec::new(),
     };
-    let position = outcome.history.as_ref().map_or(0, |history| history.records.len() - 1);
-    let name = |step: &crate::history::Step| format!("{} {}", step.stage, place(step));
-    let earlier = frames.iter().take_while(|frame| frame.position < position);
-    let steps: Vec<Step> = earlier
-        .map(|frame| Step { name: name(&frame.step), position: frame.position })
-        .chain([Step { name: name(&last.step), position }])
-        .collect();
-    let titles = steps.iter().map(|step| format!("{}, {}", outcome.title, step.name)).collect();
-    (steps, titles)
+    of_outcome(outcome, title, &shown, reference, true)
 }
 
 fn figures(outcome: &Outcome) -> Vec<Said> {
@@ -113,14 +95,10 @@ fn figures(outcome: &Outcome) -> Vec<Said> {
     let units = InUnits(model.units);
     let of_state = [figures::solved::state(outcome), figures::solved::checks(outcome)].concat();
     let mut list = on_page(&of_state);
-    let force = |it: Resultant| {
-        let [fx, fy] = [it.force.x, it.force.y].map(|it| significant(units.force(it), 4));
-        format!("({fx}, {fy}) {}", units.0.force_name())
-    };
-    let loads = summary::loads(model);
-    for (name, it) in [("loads", loads), ("self weight", weight(model))] {
+    for (name, it) in [("loads", summary::loads(model)), ("self weight", weight(model))] {
         if it != Resultant::default() {
-            list.push((name, force(it)));
+            let [fx, fy] = [it.force.x, it.force.y].map(|it| significant(units.force(it), 4));
+            list.push((name, format!("({fx}, {fy}) {}", units.0.force_name())));
         }
     }
     list.push(("size", size(model)));
@@ -128,8 +106,7 @@ fn figures(outcome: &Outcome) -> Vec<Said> {
         list.push(("steps solved", format!("{} of {}", history.records.len(), history.steps)));
     }
     let solve = &outcome.solve;
-    let seconds: f64 = outcome.times.iter().map(|it| it.seconds).sum();
-    list.push(("found by", format!("{} in {} s", solve.route.name(), significant(seconds, 2))));
+    list.push(("found by", format!("{} in {}", solve.route.name(), taken(&outcome.times))));
     if outcome.state.is_some() {
         list.push(("largest residual", significant(solve.residuals.worst(), 2)));
     }

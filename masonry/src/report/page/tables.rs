@@ -57,7 +57,7 @@ pub(super) fn reactions(title: &str, model: &Model, list: &[Reaction]) -> String
     section(title, note, &tables::reactions(InUnits(model.units), list).with_digits(5))
 }
 
-/// What every joint carries and how far it has opened.
+/// The forces and openings of all joints.
 pub(super) fn joints(title: &str, model: &Model, contacts: &[ContactState]) -> String {
     let note = "N presses where it is positive; e / l is the eccentricity of the resultant in lengths of the joint, \
                 outside the middle third above 0.167.";

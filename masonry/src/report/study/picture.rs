@@ -8,14 +8,13 @@ use crate::scene::Route;
 const ROUNDING: f64 = 1e-16;
 
 /// The work-precision diagram of the first mesh: the worst algebraic error against the time, one line for
-/// each route through its tolerances. `None` where no error is known.
+/// each route through its tolerances. `None` if no error is known.
 pub fn accuracy(study: &Study) -> Option<String> {
     let first = study.meshes.first()?;
     let diagram = Diagram {
-        title: String::new(),
         axes: ["time of one solve [s]", "error of forces, stresses, energy [-]"].map(str::to_owned),
-        least: None,
         series: study.routes().into_iter().map(|route| series(study, route)).collect(),
+        ..Diagram::default()
     };
     let asked = || study.on_first_mesh().map(|it| it.tolerance);
     let (loosest, tightest) = (asked().reduce(f64::max)?, asked().reduce(f64::min)?);

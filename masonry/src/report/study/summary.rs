@@ -1,9 +1,10 @@
-//! What a study comes to, in sentences.
+//! The results of a study in sentences.
 
 use lcp::Status;
 
 use crate::analysis::study::{End, Record, Study, Verified};
 use crate::report::format::significant;
+use crate::rounding::largest;
 use crate::scene::Route;
 
 /// Tolerances that are compared: the nearest ones of the study.
@@ -17,7 +18,7 @@ const NEGLIGIBLE: f64 = 0.1;
 /// Times that grow by less are the same, as far as can be measured; so are those that fall.
 const NOISE: f64 = 1.2;
 
-/// What a study comes to, in sentences: what a tight tolerance costs, which route gets there first, and whether the
+/// The results of a study in sentences: what a tight tolerance costs, which route gets there first, and whether the
 /// mesh is worth it; and what that rests on.
 pub fn summary(study: &Study) -> Vec<String> {
     let found = [interrupted(study), cost(study), in_short(study), mesh(study)];
@@ -211,7 +212,7 @@ fn mesh(study: &Study) -> Option<String> {
             record.tolerance <= tolerance && record.end.is_solved() && record.errors.is_some()
         };
         let errors = study.on_first_mesh().filter(at).filter_map(|it| it.errors?.worst());
-        errors.fold(0.0, f64::max) <= NEGLIGIBLE * error
+        largest(errors) <= NEGLIGIBLE * error
     };
     let tolerances = study.on_first_mesh().map(|record| record.tolerance);
     let loosest = tolerances.filter(|it| is_enough(*it)).reduce(f64::max);

@@ -1,6 +1,10 @@
-//! Text of SVG elements, with a fixed number of digits so that files are reproducible.
+//! Text of SVG elements, with two decimals at most: files stay small, and equal input gives equal bytes.
 
 use std::fmt::{Display, Write as _};
+
+use nalgebra::Vector2;
+
+use crate::report::format::trim_zeros;
 
 /// A point of the sheet in its own units (pixels at the nominal width), y down.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -10,22 +14,23 @@ pub(super) struct Pixel {
 }
 
 impl Pixel {
-    pub(super) fn new(x: f64, y: f64) -> Self {
+    pub(super) const fn new(x: f64, y: f64) -> Self {
         Self { x, y }
     }
 
-    /// The point at `distance` in the direction `(dx, dy)`, which need not be of unit length.
-    pub(super) fn shifted(self, dx: f64, dy: f64, distance: f64) -> Self {
-        let length = dx.hypot(dy);
-        if length > 0.0 {
-            Self::new(self.x + dx / length * distance, self.y + dy / length * distance)
-        } else {
-            self
-        }
+    /// From here to another point, y up.
+    pub(super) fn towards(self, other: Self) -> Vector2<f64> {
+        Vector2::new(other.x - self.x, self.y - other.y)
+    }
+
+    /// The point at a distance in a direction, y up, of any length; the same point if the direction has none.
+    pub(super) fn along(self, direction: Vector2<f64>, distance: f64) -> Self {
+        let way = direction.try_normalize(0.0).unwrap_or_default() * distance;
+        Self::new(self.x + way.x, self.y - way.y)
     }
 
     pub(super) fn distance(self, other: Self) -> f64 {
-        (self.x - other.x).hypot(self.y - other.y)
+        self.towards(other).norm()
     }
 
     pub(super) fn between(self, other: Self, at: f64) -> Self {
@@ -33,20 +38,12 @@ impl Pixel {
     }
 }
 
-/// Where a text stands relative to its point.
+/// Which part of a text stands at its point.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Anchor {
     Start,
     Middle,
-}
-
-impl Anchor {
-    fn name(self) -> &'static str {
-        match self {
-            Self::Start => "start",
-            Self::Middle => "middle",
-        }
-    }
+    End,
 }
 
 /// A growing list of SVG elements.
@@ -61,39 +58,9 @@ impl Canvas {
         self.push("</g>\n");
     }
 
-    pub(super) fn line(&mut self, from: Pixel, to: Pixel, attributes: &str) {
-        let [x1, y1, x2, y2] = [from.x, from.y, to.x, to.y].map(fixed);
-        let attributes = spaced(attributes);
-        self.push(format_args!(
-            "<line x1=\"{x1}\" y1=\"{y1}\" x2=\"{x2}\" y2=\"{y2}\"{attributes}/>\n"
-        ));
-    }
-
-    /// A line in the shortest form, for the thousands of strokes of a stress picture.
-    pub(super) fn stroke(&mut self, from: Pixel, to: Pixel, attributes: &str) {
-        let [x1, y1, x2, y2] = [from.x, from.y, to.x, to.y].map(fixed);
-        let attributes = spaced(attributes);
-        self.push(format_args!("<path d=\"M{x1} {y1}L{x2} {y2}\"{attributes}/>\n"));
-    }
-
-    /// A closed polygon.
-    pub(super) fn polygon(&mut self, points: &[Pixel], attributes: &str) {
-        let (points, attributes) = (joined(points), spaced(attributes));
-        self.push(format_args!("<polygon points=\"{points}\"{attributes}/>\n"));
-    }
-
-    /// An open line through several points.
-    pub(super) fn polyline(&mut self, points: &[Pixel], attributes: &str) {
-        let (points, attributes) = (joined(points), spaced(attributes));
-        self.push(format_args!("<polyline points=\"{points}\"{attributes}/>\n"));
-    }
-
-    pub(super) fn rectangle(&mut self, corner: Pixel, width: f64, height: f64, attributes: &str) {
-        let [x, y, width, height] = [corner.x, corner.y, width, height].map(fixed);
-        let attributes = spaced(attributes);
-        self.push(format_args!(
-            "<rect x=\"{x}\" y=\"{y}\" width=\"{width}\" height=\"{height}\"{attributes}/>\n"
-        ));
+    /// Lines and areas with the data of [`open`], [`closed`] or [`arrow`], one after the other.
+    pub(super) fn path(&mut self, data: &str, attributes: &str) {
+        self.push(format_args!("<path d=\"{data}\"{}/>\n", spaced(attributes)));
     }
 
     pub(super) fn circle(&mut self, centre: Pixel, radius: f64, attributes: &str) {
@@ -102,28 +69,7 @@ impl Canvas {
         self.push(format_args!("<circle cx=\"{x}\" cy=\"{y}\" r=\"{radius}\"{attributes}/>\n"));
     }
 
-    /// A line with a filled head at `to`.
-    pub(super) fn arrow(&mut self, from: Pixel, to: Pixel, colour: &str) {
-        let (dx, dy) = (to.x - from.x, to.y - from.y);
-        let head = (0.4 * from.distance(to)).min(7.0);
-        let neck = to.shifted(-dx, -dy, head);
-        self.line(from, neck, &format!("stroke=\"{colour}\" stroke-width=\"1.4\""));
-        let sides = [neck.shifted(-dy, dx, 0.42 * head), neck.shifted(dy, -dx, 0.42 * head)];
-        self.polygon(&[to, sides[0], sides[1]], &format!("fill=\"{colour}\""));
-    }
-
-    pub(super) fn text(&mut self, at: Pixel, anchor: Anchor, size: f64, text: &str) {
-        self.text_with(at, anchor, size, "", text);
-    }
-
-    /// A text with a white rim, readable on top of other marks.
-    pub(super) fn rimmed_text(&mut self, at: Pixel, anchor: Anchor, size: f64, text: &str) {
-        let rim = "stroke=\"#ffffff\" stroke-width=\"3\" stroke-linejoin=\"round\"";
-        self.text_with(at, anchor, size, rim, text);
-        self.text(at, anchor, size, text);
-    }
-
-    pub(super) fn text_with(
+    pub(super) fn text(
         &mut self,
         at: Pixel,
         anchor: Anchor,
@@ -132,15 +78,23 @@ impl Canvas {
         text: &str,
     ) {
         let [x, y, size] = [at.x, at.y, size].map(fixed);
-        let (anchor, attributes, text) = (anchor.name(), spaced(attributes), escape(text));
+        let anchor = match anchor {
+            Anchor::Start => "start",
+            Anchor::Middle => "middle",
+            Anchor::End => "end",
+        };
+        let (attributes, text) = (spaced(attributes), escape(text));
         self.push(format_args!(
-            "<text x=\"{x}\" y=\"{y}\" font-size=\"{size}\" text-anchor=\"{anchor}\"{attributes}>\
-             {text}</text>\n"
+            "<text x=\"{x}\" y=\"{y}\" font-size=\"{size}\" text-anchor=\"{anchor}\"{attributes}>{text}</text>\n"
         ));
     }
 
     pub(super) fn append(&mut self, other: &Self) {
         self.0.push_str(&other.0);
+    }
+
+    pub(super) fn is_empty(&self) -> bool {
+        self.0.is_empty()
     }
 
     pub(super) fn as_str(&self) -> &str {
@@ -153,10 +107,42 @@ impl Canvas {
     }
 }
 
-/// Two decimals: a hundredth of a pixel.
+/// The data of a line through points.
+pub(super) fn open(points: impl IntoIterator<Item = Pixel>) -> String {
+    let mut data = String::new();
+    for (k, Pixel { x, y }) in points.into_iter().enumerate() {
+        let _ = write!(data, "{}{} {}", if k == 0 { 'M' } else { 'L' }, fixed(x), fixed(y));
+    }
+    data
+}
+
+/// The data of an area within points.
+pub(super) fn closed(points: impl IntoIterator<Item = Pixel>) -> String {
+    open(points) + "Z"
+}
+
+/// The data of an arrow with a head, which is filled.
+pub(super) fn arrow([tail, tip]: [Pixel; 2]) -> String {
+    let along = tail.towards(tip);
+    let aside = Vector2::new(-along.y, along.x);
+    let head = (0.4 * along.norm()).min(7.0);
+    let neck = tip.along(-along, head);
+    let [left, right] = [aside, -aside].map(|side| neck.along(side, 0.42 * head));
+    open([tail, neck]) + &closed([left, tip, right])
+}
+
+/// How many parts a stroke has, none of which is longer than `most`.
+pub(super) fn parts([from, to]: [Pixel; 2], most: f64) -> u32 {
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
+    let count = (from.distance(to) / most).ceil() as u32;
+    count
+}
+
+/// A number with two decimals at most.
 pub(super) fn fixed(value: f64) -> String {
     let text = format!("{value:.2}");
-    if text == "-0.00" { "0.00".to_owned() } else { text }
+    let text = trim_zeros(&text);
+    if text == "-0" { "0" } else { text }.to_owned()
 }
 
 /// Text with the characters escaped that mean something in XML; control characters, which XML
@@ -178,21 +164,18 @@ pub(in crate::report) fn escape(text: &str) -> String {
 
 /// Width of a text in a font of the given size, rather too large than too small.
 pub(super) fn text_width(text: &str, size: f64) -> f64 {
-    let ems: f64 = text
-        .chars()
-        .map(|character| match character {
-            'i' | 'j' | 'l' | '.' | ',' | ':' | ';' | '\'' | '|' | ' ' | '\u{a0}' => 0.34,
-            'f' | 't' | 'r' | '(' | ')' | '/' | '-' | 'I' => 0.42,
-            'm' | 'w' | 'M' | 'W' | '@' | '%' | '±' => 0.98,
-            'A'..='Z' => 0.72,
-            '\u{2e80}'.. => 1.05,
-            _ => 0.63,
-        })
-        .sum();
-    ems * size
+    let ems = |character: char| match character {
+        'i' | 'j' | 'l' | '.' | ',' | ':' | ';' | '\'' | '|' | ' ' | '\u{a0}' => 0.34,
+        'f' | 't' | 'r' | '(' | ')' | '/' | '-' | 'I' => 0.42,
+        'm' | 'w' | 'M' | 'W' | '@' | '%' | '±' => 0.98,
+        'A'..='Z' => 0.72,
+        '\u{2e80}'.. => 1.05,
+        _ => 0.63,
+    };
+    text.chars().map(ems).sum::<f64>() * size
 }
 
-/// Lines of a text, each at most `width` wide, broken at plain spaces where that is possible.
+/// Lines of a text, each at most `width` wide, broken at plain spaces if that is possible.
 pub(super) fn wrapped(text: &str, size: f64, width: f64) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
     for word in text.split([' ', '\n', '\t']).filter(|word| !word.is_empty()) {
@@ -219,20 +202,6 @@ fn fitting(text: &str, size: f64, width: f64) -> usize {
     let ends = text.char_indices().map(|(at, character)| at + character.len_utf8());
     let first = ends.clone().next().unwrap_or(0);
     ends.take_while(|end| text_width(&text[..*end], size) <= width).last().unwrap_or(first)
-}
-
-/// The attribute by which a page changes the scale of movements: where the points of an element were before.
-pub(super) fn before(points: &[Pixel]) -> String {
-    format!("data-before=\"{}\"", joined(points))
-}
-
-fn joined(points: &[Pixel]) -> String {
-    let mut list = String::new();
-    for (index, point) in points.iter().enumerate() {
-        let gap = if index == 0 { "" } else { " " };
-        let _ = write!(list, "{gap}{},{}", fixed(point.x), fixed(point.y));
-    }
-    list
 }
 
 fn spaced(attributes: &str) -> String {

@@ -1,66 +1,51 @@
 //! Open joints in colours that go with their width, and joints that have slid.
 
-use nalgebra::Vector2;
-
-use super::canvas::{Canvas, Pixel, fixed};
-use super::marks::{self, BRICK};
+use super::canvas::{Pixel, open};
+use super::forces::Loaded;
+use super::legend;
 use super::names;
-use super::sheet::{Frame, Margins, Sheet};
+use super::sheet::{Frame, Sheet, Sides};
+use super::structure::{self, counted};
 use crate::data::state::ContactState;
 use crate::ids::JointId;
 use crate::model::{Joint, Model};
 use crate::report::format::{round_down, significant};
 use crate::report::joints::{self, Opening};
+use crate::rounding::largest;
 
-/// From the narrowest to the widest: readable in grey, and by the colour-blind.
-const WIDTHS: [&str; 5] = ["#fdd49e", "#fdab5f", "#ef6548", "#c41e1e", "#67000d"];
-/// The lower ends of the classes in parts of a round width below the largest; all below the first are hairlines.
-const CLASSES: [f64; 5] = [0.05, 0.1, 0.2, 0.5, 1.0];
-const HAIRLINE: &str = "#b9b3aa";
-const SLIDING: &str = "#7b3294";
-/// Pieces into which a joint is divided where its width changes.
+/// The lower ends of classes, in parts of a round width below the largest; what is below the second is a hairline.
+const CLASSES: [f64; 6] = [0.0, 0.05, 0.1, 0.2, 0.5, 1.0];
+/// Pieces into which a joint is divided if its width changes.
 const PIECES: usize = 6;
-
-/// A part of a joint whose widths are of one class.
-#[derive(Clone)]
-struct Piece {
-    joint: JointId,
-    ends: [Pixel; 2],
-}
+/// Slips below this part of the largest are not drawn.
+const LEAST_SLIP: f64 = 0.01;
 
 /// The structure with its open joints, wider ones darker; the legend is in millimetres. Joints that are closed and have
-/// slid have a line of their own colour. `None` where no joint has opened or slid.
+/// slid have a line of their own colour. `None` if no joint has opened or slid.
 pub fn cracks(title: &str, model: &Model, contacts: &[ContactState]) -> Option<String> {
     let openings = joints::openings(model, contacts);
-    (!openings.is_empty()).then(|| coloured(title, model, contacts, widest(model, contacts)))
+    let by = widest(&openings);
+    (!openings.is_empty()).then(|| compared(&Loaded { title, model, contacts }, by))
 }
 
-/// The width \[m\] of the widest crack; zero where all joints are closed.
-pub(in crate::report) fn widest(model: &Model, contacts: &[ContactState]) -> f64 {
-    joints::openings(model, contacts).iter().map(|it| it.widest).fold(0.0, f64::max)
+/// The width \[m\] of the widest crack; zero if all joints are closed.
+pub(in crate::report) fn widest(openings: &[Opening]) -> f64 {
+    largest(openings.iter().map(|it| it.widest))
 }
 
-/// The same in the colours of a widest crack of all that are compared.
-pub(in crate::report) fn coloured(
-    title: &str,
-    model: &Model,
-    contacts: &[ContactState],
-    widest_of_all: f64,
-) -> String {
+/// The same in the colours of the widest crack of all that are compared.
+pub(in crate::report) fn compared(loaded: &Loaded<'_>, widest_of_all: f64) -> String {
+    let Loaded { title, model, contacts } = *loaded;
     let openings = joints::openings(model, contacts);
-    let widest = openings.iter().map(|it| it.widest).fold(0.0, f64::max);
-    let slip = openings.iter().map(|it| it.slip).fold(0.0, f64::max);
-    let mut sheet =
-        Sheet::new(&format!("{title}: cracks"), model, marks::bounds(model), Margins::HATCH);
-    marks::bricks(&mut sheet, &model.blocks, BRICK);
-    marks::supports(&mut sheet, model);
-    let width = (0.07 * sheet.brick).clamp(1.0, 4.5);
-    draw_slips(&mut sheet, model, &openings, slip, width);
-    if widest > 0.0 {
-        draw_widths(&mut sheet, model, &openings, [widest, widest_of_all], width);
+    let bounds = structure::bounds(model);
+    let mut sheet = Sheet::new(format!("{title}: cracks"), model, bounds, Sides::HATCH);
+    structure::draw(&mut sheet, model);
+    draw_slips(&mut sheet, model, &openings);
+    if widest(&openings) > 0.0 {
+        draw_widths(&mut sheet, model, &openings, widest_of_all);
     }
     if openings.is_empty() {
-        sheet.note("no joint has opened or slid");
+        sheet.legend.note("no joint has opened or slid");
     }
     sheet.finish()
 }
@@ -69,83 +54,79 @@ fn millimetres(metres: f64) -> String {
     significant(1e3 * metres, 3)
 }
 
-fn draw_widths(
-    sheet: &mut Sheet,
-    model: &Model,
-    openings: &[Opening],
-    [widest, widest_of_all]: [f64; 2],
+/// A part of a joint with one width, or with widths of one class.
+#[derive(Clone, Copy)]
+struct Piece {
+    joint: JointId,
+    ends: [Pixel; 2],
+    /// Its width in its middle \[m\].
     width: f64,
-) {
-    let frame = sheet.frame;
+}
+
+fn draw_widths(sheet: &mut Sheet, model: &Model, openings: &[Opening], widest_of_all: f64) {
     let round = round_down(1e3 * widest_of_all) * 1e-3;
-    let class_of =
-        |value: f64| CLASSES.iter().rposition(|least| value >= least * round * (1.0 - 1e-9));
-    let mut pieces: Vec<Vec<Piece>> = vec![Vec::new(); 1 + CLASSES.len()];
+    let class = |piece: &Piece| {
+        let is_reached = |least: &f64| piece.width >= least * round * (1.0 - 1e-9);
+        CLASSES.iter().rposition(is_reached).unwrap_or(0)
+    };
+    let mut classes: [Vec<Piece>; CLASSES.len()] = Default::default();
     for opening in openings.iter().filter(|it| it.widest > 0.0) {
-        let joint = &model.joints[opening.joint.index()];
-        let open = pieces_of(opening, joint, &frame).into_iter().filter(|(.., it)| *it > 0.0);
-        let mut last = None;
-        for (from, to, value) in open {
-            let class = class_of(value).map_or(0, |class| class + 1);
-            match pieces[class].last_mut() {
-                // One stroke as long as the class and the joint stay the same.
-                Some(piece) if last == Some((class, from)) => piece.ends[1] = to,
-                _ => pieces[class].push(Piece { joint: opening.joint, ends: [from, to] }),
-            }
-            last = Some((class, to));
+        let pieces = pieces(opening, &model.joints[opening.joint.index()], &sheet.frame);
+        let open: Vec<Piece> = pieces.filter(|it| it.width > 0.0).collect();
+        let is_one = |a: &Piece, b: &Piece| class(a) == class(b) && a.ends[1] == b.ends[0];
+        // One stroke as long as the class stays the same.
+        for run in open.chunk_by(is_one) {
+            let ends = [run[0].ends[0], run[run.len() - 1].ends[1]];
+            classes[class(&run[0])].push(Piece { ends, ..run[0] });
         }
     }
-    for (index, pieces) in pieces.iter().enumerate() {
-        let colour = if index == 0 { HAIRLINE } else { WIDTHS[index - 1] };
-        let stroke = width * (0.5 + 0.12 * index as f64);
-        let style = format!(
-            "class=\"cracks\" stroke=\"{colour}\" stroke-width=\"{}\" stroke-linecap=\"round\"",
-            fixed(stroke)
-        );
-        sheet.canvas.group(&style, |canvas: &mut Canvas| {
-            for Piece { joint, ends: [from, to] } in pieces {
-                canvas.stroke(*from, *to, &names::joint(model, *joint));
+    for (index, pieces) in classes.iter().enumerate() {
+        sheet.layer(&format!("cracks width{index}"), |canvas, _| {
+            for it in pieces {
+                canvas.path(&open(it.ends), &names::joint(model, it.joint));
             }
         });
     }
-    // The widest first.
-    let last = CLASSES.len() - 1;
-    for index in (0..=last).rev() {
-        let least = millimetres(CLASSES[index] * round);
+    explain_widths(sheet, round, widest(openings), widest_of_all);
+    if !classes[0].is_empty() {
+        let text = format!("below {} mm", millimetres(CLASSES[1] * round));
+        sheet.legend.add(&text, "cracks", legend::line);
+    }
+}
+
+/// The classes with a width, the widest first.
+fn explain_widths(sheet: &mut Sheet, round: f64, widest: f64, widest_of_all: f64) {
+    for (index, least) in CLASSES.iter().enumerate().skip(1).rev() {
+        let least = millimetres(least * round);
         let text = match CLASSES.get(index + 1) {
             Some(most) => format!("crack of {least} to {} mm", millimetres(most * round)),
             None if widest < widest_of_all => format!("crack of {least} mm and more"),
             None => format!("crack of {least} mm and more, widest {}\u{a0}mm", millimetres(widest)),
         };
-        sheet.line_entry(&text, WIDTHS[index], "4");
+        sheet.legend.add(&text, &format!("cracks width{index}"), legend::line);
     }
     if widest < widest_of_all {
-        sheet.note(&format!("widest here {}\u{a0}mm", millimetres(widest)));
-    }
-    if !pieces[0].is_empty() {
-        let text = format!("below {} mm", millimetres(CLASSES[0] * round));
-        sheet.line_entry(&text, HAIRLINE, "2");
+        sheet.legend.note(&format!("widest here {}\u{a0}mm", millimetres(widest)));
     }
 }
 
-/// Pieces of a joint, each with its width \[m\]: between its points the width changes evenly, beyond them it is that
-/// of the next.
-fn pieces_of(opening: &Opening, joint: &Joint, frame: &Frame) -> Vec<(Pixel, Pixel, f64)> {
-    let length = joint.length();
-    let direction: Vector2<f64> = (joint.to - joint.from) / length;
+/// Pieces of a joint: between its points the width changes evenly, beyond them it is that of the next.
+fn pieces<'a>(
+    opening: &'a Opening,
+    joint: &'a Joint,
+    frame: &'a Frame,
+) -> impl Iterator<Item = Piece> + 'a {
     let count = if opening.widths.len() > 1 { PIECES } else { 1 };
-    let place = |k: usize| length * k as f64 / count as f64;
-    let pixel = |along: f64| frame.at(joint.from + direction * along);
-    let piece = |k: usize| {
-        let (from, to) = (place(k), place(k + 1));
-        (pixel(from), pixel(to), width_at(&opening.widths, 0.5 * (from + to)))
-    };
-    (0..count).map(piece).collect()
+    let part = (joint.to - joint.from) / count as f64;
+    (0..count).map(move |k| {
+        let ends = [k, k + 1].map(|k| frame.at(joint.from + part * k as f64));
+        let width = width_at(&opening.widths, part.norm() * (k as f64 + 0.5));
+        Piece { joint: opening.joint, ends, width }
+    })
 }
 
 fn width_at(widths: &[[f64; 2]], along: f64) -> f64 {
-    let after = widths.iter().position(|[at, _]| *at >= along);
-    match after {
+    match widths.iter().position(|[at, _]| *at >= along) {
         None => widths.last().map_or(0.0, |[_, width]| *width),
         Some(0) => widths[0][1],
         Some(k) => {
@@ -155,25 +136,16 @@ fn width_at(widths: &[[f64; 2]], along: f64) -> f64 {
     }
 }
 
-/// Joints that have slid and are closed somewhere, down to a hundredth of the largest slip.
-fn draw_slips(sheet: &mut Sheet, model: &Model, openings: &[Opening], largest: f64, width: f64) {
-    let frame = sheet.frame;
-    let slid = |it: &&Opening| it.slip > 0.0 && it.slip >= 0.01 * largest;
-    let found: Vec<&Opening> = openings.iter().filter(slid).collect();
-    let most = found.iter().map(|it| it.slip).fold(0.0, f64::max);
-    if most <= 0.0 {
+/// Joints that have slid and are closed somewhere.
+fn draw_slips(sheet: &mut Sheet, model: &Model, openings: &[Opening]) {
+    let most = largest(openings.iter().map(|it| it.slip));
+    let has_slid = |it: &&Opening| it.slip > 0.0 && it.slip >= LEAST_SLIP * most;
+    let found: Vec<&Opening> = openings.iter().filter(has_slid).collect();
+    if found.is_empty() {
         return;
     }
-    let style =
-        format!("class=\"slid\" stroke=\"{SLIDING}\" stroke-width=\"{}\"", fixed(0.6 * width));
-    sheet.canvas.group(&style, |canvas| {
-        for it in &found {
-            let joint = &model.joints[it.joint.index()];
-            let name = names::joint(model, it.joint);
-            canvas.stroke(frame.at(joint.from), frame.at(joint.to), &name);
-        }
-    });
-    let count = marks::counted(found.len(), "joint");
-    let text = format!("{count} slid, up to {}\u{a0}mm", millimetres(most));
-    sheet.line_entry(&text, SLIDING, "2.4");
+    structure::joints(sheet, "slid", model, found.iter().map(|it| it.joint));
+    let (count, most) = (counted(found.len(), "joint"), millimetres(most));
+    let text = format!("{count} slid, up to {most}\u{a0}mm");
+    sheet.legend.add(&text, "slid", legend::line);
 }

@@ -1,66 +1,76 @@
-//! The forces in the joints: resultants where they act, the paths between them, and how much of friction is used.
+//! The forces in the joints: resultants at their places, the paths between them, and the part of friction that is used.
 
-mod reactions;
-
-use crate::data::state::ContactState;
 use nalgebra::{Point2, Vector2};
 
-use super::canvas::{Canvas, Pixel, fixed};
-use super::labels::Labels;
-use super::loads::Loads;
-use super::marks::{self, BRICK, COMPRESSION, TENSION};
+use super::arrows::{Arrows, Displaced};
+use super::canvas::{Pixel, fixed, open};
+use super::labels::{Label, Labels};
+use super::legend;
 use super::names;
-use super::sheet::{Bounds, Margins, SYMBOL, Sheet};
+use super::sheet::{Bounds, Sheet, Shown, Sides};
+use super::structure::{self, counted};
+use super::style::{LARGEST_BRICK, PLACE};
+use crate::data::state::ContactState;
 use crate::model::{Body, Model};
 use crate::report::format::InUnits;
 use crate::report::joints::{self, JointForce};
-use reactions::Reactions;
 
 /// Resultants below this part of the largest are not drawn.
 const LEAST: f64 = 1e-6;
-/// Resultants below this part are left out of structures with many joints.
+/// Resultants below this part are left out of structures with many joints, from so many on.
 const LEAST_OF_MANY: f64 = 1e-2;
-/// From so many joints on.
 const MANY: usize = 150;
 /// Structures with so few joints have the value of every resultant.
 const FEW: usize = 24;
-/// Blocks carry forces on the paths between their joints.
-const PATH: &str = "#9cc7e3";
-/// Least use of friction, colour, and what the legend says.
+/// Least use of friction, class, and what the legend says.
 const USES: [(f64, &str, &str); 3] = [
-    (0.995, "#c4161c", "friction used up"),
-    (0.8, "#f07c12", "80 % of friction used or more"),
-    (0.5, "#e8c51f", "50 % of friction used or more"),
+    (0.995, "used up", "friction used up"),
+    (0.8, "used much", "80 % of friction used or more"),
+    (0.5, "used", "50 % of friction used or more"),
 ];
+/// Width of the widest path of forces, in bricks.
+const WIDEST: f64 = 0.15;
 /// Half the middle third, in lengths of a joint, with room for rounding errors.
 const MIDDLE_THIRD: f64 = 1.0 / 6.0 + 1e-9;
 /// Half a joint, with room for rounding errors.
 const ENDS: f64 = 0.5 + 1e-6;
 
-/// What pictures of forces share, so that those of a load history can be compared.
+/// Scale and room that pictures of forces share, so that those of a load history can be compared.
 #[derive(Debug, Clone, Copy)]
 pub(in crate::report) struct Shared {
     /// The largest resultant \[N\].
     largest: f64,
     bounds: Bounds,
     /// Room for the arrows and labels of all.
-    margins: Margins,
+    margins: Sides,
 }
 
 impl Shared {
     /// The scale of structures and their contact forces.
-    pub(in crate::report) fn of(states: &[(&Model, &[ContactState])]) -> Self {
-        let (mut largest, mut margins) = (0.0_f64, Margins::HATCH);
-        for (model, contacts) in states {
-            let units = InUnits(model.units);
+    pub(in crate::report) fn of(states: &[Loaded<'_>]) -> Self {
+        let (mut largest, mut margins) = (0.0_f64, Sides::HATCH);
+        for Loaded { model, contacts, .. } in states {
             let all = joints::forces(model, contacts);
             largest = all.iter().map(|it| it.force.norm()).fold(largest, f64::max);
-            let reactions = Reactions::of(model, &all, units);
-            margins = margins.and(Loads::of(model, units).margins()).and(reactions.margins());
+            let arrows = Arrows::of_loads(model, None).and_reactions(model, &all);
+            margins = margins.and(arrows.margins());
         }
-        let all = states.iter().map(|(model, _)| marks::bounds(model));
-        let bounds = Bounds::of(all.flat_map(|bounds| [bounds.low, bounds.high]));
-        Self { largest, bounds, margins }
+        let all = states.iter().flat_map(|it| structure::bounds(it.model).ends());
+        Self { largest, bounds: Bounds::of(all), margins }
+    }
+}
+
+/// A structure with its contact forces, and the title of its picture.
+#[derive(Debug, Clone, Copy)]
+pub(in crate::report) struct Loaded<'a> {
+    pub(in crate::report) title: &'a str,
+    pub(in crate::report) model: &'a Model,
+    pub(in crate::report) contacts: &'a [ContactState],
+}
+
+impl<'a> From<&Shown<'a>> for Loaded<'a> {
+    fn from(Shown { title, model, state }: &Shown<'a>) -> Self {
+        Self { title, model, contacts: &state.contacts }
     }
 }
 
@@ -68,200 +78,178 @@ impl Shared {
 /// joint; the length goes with the force.
 ///
 /// Behind them are the paths of the forces: lines from joint to joint, as wide as the force is large; in an arch the
-/// line of thrust. Dots are hollow where the resultant has left the middle third. Joints in colour use much of their
+/// line of thrust. Dots are hollow if the resultant has left the middle third. Joints in colour use much of their
 /// friction. Supports have their reactions. Loads are those of the model.
 pub fn forces(title: &str, model: &Model, contacts: &[ContactState]) -> String {
-    shared(title, model, contacts, &Shared::of(&[(model, contacts)]))
+    let loaded = Loaded { title, model, contacts };
+    compared(&loaded, &Shared::of(&[loaded]))
 }
 
 /// The same, as long and as wide as others.
-pub(in crate::report) fn shared(
-    title: &str,
-    model: &Model,
-    contacts: &[ContactState],
-    by: &Shared,
-) -> String {
-    let units = InUnits(model.units);
-    let loads = Loads::of(model, units);
+pub(in crate::report) fn compared(loaded: &Loaded<'_>, by: &Shared) -> String {
+    let Loaded { title, model, contacts } = *loaded;
     let all = joints::forces(model, contacts);
-    let reactions = Reactions::of(model, &all, units);
-    let mut sheet = Sheet::new(&format!("{title}: forces"), model, by.bounds, by.margins);
-    marks::bricks(&mut sheet, &model.blocks, BRICK);
-    marks::supports(&mut sheet, model);
-    let largest = by.largest;
+    let arrows = Arrows::of_loads(model, None).and_reactions(model, &all);
+    let mut sheet = Sheet::new(format!("{title}: forces"), model, by.bounds, by.margins);
+    structure::draw(&mut sheet, model);
     let least = if all.len() > MANY { LEAST_OF_MANY } else { LEAST };
-    let large: Vec<&JointForce> =
-        all.iter().filter(|it| it.force.norm() > least * largest).collect();
-    // With tensile strength a joint can carry a moment whose resultant passes beside it.
-    let drawn: Vec<&JointForce> =
-        large.iter().copied().filter(|it| it.eccentricity.abs() <= ENDS).collect();
-    draw_paths(&mut sheet, model, &drawn, largest);
-    draw_uses(&mut sheet, model, &drawn);
-    draw_resultants(&mut sheet, model, &drawn, largest);
-    let mut labels = Labels::within(sheet.room());
-    marks::avoid_supports(&sheet.frame, model, &mut labels);
-    loads.mark(&sheet.frame, &mut labels);
-    reactions.mark(&sheet.frame, &mut labels);
-    for it in &drawn {
-        let [from, to] = stroke(&sheet, it, largest);
-        labels.avoid(from, to);
+    let is_large = |it: &&JointForce| it.force.norm() > least * by.largest;
+    let large: Vec<&JointForce> = all.iter().filter(is_large).collect();
+    // A joint with tensile strength can carry a moment whose resultant passes beside it.
+    let is_on = |it: &&JointForce| it.eccentricity.abs() <= ENDS;
+    let drawn =
+        Drawn { model, largest: by.largest, list: large.iter().copied().filter(is_on).collect() };
+    drawn.draw_paths(&mut sheet);
+    drawn.draw_uses(&mut sheet);
+    drawn.draw_resultants(&mut sheet);
+    let mut labels = Labels::within(sheet.room);
+    drawn.list.iter().for_each(|it| labels.avoid(drawn.stroke(&sheet, it)));
+    arrows.draw(&mut sheet, model, &mut labels, &Displaced::NOT);
+    if drawn.list.len() <= FEW {
+        drawn.draw_values(&mut sheet, &mut labels);
     }
-    loads.draw(&mut sheet, model, &mut labels);
-    reactions.draw(&mut sheet, &mut labels);
-    if drawn.len() <= FEW {
-        draw_values(&mut sheet, model, &drawn, units, &mut labels);
-    }
-    let (small, beside) = (all.len() - large.len(), large.len() - drawn.len());
+    let (small, beside) = (all.len() - large.len(), large.len() - drawn.list.len());
     if all.len() > MANY && small > 0 {
-        let count = marks::counted(small, "joint");
-        sheet.note(&format!("left out: {count} with less than 1 % of the largest force"));
+        let count = counted(small, "joint");
+        sheet.legend.note(&format!("left out: {count} with less than 1 % of the largest force"));
     }
     if beside > 0 {
-        let count = marks::counted(beside, "joint");
-        sheet.note(&format!("left out: {count} whose resultant passes beside them"));
+        let count = counted(beside, "joint");
+        sheet.legend.note(&format!("left out: {count} whose resultant passes beside them"));
     }
-    sheet.note("one of many sets of forces where they are not unique");
+    sheet.legend.note("one of many sets of forces if they are not unique");
     sheet.finish()
 }
 
-/// Lines from every joint of a block to the middle of its forces: of a block with two joints one straight line.
-fn draw_paths(sheet: &mut Sheet, model: &Model, drawn: &[&JointForce], largest: f64) {
-    let mut of_blocks: Vec<Vec<(Point2<f64>, f64)>> = vec![Vec::new(); model.blocks.len()];
-    for it in drawn.iter().filter(|it| it.normal > 0.0) {
-        let joint = &model.joints[it.joint.index()];
-        let end = (it.at, it.force.norm());
-        of_blocks[joint.b.index()].push(end);
-        if let Body::Block(a) = joint.a {
-            of_blocks[a.index()].push(end);
-        }
-    }
-    if of_blocks.iter().all(|ends| ends.len() < 2) {
-        return;
-    }
-    let (frame, widest) = (sheet.frame, (0.16 * sheet.brick).clamp(1.5, 9.0));
-    let style = format!("class=\"paths\" stroke=\"{PATH}\" stroke-linecap=\"round\"");
-    sheet.canvas.group(&style, |canvas| {
-        for ends in of_blocks.iter().filter(|ends| ends.len() > 1) {
-            let sum: f64 = ends.iter().map(|(_, force)| force).sum();
-            let middle: Vector2<f64> =
-                ends.iter().map(|(at, force)| at.coords * (force / sum)).sum();
-            for (at, force) in ends {
-                let width = fixed((widest * force / largest).max(0.3));
-                let (from, to) = (frame.at(*at), frame.at(Point2::from(middle)));
-                canvas.line(from, to, &format!("stroke-width=\"{width}\""));
-            }
-        }
-    });
-    sheet.entry("path of forces, as wide as the force is large", |symbol| {
-        let style = format!("stroke=\"{PATH}\" stroke-width=\"6\" stroke-linecap=\"round\"");
-        symbol.line(Pixel::new(-19.0, 0.0), Pixel::new(19.0, 0.0), &style);
-    });
+/// The resultants that are drawn.
+struct Drawn<'a> {
+    model: &'a Model,
+    /// The largest of all that are compared \[N\].
+    largest: f64,
+    list: Vec<&'a JointForce>,
 }
 
-/// Joints that use much of their friction.
-fn draw_uses(sheet: &mut Sheet, model: &Model, drawn: &[&JointForce]) {
-    let frame = sheet.frame;
-    let width = (0.05 * sheet.brick).clamp(0.8, 3.2);
-    let mut below = f64::INFINITY;
-    for (least, colour, name) in USES {
-        let within =
-            |it: &&&JointForce| it.utilisation.is_some_and(|use_| use_ >= least && use_ < below);
-        let found: Vec<_> = drawn.iter().filter(within).collect();
-        below = least;
-        if found.is_empty() {
-            continue;
+impl Drawn<'_> {
+    /// Lines from every joint of a block to the middle of its forces: of a block with two joints one straight line.
+    fn draw_paths(&self, sheet: &mut Sheet) {
+        let mut of_blocks: Vec<Vec<&JointForce>> = vec![Vec::new(); self.model.blocks.len()];
+        for it in self.list.iter().copied().filter(|it| it.normal > 0.0) {
+            let joint = &self.model.joints[it.joint.index()];
+            of_blocks[joint.b.index()].push(it);
+            if let Body::Block(a) = joint.a {
+                of_blocks[a.index()].push(it);
+            }
         }
-        let style = format!("class=\"used\" stroke=\"{colour}\" stroke-width=\"{}\"", fixed(width));
-        sheet.canvas.group(&style, |canvas| {
-            for it in &found {
-                let joint = &model.joints[it.joint.index()];
-                let name = names::joint(model, it.joint);
-                canvas.line(frame.at(joint.from), frame.at(joint.to), &name);
+        of_blocks.retain(|own| own.len() > 1);
+        if of_blocks.is_empty() {
+            return;
+        }
+        let widest = WIDEST * sheet.marks();
+        sheet.layer("paths", |canvas, frame| {
+            for own in of_blocks {
+                let sum: f64 = own.iter().map(|it| it.force.norm()).sum();
+                let share = |it: &&JointForce| it.at.coords * (it.force.norm() / sum);
+                let middle = Point2::from(own.iter().map(share).sum::<Vector2<f64>>());
+                for it in own {
+                    let width = (widest * it.force.norm() / self.largest).max(0.3);
+                    let width = format!("style=\"stroke-width:{}px\"", fixed(width));
+                    canvas.path(&open([frame.at(it.at), frame.at(middle)]), &width);
+                }
             }
         });
-        let text = format!("{name}: {}", marks::counted(found.len(), "joint"));
-        sheet.line_entry(&text, colour, "3.2");
+        sheet.legend.add("path of forces, as wide as the force is large", "paths", legend::line);
     }
-}
 
-fn draw_resultants(sheet: &mut Sheet, model: &Model, drawn: &[&JointForce], largest: f64) {
-    let (frame, units) = (sheet.frame, InUnits(model.units));
-    let (width, radius) =
-        ((0.03 * sheet.brick).clamp(0.6, 2.0), (0.035 * sheet.brick).clamp(0.8, 2.8));
-    let look = |radius: f64, colour: &str, inside: bool| {
-        let fill = if inside { colour } else { "#ffffff" };
-        let rim = fixed(0.45 * radius);
-        format!("fill=\"{fill}\" stroke=\"{colour}\" stroke-width=\"{rim}\"")
-    };
-    let dot = |canvas: &mut Canvas, colour: &str, inside: bool| {
-        canvas.circle(Pixel::new(0.0, 0.0), 2.8, &look(2.8, colour, inside));
-    };
-    for (presses, colour, name) in [(true, COMPRESSION, "pressing"), (false, TENSION, "pulling")] {
-        let of_kind = || drawn.iter().filter(move |it| (it.normal > 0.0) == presses);
-        let most = of_kind().map(|it| it.force.norm()).fold(0.0, f64::max);
-        if most <= 0.0 {
-            continue;
+    /// Joints that use much of their friction.
+    fn draw_uses(&self, sheet: &mut Sheet) {
+        let mut below = f64::INFINITY;
+        for (least, class, name) in USES {
+            let is_within = |it: &&&JointForce| {
+                it.utilisation.is_some_and(|use_| use_ >= least && use_ < below)
+            };
+            let found: Vec<_> = self.list.iter().filter(is_within).collect();
+            below = least;
+            if found.is_empty() {
+                continue;
+            }
+            structure::joints(sheet, class, self.model, found.iter().map(|it| it.joint));
+            let text = format!("{name}: {}", counted(found.len(), "joint"));
+            sheet.legend.add(&text, class, legend::line);
         }
-        let style =
-            format!("class=\"{name}\" stroke=\"{colour}\" stroke-width=\"{}\"", fixed(width));
-        let identity = |it: &JointForce| names::joint(model, it.joint);
-        let strokes: Vec<_> =
-            of_kind().map(|it| (stroke(sheet, it, largest), identity(it))).collect();
-        sheet.canvas.group(&style, |canvas| {
-            for ([from, to], identity) in strokes {
-                canvas.stroke(from, to, &identity);
+    }
+
+    fn draw_resultants(&self, sheet: &mut Sheet) {
+        let radius = PLACE * sheet.marks();
+        let outside = "class=\"outside\"";
+        for name in ["pressing", "pulling"] {
+            let is_own = |it: &&JointForce| (it.normal > 0.0) == (name == "pressing");
+            let own: Vec<_> = self.list.iter().copied().filter(is_own).collect();
+            let Some(most) = own.iter().map(|it| it.force.norm()).reduce(f64::max) else {
+                continue;
+            };
+            let places = format!("{name} places");
+            let strokes: Vec<_> = own.iter().map(|it| self.stroke(sheet, it)).collect();
+            sheet.layer(name, |canvas, _| {
+                for (it, stroke) in own.iter().zip(strokes) {
+                    canvas.path(&open(stroke), &names::joint(self.model, it.joint));
+                }
+            });
+            sheet.layer(&places, |canvas, frame| {
+                for it in &own {
+                    let name = names::joint(self.model, it.joint);
+                    let class = if is_inside(it) { "" } else { outside };
+                    canvas.circle(frame.at(it.at), radius, format!("{name} {class}").trim_end());
+                }
+            });
+            let most = InUnits(self.model.units).force_text(most);
+            let text = format!("resultant in a joint, {name}, up to {most}");
+            let at = Pixel::new(0.0, 0.0);
+            sheet.legend.add(&text, &places, |symbol| {
+                legend::line(symbol);
+                symbol.circle(at, PLACE * LARGEST_BRICK, "");
+            });
+            let count = own.iter().filter(|it| !is_inside(it)).count();
+            if count > 0 {
+                let text = format!("outside the middle third: {}", counted(count, "joint"));
+                sheet.legend.add(&text, &places, |symbol| {
+                    symbol.circle(at, PLACE * LARGEST_BRICK, outside);
+                });
+            }
+        }
+    }
+
+    /// The ends of the stroke of a resultant: the largest is nearly as long as a brick.
+    fn stroke(&self, sheet: &Sheet, it: &JointForce) -> [Pixel; 2] {
+        let half = 0.45 * sheet.brick * it.force.norm() / self.largest;
+        [-half, half].map(|half| sheet.frame.at(it.at).along(it.force, half))
+    }
+
+    /// The value of every resultant between blocks beside it, if there is room; supports have their reactions.
+    fn draw_values(&self, sheet: &mut Sheet, labels: &mut Labels) {
+        let units = InUnits(self.model.units);
+        sheet.layer("pressing labels", |canvas, frame| {
+            for it in &self.list {
+                if let Body::Support(_) = self.model.joints[it.joint.index()].a {
+                    continue;
+                }
+                let across = Vector2::new(it.force.y, -it.force.x).normalize();
+                let is_left = across.x < 0.0 || (across.x < 1e-9 && across.y < 0.0);
+                let side = if is_left { -across } else { across };
+                labels.draw(
+                    canvas,
+                    &Label {
+                        text: &units.force_text(it.force.norm()),
+                        size: 11.0,
+                        at: frame.at(it.at).along(side, 5.0),
+                        side,
+                        name: &names::joint(self.model, it.joint),
+                    },
+                );
             }
         });
-        sheet.canvas.group(&format!("class=\"{name} points\""), |canvas| {
-            for it in of_kind() {
-                let attributes =
-                    format!("{} {}", look(radius, colour, is_inside(it)), identity(it));
-                canvas.circle(frame.at(it.at), radius, &attributes);
-            }
-        });
-        let text = format!("resultant in a joint, {name}, up to {}", units.force_text(most));
-        sheet.entry(&text, |symbol| {
-            let style = format!("stroke=\"{colour}\" stroke-width=\"1.8\"");
-            symbol.line(Pixel::new(-SYMBOL, 0.0), Pixel::new(SYMBOL, 0.0), &style);
-            dot(symbol, colour, true);
-        });
-        let outside = of_kind().filter(|it| !is_inside(it)).count();
-        if outside > 0 {
-            let text = format!("outside the middle third: {}", marks::counted(outside, "joint"));
-            sheet.entry(&text, |symbol| dot(symbol, colour, false));
-        }
     }
 }
 
 fn is_inside(it: &JointForce) -> bool {
     it.eccentricity.abs() <= MIDDLE_THIRD
-}
-
-/// The ends of the stroke of a resultant: the largest is nearly as long as a brick.
-fn stroke(sheet: &Sheet, it: &JointForce, largest: f64) -> [Pixel; 2] {
-    let (at, half) = (sheet.frame.at(it.at), 0.45 * sheet.brick * it.force.norm() / largest);
-    [-half, half].map(|half| at.shifted(it.force.x, -it.force.y, half))
-}
-
-/// The value of every resultant between blocks beside it, where there is room; supports have their reactions.
-fn draw_values(
-    sheet: &mut Sheet,
-    model: &Model,
-    drawn: &[&JointForce],
-    units: InUnits,
-    labels: &mut Labels,
-) {
-    let is_between_blocks =
-        |it: &&&JointForce| matches!(model.joints[it.joint.index()].a, Body::Block(_));
-    let frame = sheet.frame;
-    sheet.canvas.group(&format!("class=\"values\" fill=\"{COMPRESSION}\""), |canvas| {
-        for it in drawn.iter().filter(is_between_blocks) {
-            let mut side = Vector2::new(it.force.y, -it.force.x).normalize();
-            if side.x < 0.0 || (side.x < 1e-9 && side.y < 0.0) {
-                side = -side;
-            }
-            let at = frame.at(it.at).shifted(side.x, -side.y, 5.0);
-            labels.draw(canvas, at, side, 11.0, &units.force_text(it.force.norm()));
-        }
-    });
 }

@@ -1,14 +1,18 @@
-//! The curves of a load history: loads or reactions against displacements, and both step by step.
+//! Curves: loads or reactions of a load history against displacements, and both step by step; the factor along the path of
+//! a limit load.
 
-use super::diagram::{Chart, Look, Series, charts};
+use super::diagram::{Beginning, Diagram, Look, Series, picture};
+use crate::analysis::limit::Path;
 use crate::history::{History, StepRecord};
 use crate::model::Model;
 use crate::report::figures::Table;
 use crate::report::figures::history::steps;
+use crate::report::figures::limit::curve;
+use crate::rounding::largest;
 
-/// Curves of one chart are at most so many.
+/// Curves of one diagram are at most so many.
 const MOST: usize = 7;
-/// What changes by less than this part of the largest value is constant.
+/// Values that change by less than this part of the largest one are constant.
 const CONSTANT: f64 = 1e-9;
 
 /// Factors of loads against the largest displacement, reactions against the movement of a support, and the largest
@@ -25,72 +29,86 @@ pub(in crate::report) fn curves(
     for_page: bool,
 ) -> Option<String> {
     let table = &steps(model, history);
+    if table.rows.len() < 2 {
+        return None;
+    }
     let moved = format!("largest displacement [{}]", model.units.length_name());
     let force = model.units.force_name();
-    let reactions = |support: &str| {
-        ["fx", "fy"].map(|part| format!("{support} {part}")).map(|key| [key.clone(), key])
-    };
-    let against = Against { table, x: "max_displacement", sense: 1.0 };
-    let loads = history.loads.iter().map(|name| [format!("load {name}"), name.clone()]);
-    let gravity = [["gravity".to_owned(), "gravity".to_owned()]];
-    let factors = against.varying(gravity.into_iter().chain(loads));
-    let mut list = Vec::new();
-    if !factors.is_empty() {
-        list.push(against.chart([&moved, "factor of loads [-]"], factors));
-    }
+    let reactions =
+        |support: &str| ["fx", "fy"].map(|part| Column::same(format!("{support} {part}")));
+    let by_step = Against { table, x: "number", sense: 1.0, for_page };
+    let by_displacement = Against { x: "max_displacement", ..by_step };
+    let gravity = [Column { key: "gravity".to_owned(), name: "gravity".to_owned() }];
+    let loads = history.loads.iter();
+    let loads = loads.map(|name| Column { key: format!("load {name}"), name: name.clone() });
+    let factors = by_displacement.varying(gravity.into_iter().chain(loads));
+    let mut list = vec![by_displacement.diagram([&moved, "factor of loads [-]"], factors)];
     if let Some(Moved { support, x, sense, axis }) = most_moved(model, table) {
-        let against = Against { table, x: &x, sense };
+        let against = Against { x: &x, sense, ..by_step };
         let own = reactions(support).map(|column| against.curve(column)).to_vec();
-        let y = format!("reaction of \"{support}\" [{force}]");
-        list.push(against.chart([&axis, &y], own));
+        list.push(against.diagram([&axis, &format!("reaction of \"{support}\" [{force}]")], own));
     }
-    let against = Against { table, x: "number", sense: 1.0 };
-    let displacement = against.curve(["max_displacement", "displacement"].map(str::to_owned));
-    let all = model.supports.iter().flat_map(|support| reactions(&support.name));
-    let all = against.varying(all);
-    for (name, series) in [(moved, vec![displacement]), (format!("reactions [{force}]"), all)] {
-        let chart = against.chart(["step", &name], series);
-        list.push(Chart { stages: stages(&history.records), ..chart });
+    let displacement =
+        Column { key: "max_displacement".to_owned(), name: "displacement".to_owned() };
+    let displacement = vec![by_step.curve(displacement)];
+    let all = by_step.varying(model.supports.iter().flat_map(|support| reactions(&support.name)));
+    for (name, series) in [(moved, displacement), (format!("reactions [{force}]"), all)] {
+        let diagram = by_step.diagram(["step", &name], series);
+        list.push(Diagram { stages: stages(&history.records), ..diagram });
     }
-    if !for_page {
-        for chart in &mut list {
-            chart.steps.clear();
-        }
+    picture(&format!("{title}: load history"), &list, &[])
+}
+
+/// A column of a table, and its name in the legend.
+struct Column {
+    key: String,
+    name: String,
+}
+
+impl Column {
+    fn same(key: String) -> Self {
+        Self { name: key.clone(), key }
     }
-    charts(&format!("{title}: load history"), &list)
 }
 
 /// Curves of columns against one of them.
+#[derive(Clone, Copy)]
 struct Against<'a> {
     table: &'a Table,
     x: &'a str,
     /// Minus one if the axis shows the opposite of the column, so that curves run from left to right.
     sense: f64,
+    /// Whether a page marks its step.
+    for_page: bool,
 }
 
 impl Against<'_> {
-    /// The curve of a column with a name in the legend.
-    fn curve(&self, [key, name]: [String; 2]) -> Series {
+    fn curve(&self, Column { key, name }: Column) -> Series {
         let points = self.steps().into_iter().zip(self.table.numbers(&key));
-        let points = points.map(|(x, y)| [x, y]).collect();
-        Series { name, style: 0, look: Look::Full, points }
+        Series { name, style: 0, look: Look::Full, points: points.map(<[f64; 2]>::from).collect() }
     }
 
     /// The curves of what is not the same in all steps, those first that change most.
-    fn varying(&self, columns: impl Iterator<Item = [String; 2]>) -> Vec<Series> {
-        let largest =
-            |it: &Series| it.points.iter().map(|it| it[1]).fold(f64::NEG_INFINITY, f64::max);
-        let least = |it: &Series| it.points.iter().map(|it| it[1]).fold(f64::INFINITY, f64::min);
+    fn varying(&self, columns: impl Iterator<Item = Column>) -> Vec<Series> {
         let mut list: Vec<Series> = columns.map(|column| self.curve(column)).collect();
-        let size = list.iter().map(|it| largest(it).max(-least(it))).fold(0.0, f64::max);
-        list.retain(|it| largest(it) - least(it) > CONSTANT * size);
-        list.sort_by(|a, b| (largest(b) - least(b)).total_cmp(&(largest(a) - least(a))));
+        let values = |it: &Series| it.points.iter().map(|it| it[1]).collect::<Vec<_>>();
+        let span = |it: &Series| {
+            let ends = values(it)
+                .into_iter()
+                .reduce(f64::max)
+                .zip(values(it).into_iter().reduce(f64::min));
+            ends.map_or(0.0, |(most, least)| most - least)
+        };
+        let size = largest(list.iter().flat_map(values));
+        list.retain(|it| span(it) > CONSTANT * size);
+        list.sort_by(|a, b| span(b).total_cmp(&span(a)));
         list.truncate(MOST);
         list
     }
 
-    fn chart(&self, axes: [&str; 2], series: Vec<Series>) -> Chart {
-        Chart { steps: self.steps(), ..Chart::of(axes.map(str::to_owned), series) }
+    fn diagram(&self, axes: [&str; 2], series: Vec<Series>) -> Diagram {
+        let steps = if self.for_page { self.steps() } else { Vec::new() };
+        Diagram { steps, ..Diagram::linear(axes, series) }
     }
 
     /// Where the steps are on the axis.
@@ -114,7 +132,7 @@ fn most_moved<'a>(model: &'a Model, table: &Table) -> Option<Moved<'a>> {
         let names = model.supports.iter().map(|it| it.name.as_str());
         let largest = |name| {
             let places = table.numbers(&format!("{name} {part}")).into_iter();
-            (name, places.fold(0.0, |most: f64, it| if it.abs() > most.abs() { it } else { most }))
+            (name, places.max_by(|a, b| a.abs().total_cmp(&b.abs())).unwrap_or(0.0))
         };
         names.map(largest).max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()))
     };
@@ -135,10 +153,31 @@ fn most_moved<'a>(model: &'a Model, table: &Table) -> Option<Moved<'a>> {
     Some(Moved { support, x: format!("{support} {part}"), sense: most.signum(), axis })
 }
 
-/// The first step of every stage, and its name.
-fn stages(records: &[StepRecord]) -> Vec<(f64, String)> {
-    let first = |(number, record): (u32, &StepRecord)| {
-        (record.step.number == 1).then(|| (f64::from(number), record.step.stage.clone()))
-    };
-    (1..).zip(records).filter_map(first).collect()
+/// The first step of every stage.
+fn stages(records: &[StepRecord]) -> Vec<Beginning> {
+    let all = (1..).zip(records).filter(|(_, it)| it.step.number == 1);
+    all.map(|(number, it)| Beginning { at: f64::from(number), name: it.step.stage.clone() })
+        .collect()
+}
+
+/// The load factors of the states at rest against their displacements, and the factor above which the structure falls.
+/// `None` for less than two states.
+pub fn path(title: &str, group: &str, path: &Path) -> Option<String> {
+    let table = curve(path);
+    let displacements = table.numbers("displacement");
+    let last = *displacements.last().filter(|_| path.curve.len() > 1)?;
+    let points = displacements.iter().copied().zip(table.numbers("load_factor"));
+    let points = points.map(<[f64; 2]>::from).collect();
+    let rest = Series { name: "states at rest".to_owned(), style: 0, look: Look::Full, points };
+    let falls = path.falls.map(|falls| Series {
+        name: "falls".to_owned(),
+        style: 1,
+        look: Look::Bound,
+        points: vec![[0.0, falls], [last, falls]],
+    });
+    let across = format!("largest displacement [{}]", path.model.units.length_name());
+    let up = format!("factor of \"{group}\" [-]");
+    let series = std::iter::once(rest).chain(falls).collect();
+    let diagram = Diagram::linear([&across, &up], series);
+    picture(&format!("{title}: load factor along the path"), &[diagram], &[])
 }

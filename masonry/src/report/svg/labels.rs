@@ -3,66 +3,72 @@
 use nalgebra::{Rotation2, Vector2};
 
 use super::canvas::{Anchor, Canvas, Pixel, text_width};
+use super::sheet::Sides;
 
 /// Where else a label is tried, if its own place is taken: further away, and to the sides \[degrees\].
 const FURTHER: [f64; 4] = [0.0, 7.0, 15.0, 24.0];
 const ASIDE: [f64; 7] = [0.0, 40.0, -40.0, 75.0, -75.0, 110.0, -110.0];
 
-/// The places that labels have taken, and the marks that they avoid.
+/// A text beside a place.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Label<'a> {
+    pub(super) text: &'a str,
+    pub(super) size: f64,
+    pub(super) at: Pixel,
+    /// The side of the place on which it is best, y up.
+    pub(super) side: Vector2<f64>,
+    /// Attributes of the text.
+    pub(super) name: &'a str,
+}
+
+/// The places that labels have taken, and the strokes that they avoid.
 #[derive(Debug)]
 pub(super) struct Labels {
-    /// Where labels may be: left, top, right and bottom.
-    room: [f64; 4],
-    taken: Vec<[f64; 4]>,
-    marks: Vec<[Pixel; 2]>,
+    /// Where labels may be.
+    room: Sides,
+    taken: Vec<Sides>,
+    strokes: Vec<[Pixel; 2]>,
 }
 
 impl Labels {
-    /// No labels yet within a rectangle: left, top, right and bottom.
-    pub(super) fn within(room: [f64; 4]) -> Self {
-        Self { room, taken: Vec::new(), marks: Vec::new() }
+    /// No labels yet.
+    pub(super) fn within(room: Sides) -> Self {
+        Self { room, taken: Vec::new(), strokes: Vec::new() }
     }
 
     /// Keeps labels away from a stroke.
-    pub(super) fn avoid(&mut self, from: Pixel, to: Pixel) {
-        self.marks.push([from, to]);
+    pub(super) fn avoid(&mut self, stroke: [Pixel; 2]) {
+        self.strokes.push(stroke);
     }
 
-    /// Draws a label on the side `n`, y up, of a place, or near it; not at all where there is no room.
-    pub(super) fn draw(
-        &mut self,
-        canvas: &mut Canvas,
-        at: Pixel,
-        n: Vector2<f64>,
-        size: f64,
-        label: &str,
-    ) {
-        let half = Vector2::new(0.5 * text_width(label, size), 0.5 * size);
-        let tried = FURTHER.iter().flat_map(|gap| ASIDE.iter().map(move |angle| (*gap, *angle)));
-        for (gap, angle) in tried {
-            let n = Rotation2::new(angle.to_radians()) * n;
-            let middle = beside(at, n, half, gap);
-            let [x, y] = [middle.x, middle.y];
-            if self.take([x - half.x, y - half.y, x + half.x, y + half.y]) {
+    /// Draws a label on its side of its place, or near it; not at all if there is no room.
+    pub(super) fn draw(&mut self, canvas: &mut Canvas, label: &Label<'_>) {
+        let Label { text, size, at, side, name } = *label;
+        let half = Vector2::new(0.5 * text_width(text, size), 0.5 * size);
+        let tried = FURTHER.iter().flat_map(|gap| ASIDE.map(move |angle| (*gap, angle)));
+        let middles = tried.map(|(gap, angle)| {
+            beside(at, Rotation2::new(f64::to_radians(angle)) * side, half, gap)
+        });
+        for Pixel { x, y } in middles {
+            let (left, right) = (x - half.x, x + half.x);
+            if self.take(Sides { left, right, top: y - half.y, bottom: y + half.y }) {
                 let base = Pixel::new(x, y + 0.36 * size);
-                canvas.rimmed_text(base, Anchor::Middle, size, label);
-                return;
+                return canvas.text(base, Anchor::Middle, size, name, text);
             }
         }
     }
 
     /// Whether a rectangle was free; from now on it is not.
-    fn take(&mut self, rectangle: [f64; 4]) -> bool {
-        let [left, top, right, bottom] = self.room;
-        let is_inside = rectangle[0] >= left
-            && rectangle[1] >= top
-            && rectangle[2] <= right
-            && rectangle[3] <= bottom;
-        let is_free = is_inside
-            && !self.taken.iter().any(|other| overlap(&rectangle, other))
-            && !self.marks.iter().any(|mark| crosses(mark, &rectangle));
+    fn take(&mut self, it: Sides) -> bool {
+        let room = &self.room;
+        let is_free = it.left >= room.left
+            && it.right <= room.right
+            && it.top >= room.top
+            && it.bottom <= room.bottom
+            && !self.taken.iter().any(|other| overlap(&it, other))
+            && !self.strokes.iter().any(|stroke| crosses(stroke, &it));
         if is_free {
-            self.taken.push(rectangle);
+            self.taken.push(it);
         }
         is_free
     }
@@ -72,21 +78,23 @@ impl Labels {
 fn beside(at: Pixel, n: Vector2<f64>, half: Vector2<f64>, gap: f64) -> Pixel {
     let n = n.normalize();
     // So that the box begins at the place whatever its direction.
-    let [x, y] = [half.x / n.x.abs(), half.y / n.y.abs()];
-    let reach = if x < y { x } else { y };
-    Pixel::new(at.x + n.x * (reach + gap), at.y - n.y * (reach + gap))
+    let reach = (half.x / n.x.abs()).min(half.y / n.y.abs());
+    at.along(n, reach + gap)
 }
 
-fn overlap(one: &[f64; 4], other: &[f64; 4]) -> bool {
-    one[0] < other[2] && other[0] < one[2] && one[1] < other[3] && other[1] < one[3]
+fn overlap(one: &Sides, other: &Sides) -> bool {
+    one.left < other.right
+        && other.left < one.right
+        && one.top < other.bottom
+        && other.top < one.bottom
 }
 
 /// Whether a stroke has a part in a rectangle.
-fn crosses([from, to]: &[Pixel; 2], rectangle: &[f64; 4]) -> bool {
+fn crosses([from, to]: &[Pixel; 2], it: &Sides) -> bool {
     let (mut enters, mut leaves) = (0.0_f64, 1.0_f64);
-    let axes =
-        [(from.x, to.x, rectangle[0], rectangle[2]), (from.y, to.y, rectangle[1], rectangle[3])];
-    for (from, to, low, high) in axes {
+    for (from, to, low, high) in
+        [(from.x, to.x, it.left, it.right), (from.y, to.y, it.top, it.bottom)]
+    {
         let along = to - from;
         if along == 0.0 {
             if from <= low || from >= high {
@@ -107,21 +115,22 @@ mod tests {
 
     #[test]
     fn a_label_makes_way_for_strokes_and_labels_and_stays_in_its_room() {
-        let up = Vector2::new(0.0, 1.0);
         let at = Pixel::new(100.0, 100.0);
-        let mut labels = Labels::within([0.0, 0.0, 200.0, 200.0]);
-        labels.avoid(Pixel::new(100.0, 80.0), Pixel::new(100.0, 120.0));
+        let label = Label { text: "10 kN", size: 10.0, at, side: Vector2::new(0.0, 1.0), name: "" };
+        let mut labels = Labels::within(Sides { left: 0.0, right: 200.0, top: 0.0, bottom: 200.0 });
+        labels.avoid([Pixel::new(100.0, 80.0), Pixel::new(100.0, 120.0)]);
         let mut canvas = Canvas::default();
         for _ in 0..2 {
-            labels.draw(&mut canvas, at, up, 10.0, "10 kN");
+            labels.draw(&mut canvas, &label);
         }
         let [one, other] = labels.taken.as_slice() else { panic!("{:?}", labels.taken) };
         assert!(!overlap(one, other));
         for it in [one, other] {
-            assert!(!crosses(&labels.marks[0], it), "{it:?}");
+            assert!(!crosses(&labels.strokes[0], it), "{it:?}");
         }
-        let mut narrow = Labels::within([90.0, 90.0, 110.0, 110.0]);
-        narrow.draw(&mut canvas, at, up, 10.0, "10 kN");
+        let mut narrow =
+            Labels::within(Sides { left: 90.0, right: 110.0, top: 90.0, bottom: 110.0 });
+        narrow.draw(&mut canvas, &label);
         assert!(narrow.taken.is_empty(), "{:?}", narrow.taken);
     }
 }

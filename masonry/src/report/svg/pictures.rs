@@ -1,53 +1,81 @@
-//! All pictures of states, alike in scale where there are several: one a step of a load history.
+//! All pictures of an outcome; those of several states, one a step of a load history, are alike in scale.
 
-use super::cracks::{self, widest};
+use super::bond_lines::ReferenceLines;
+use super::cracks;
 use super::deformed::{self, Magnified};
-use super::forces::{self, Shared};
+use super::forces::{self, Loaded, Shared};
+use super::history::curves;
+use super::mechanism::{Collapse, collapse};
+use super::scene::scene;
 pub(in crate::report) use super::sheet::Shown;
-use super::stresses::{self, ReferenceLines, large};
-use crate::data::state::{ContactState, State};
-use crate::model::Model;
+use super::stresses::{self, Scale};
+use crate::analysis::outcome::Outcome;
 use crate::report::joints;
 
-/// One kind of picture of all states.
+/// Pictures of one kind: one, or one of every step of a load history that is shown.
 #[derive(Debug, Clone)]
 pub(in crate::report) struct Pictures {
     /// The name of a file with it.
     pub(in crate::report) file: &'static str,
-    /// A picture of every state.
     pub(in crate::report) pictures: Vec<String>,
 }
 
-/// The pictures of states, which have the same scales. Kinds of which no state has anything to show are left out. On a
-/// page displacements can be magnified otherwise.
-pub(in crate::report) fn pictures(
+impl Pictures {
+    pub(in crate::report) fn one(file: &'static str, picture: String) -> Self {
+        Self { file, pictures: vec![picture] }
+    }
+}
+
+/// The pictures of an outcome, with those of the states that are `shown`, in the order of the files. A page can change
+/// displacements and amplitudes, and marks its step in curves.
+pub(in crate::report) fn of_outcome(
+    outcome: &Outcome,
+    title: &str,
     shown: &[Shown<'_>],
     reference: Option<&ReferenceLines>,
     for_page: bool,
 ) -> Vec<Pictures> {
-    let states: Vec<(&Model, &State)> = shown.iter().map(|it| (it.model, it.state)).collect();
-    let contacts: Vec<(&Model, &[ContactState])> =
-        states.iter().map(|(model, state)| (*model, state.contacts.as_slice())).collect();
-    let each = |draw: &dyn Fn(&Shown<'_>) -> String| shown.iter().map(draw).collect();
-    let mut list = Vec::new();
+    let model = &outcome.model;
+    let history = outcome.history.as_ref().and_then(|it| curves(title, model, it, for_page));
+    let mechanism = outcome
+        .mechanism
+        .as_ref()
+        .map(|rates| collapse(&Collapse { title, model, rates, growth: None }, for_page));
+    let mut list = vec![Pictures::one("scene.svg", scene(title, model))];
+    list.extend(of_states(shown, reference, for_page));
+    list.extend(history.map(|it| Pictures::one("history.svg", it)));
+    list.extend(mechanism.map(|it| Pictures::one("mechanism.svg", it)));
+    list
+}
 
-    let large = states.iter().map(|(_, state)| large(&state.stresses));
-    let large = large.fold([0.0; 2], |[a, b]: [f64; 2], [c, d]| [a.max(c), b.max(d)]);
-    if states.iter().any(|(_, state)| !state.stresses.is_empty()) {
-        let draw = |it: &Shown<'_>| stresses::compared(it, reference, large);
-        list.push(Pictures { file: "principal_stresses.svg", pictures: each(&draw) });
+/// The pictures of states, which have the same scales. Kinds of which no state has anything to show are left out.
+fn of_states(
+    shown: &[Shown<'_>],
+    reference: Option<&ReferenceLines>,
+    for_page: bool,
+) -> Vec<Pictures> {
+    let mut list = Vec::new();
+    if shown.is_empty() {
+        return list;
     }
-    let by = Magnified::of(&states, for_page);
-    let draw = |it: &Shown<'_>| deformed::magnified(it.title, it.model, it.state, &by);
-    list.push(Pictures { file: "deformed.svg", pictures: each(&draw) });
-    let by = Shared::of(&contacts);
-    let draw = |it: &Shown<'_>| forces::shared(it.title, it.model, &it.state.contacts, &by);
-    list.push(Pictures { file: "forces.svg", pictures: each(&draw) });
-    let widest = contacts.iter().map(|(model, it)| widest(model, it)).fold(0.0, f64::max);
-    if contacts.iter().any(|(model, it)| !joints::openings(model, it).is_empty()) {
-        let draw =
-            |it: &Shown<'_>| cracks::coloured(it.title, it.model, &it.state.contacts, widest);
-        list.push(Pictures { file: "cracks.svg", pictures: each(&draw) });
+    let mut add = |file, draw: &dyn Fn(&Shown<'_>) -> String| {
+        list.push(Pictures { file, pictures: shown.iter().map(draw).collect() });
+    };
+    if shown.iter().any(|it| !it.state.stresses.is_empty()) {
+        let scales = shown.iter().map(|it| Scale::of(&it.state.stresses));
+        let scale = scales.fold(Scale::default(), Scale::and);
+        add("principal_stresses.svg", &|it| stresses::compared(it, reference, scale));
+    }
+    let by = Magnified::of(shown, for_page);
+    add("deformed.svg", &|it| deformed::compared(it, &by));
+    let loaded: Vec<Loaded<'_>> = shown.iter().map(Loaded::from).collect();
+    let by = Shared::of(&loaded);
+    add("forces.svg", &|it| forces::compared(&it.into(), &by));
+    let openings = loaded.iter().map(|it| joints::openings(it.model, it.contacts));
+    let openings: Vec<_> = openings.flatten().collect();
+    if !openings.is_empty() {
+        let by = cracks::widest(&openings);
+        add("cracks.svg", &|it| cracks::compared(&it.into(), by));
     }
     list
 }

@@ -1,124 +1,158 @@
-//! A scene before it is solved: blocks, supports, joints, contact points, loads.
+//! A scene before it is solved: blocks and what they are made of, supports, joints, contact points, loads.
 
 use nalgebra::Point2;
 
-use super::canvas::{Anchor, Pixel, fixed, text_width};
+use super::arrows::{Arrows, Displaced};
+use super::canvas::{Anchor, Pixel, arrow, text_width};
 use super::dimensions::Dimensions;
 use super::labels::Labels;
-use super::loads::Loads;
-use super::marks;
-use super::materials;
+use super::legend;
+use super::motion::Motion;
 use super::names;
-use super::sheet::{SYMBOL, Sheet};
-use super::style::DARK;
+use super::sheet::Sheet;
+use super::structure::{self, counted};
+use super::style::{COLOURS, CONTACT, LARGEST_BRICK, MATERIALS};
 use crate::geometry;
 use crate::ids::JointId;
 use crate::law::JointLaw;
-use crate::model::Model;
+use crate::model::{Block, Elasticity, Model};
 use crate::report::format::{InUnits, acceleration_text, significant, stress_text};
 
-/// Colours of joint classes, told apart by the colour-blind too (Okabe and Ito).
-const CLASSES: [&str; 5] = ["#0072b2", "#e69f00", "#009e73", "#cc79a7", "#56b4e9"];
-const NAMED_BLOCKS: usize = 120;
+/// More names would hide the blocks.
+const NAMED: usize = 120;
+/// Sizes of letters of names.
+const LARGEST: f64 = 12.0;
+const READABLE: f64 = 7.0;
 
 /// The scene as it would be solved: bricks (with their names while they fit) and what they are made of, dimensions,
 /// hatched supports, joints in the colour of their class, contact points, and loads with values and units.
 pub fn scene(title: &str, model: &Model) -> String {
     let units = InUnits(model.units);
-    let loads = Loads::of(model, units);
+    let loads = Arrows::of_loads(model, None);
     let dimensions = Dimensions::of(model, loads.margins());
-    let mut sheet = Sheet::new(title, model, marks::bounds(model), dimensions.margins());
-    materials::draw(&mut sheet, model);
-    marks::supports(&mut sheet, model);
+    let bounds = structure::bounds(model);
+    let mut sheet = Sheet::new(title.to_owned(), model, bounds, dimensions.margins());
+    draw_materials(&mut sheet, model);
+    structure::supports(&mut sheet, model, Motion::NONE);
     draw_joints(&mut sheet, model);
-    let mut labels = Labels::within(sheet.room());
-    loads.mark(&sheet.frame, &mut labels);
-    loads.draw(&mut sheet, model, &mut labels);
+    let mut labels = Labels::within(sheet.room);
+    loads.draw(&mut sheet, model, &mut labels, &Displaced::NOT);
     dimensions.draw(&mut sheet, units);
     draw_names(&mut sheet, model);
-    draw_gravity(&mut sheet, model);
+    explain_gravity(&mut sheet, model);
     sheet.finish()
 }
 
-fn draw_joints(sheet: &mut Sheet, model: &Model) {
-    let (frame, brick) = (sheet.frame, sheet.brick);
-    let (stroke, radius) = ((0.025 * brick).clamp(0.4, 1.8), (0.032 * brick).clamp(0.5, 2.6));
-    for (index, class) in model.joint_classes.iter().enumerate() {
-        let colour = CLASSES[index % CLASSES.len()];
-        let style =
-            format!("class=\"joints\" stroke=\"{colour}\" stroke-width=\"{}\"", fixed(stroke));
-        let mut used = false;
-        sheet.canvas.group(&style, |canvas| {
-            for (k, joint) in model.joints.iter().enumerate().filter(|(_, it)| it.class == index) {
-                used = true;
-                let name = names::joint(model, JointId::new(k));
-                canvas.line(frame.at(joint.from), frame.at(joint.to), &name);
+/// The constants of a material.
+#[derive(Clone, Copy, PartialEq)]
+struct Constants {
+    elasticity: Option<Elasticity>,
+    density: Option<f64>,
+}
+
+impl Constants {
+    fn of(block: &Block) -> Self {
+        Self { elasticity: block.elasticity, density: block.density }
+    }
+
+    fn text(self) -> String {
+        let Self { elasticity, density } = self;
+        let text = match elasticity {
+            Some(Elasticity { young, poisson }) => {
+                let (young, poisson) = (stress_text(young), significant(poisson, 3));
+                format!("E\u{a0}=\u{a0}{young}, ν\u{a0}=\u{a0}{poisson}")
             }
-        });
-        let style = format!("class=\"contacts\" fill=\"{colour}\"");
-        sheet.canvas.group(&style, |canvas| {
-            let of_class = |joint: usize| model.joints[joint].class == index;
-            for contact in model.contacts.iter().filter(|it| of_class(it.joint.index())) {
+            None => "rigid".to_owned(),
+        };
+        match density {
+            Some(density) => format!("{text}, {}\u{a0}kg/m³", significant(density, 4)),
+            None => text,
+        }
+    }
+}
+
+/// Draws all blocks, and a legend entry for every material; the thickness of the structure is that of all.
+fn draw_materials(sheet: &mut Sheet, model: &Model) {
+    let mut materials: Vec<Constants> = Vec::new();
+    for constants in model.blocks.iter().map(Constants::of) {
+        if !materials.contains(&constants) {
+            materials.push(constants);
+        }
+    }
+    for (constants, index) in materials.into_iter().zip((0..MATERIALS).cycle()) {
+        let class = &format!("bricks material{index}");
+        let own = model.blocks.iter().filter(|block| Constants::of(block) == constants);
+        let text = format!("{}, {}", counted(own.clone().count(), "block"), constants.text());
+        structure::outlines(sheet, class, own);
+        sheet.legend.add(&text, class, legend::block);
+    }
+    let thickness = InUnits(model.units).length_text(model.thickness);
+    sheet.legend.note(&format!("thickness out of the plane {thickness}"));
+}
+
+fn draw_joints(sheet: &mut Sheet, model: &Model) {
+    let radius = CONTACT * sheet.marks();
+    for (index, class) in model.joint_classes.iter().enumerate() {
+        let colour = format!("colour{}", index % COLOURS);
+        let [lines, dots] = ["joints", "contacts"].map(|class| format!("{class} {colour}"));
+        let is_own = |joint: &JointId| model.joints[joint.index()].class == index;
+        let own = (0..model.joints.len()).map(JointId::new).filter(is_own);
+        if own.clone().next().is_none() {
+            continue;
+        }
+        structure::joints(sheet, &lines, model, own);
+        sheet.layer(&dots, |canvas, frame| {
+            for contact in model.contacts.iter().filter(|it| is_own(&it.joint)) {
                 let name = names::joint(model, contact.joint);
                 canvas.circle(frame.at(contact.position), radius, &name);
             }
         });
-        if used {
-            let text = format!("{} joints, {}", class.name, law(&class.law));
-            sheet.entry(&text, |symbol| {
-                let style = format!("stroke=\"{colour}\" stroke-width=\"1.8\"");
-                symbol.line(Pixel::new(-SYMBOL, 0.0), Pixel::new(SYMBOL, 0.0), &style);
-                for x in [-SYMBOL, SYMBOL] {
-                    symbol.circle(Pixel::new(x, 0.0), 2.6, &format!("fill=\"{colour}\""));
-                }
-            });
-        }
+        let text = format!("{} joints, {}", class.name, law(&class.law));
+        sheet.legend.add(&text, &lines, |symbol| {
+            legend::line(symbol);
+            for x in [-22.0, 22.0] {
+                let radius = CONTACT * LARGEST_BRICK;
+                symbol.circle(Pixel::new(x, 0.0), radius, "class=\"contacts\"");
+            }
+        });
     }
 }
 
 /// The law of a class: friction, and what strength and stiffness it has.
 fn law(law: &JointLaw) -> String {
-    let mut text = format!("μ\u{a0}=\u{a0}{}", significant(law.mu, 4));
-    for (name, value) in [("c", law.cohesion), ("f_t", law.tension)] {
-        if value > 0.0 {
-            text = format!("{text}, {name}\u{a0}=\u{a0}{}", stress_text(value));
-        }
-    }
-    if let Some(stiffness) = law.stiffness {
-        for (name, value) in ["k_n", "k_t"].into_iter().zip(stiffness) {
-            text = format!("{text}, {name}\u{a0}=\u{a0}{}/m", stress_text(value));
-        }
-    }
-    text
+    let strength = [("c", law.cohesion), ("f_t", law.tension)].into_iter();
+    let strength = strength.filter(|(_, value)| *value > 0.0);
+    let strength = strength.map(|(name, value)| (name, stress_text(value)));
+    let stiffness = law.stiffness.iter().flat_map(|it| ["k_n", "k_t"].into_iter().zip(it));
+    let stiffness = stiffness.map(|(name, value)| (name, stress_text(*value) + "/m"));
+    let values = std::iter::once(("μ", significant(law.mu, 4))).chain(strength).chain(stiffness);
+    let texts: Vec<String> =
+        values.map(|(name, value)| format!("{name}\u{a0}=\u{a0}{value}")).collect();
+    texts.join(", ")
 }
 
 /// Names in the middle of the blocks, in one size that fits all, or not at all.
 fn draw_names(sheet: &mut Sheet, model: &Model) {
-    if model.blocks.len() > NAMED_BLOCKS {
-        return;
-    }
-    let frame = sheet.frame;
-    let mut size: f64 = 12.0;
-    for block in &model.blocks {
-        let (wide, high) = room(&block.corners);
+    let fitting = |block: &Block| {
+        let [wide, high] = room(&block.corners).map(|it| it * sheet.frame.scale);
         let width = text_width(&block.name, 1.0).max(f64::MIN_POSITIVE);
-        size = size.min(0.8 * wide * frame.scale / width).min(0.6 * high * frame.scale);
-    }
-    if size < 7.0 {
+        (0.8 * wide / width).min(0.6 * high)
+    };
+    let size = model.blocks.iter().map(fitting).fold(LARGEST, f64::min);
+    if model.blocks.len() > NAMED || size < READABLE {
         return;
     }
-    let centres = model.blocks.iter().map(|block| geometry::centroid(&block.corners));
-    sheet.canvas.group("class=\"names\"", |canvas| {
-        for (block, centre) in model.blocks.iter().zip(centres) {
-            let at = frame.at(centre);
+    sheet.layer("names", |canvas, frame| {
+        for block in &model.blocks {
+            let at = frame.at(geometry::centroid(&block.corners));
             let base = Pixel::new(at.x, at.y + 0.36 * size);
-            canvas.text_with(base, Anchor::Middle, size, &names::block(block), &block.name);
+            canvas.text(base, Anchor::Middle, size, &names::block(block), &block.name);
         }
     });
 }
 
 /// Lengths of the horizontal and of the vertical line through the centroid of a block \[m\].
-fn room(corners: &[Point2<f64>]) -> (f64, f64) {
+fn room(corners: &[Point2<f64>]) -> [f64; 2] {
     let centre = geometry::centroid(corners);
     let chord = |along: usize, across: usize| {
         let crossings = (0..corners.len()).filter_map(|k| {
@@ -126,23 +160,17 @@ fn room(corners: &[Point2<f64>]) -> (f64, f64) {
             let at = (centre[across] - p[across]) / (q[across] - p[across]);
             (0.0..=1.0).contains(&at).then(|| p[along] + (q[along] - p[along]) * at)
         });
-        let (low, high) = crossings.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| {
-            (f64::min(low, x), f64::max(high, x))
-        });
-        (high - low).max(0.0)
+        let ends = crossings.clone().reduce(f64::min).zip(crossings.reduce(f64::max));
+        ends.map_or(0.0, |(low, high)| high - low)
     };
-    (chord(0, 1), chord(1, 0))
+    [chord(0, 1), chord(1, 0)]
 }
 
-fn draw_gravity(sheet: &mut Sheet, model: &Model) {
+fn explain_gravity(sheet: &mut Sheet, model: &Model) {
     let pull = model.gravity;
     if pull.norm() > 0.0 && model.blocks.iter().any(|block| block.density.is_some()) {
         let text = format!("self weight, {}", acceleration_text(pull.norm()));
-        sheet.entry(&text, |symbol| {
-            let (tail, tip) = (Pixel::new(0.0, 0.0), Pixel::new(0.0, 0.0));
-            let tail = tail.shifted(-pull.x, pull.y, 9.0);
-            let tip = tip.shifted(pull.x, -pull.y, 9.0);
-            symbol.arrow(tail, tip, DARK);
-        });
+        let ends = [-9.0, 9.0].map(|it| Pixel::new(0.0, 0.0).along(pull, it));
+        sheet.legend.add(&text, "weight", |symbol| symbol.path(&arrow(ends), ""));
     }
 }

@@ -10,9 +10,6 @@ use crate::report::text::{drawn, pairs, paragraph};
 /// Longer histories are shown at the ends of their stages only.
 const MOST_ROWS: usize = 24;
 
-const HEADS: [&str; 11] =
-    ["stage", "step", "W", "D", "U", "W-U-D", "moved", "open", "stick", "slip", "found by"];
-
 /// One row for every step that was solved, or for every stage of a long history.
 pub(super) fn history(model: &Model, history: &History) -> String {
     let mut rows = in_text(model, history);
@@ -23,7 +20,7 @@ pub(super) fn history(model: &Model, history: &History) -> String {
         rows.retain(is_end);
     }
     let mut table = drawn(&rows);
-    table.set_header(HEADS);
+    table.set_header(rows.columns.iter().map(|it| &it.name));
     for (column, it) in table.column_iter_mut().zip(&rows.columns) {
         column.set_padding((1, 0));
         if it.is_right {

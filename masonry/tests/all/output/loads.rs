@@ -4,9 +4,9 @@ use masonry::model::Model;
 use masonry::report::svg;
 use masonry::scene::{Brick, Joint, Load, Material, Scene, Support, Wall};
 use masonry::units::{ForceUnit, LengthUnit, Units};
-use roxmltree::{Document, Node};
+use roxmltree::Node;
 
-use super::{checked, groups, kept, number, texts};
+use super::{checked, groups, kept, marks, number, points, texts};
 
 fn wall(loads: &[Load]) -> Model {
     let brick = Brick { length: 0.5, height: 0.25 };
@@ -21,13 +21,6 @@ fn wall(loads: &[Load]) -> Model {
     Model::from_scene(&scene).expect("a good scene")
 }
 
-/// How many shapes and texts a group has.
-fn leaves(document: &Document<'_>, class: &str) -> usize {
-    let all = groups(document, class)[0].descendants().filter(Node::is_element);
-    all.filter(|it| !it.has_tag_name("g")).count()
-}
-
-/// An arrow is a line and a head; a force has a dot at its place besides, and each label a rim of its own.
 #[test]
 fn forces_are_arrows_at_their_places_with_their_values() {
     let loads = [
@@ -38,31 +31,28 @@ fn forces_are_arrows_at_their_places_with_their_values() {
     ];
     let picture = kept("forces.svg", svg::scene("Forces & a rope", &wall(&loads)));
     let document = checked(&picture);
-    assert_eq!(leaves(&document, "loads"), 3 * (3 + 2));
-    // Two groups a load, of its arrow and of its label, with its number in the scene.
-    let numbers: Vec<_> = groups(&document, "loads")[0]
-        .children()
-        .filter_map(|it| it.attribute("data-load"))
-        .collect();
-    assert_eq!(numbers, ["3", "2", "1", "3", "2", "1"]);
+    assert_eq!(marks(&document, "loads"), 3);
+    // Each with its number in the scene.
+    let loads: Vec<_> = groups(&document, "loads")[0].children().filter(Node::is_element).collect();
+    let numbers: Vec<_> = loads.iter().filter_map(|it| it.attribute("data-load")).collect();
+    assert_eq!(numbers, ["3", "2", "1"]);
     let texts = texts(&document);
-    for label in ["7.5 kN", "2.5 kN", "3.536 kN", "point loads, 2.5 to 7.5 kN"] {
+    for label in ["7.5 kN", "2.5 kN", "3.536 kN", "point loads, 2.5 kN to 7.5 kN"] {
         assert!(texts.contains(label), "no {label} in {texts}");
     }
     assert!(!texts.contains("edge load") && !texts.contains("acceleration"));
+    // An arrow, whose first two points are its tail and its neck, and a dot at its place.
+    let of = |load: &Node<'_, '_>| {
+        let shape = |name: &str| load.children().find(|it| it.has_tag_name(name)).expect("a shape");
+        let ends = points(shape("path"));
+        ([ends[0], ends[1]], ["cx", "cy"].map(|name| number(shape("circle"), name)))
+    };
     // The rope pulls at the edge: its head lies beyond its place, on the right.
-    let dots: Vec<_> = groups(&document, "loads")[0]
-        .descendants()
-        .filter(|it| it.has_tag_name("circle"))
-        .collect();
-    let lines: Vec<_> =
-        groups(&document, "loads")[0].descendants().filter(|it| it.has_tag_name("line")).collect();
-    let (dot, line) = (dots[1], lines[1]);
-    let starts_at_dot = (number(line, "x1") - number(dot, "cx")).abs() < 0.02;
-    assert!(starts_at_dot && number(line, "x2") > number(line, "x1"), "{picture}");
+    let ([tail, neck], place) = of(&loads[1]);
+    assert!((tail[0] - place[0]).abs() < 0.02 && neck[0] > tail[0], "{picture}");
     // The beam presses: its head is at its place, on the top.
-    let (dot, line) = (dots[2], lines[2]);
-    assert!(number(line, "y1") < number(dot, "cy") - 20.0, "{picture}");
+    let ([tail, _], place) = of(&loads[2]);
+    assert!(tail[1] < place[1] - 20.0, "{picture}");
 }
 
 #[test]
@@ -76,22 +66,22 @@ fn accelerations_are_arrows_beside_the_structure() {
     ];
     let picture = kept("accelerations.svg", svg::scene("Accelerations", &wall(&loads)));
     let document = checked(&picture);
-    assert_eq!(leaves(&document, "accelerations"), 3 * (2 + 2));
+    assert_eq!(marks(&document, "accelerations"), 3);
     let texts = texts(&document);
     for label in [
         "0.98 m/s²",
         "0.5 m/s²",
         "1.5 m/s²",
-        "body accelerations, 0.5 to 1.5 m/s²",
+        "body accelerations, 0.5 m/s² to 1.5 m/s²",
         "edge load, 2 kPa",
     ] {
         assert!(texts.contains(label), "no {label} in {texts}");
     }
     // Each pushes from its side, outside of the arrows of the wind.
     let ends = |class| -> Vec<[f64; 2]> {
-        let group = groups(&document, class)[0];
-        let lines = group.descendants().filter(|it| it.has_tag_name("line"));
-        lines.map(|line| ["x1", "x2"].map(|end| number(line, end))).collect()
+        let paths = groups(&document, class).into_iter().flat_map(|it| it.descendants());
+        let paths = paths.filter(|it| it.has_tag_name("path")).map(points);
+        paths.map(|points| [points[0][0], points[1][0]]).collect()
     };
     let (shakes, winds) = (ends("accelerations"), ends("loads"));
     let leftmost = winds.iter().flatten().copied().fold(f64::INFINITY, f64::min);

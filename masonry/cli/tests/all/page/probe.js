@@ -9,7 +9,7 @@
     frames: all("figure.now .frame").filter(isSeen).map((it) => it.dataset.name),
     step: one("#steps output").textContent,
     scale: isSeen(one("#scales")) ? one("#scales output").textContent : null,
-    mark: one("[data-steps]").getAttribute("x1"),
+    mark: one("[data-steps]").getAttribute("transform").match(/[0-9.]+/)[0],
     hash: location.hash,
   });
   const pick = (name) => one(`#switches button[data-picture=${name}]`).click();
@@ -19,10 +19,10 @@
   };
   const corner = () => {
     // At the top, where it moves.
-    const block = all("figure.now .frame.now .deformed polygon").at(-1);
-    const last = (list) => list.split(/[ ,]+/).slice(-2).map(Number);
+    const block = all("figure.now .frame.now .drawing .deformed path").at(-1);
+    const last = (data) => data.match(/-?[0-9.]+/g).slice(-2).map(Number);
     const legend = all("figure.now .frame.now .legend text").map((it) => it.textContent);
-    return { legend, before: last(block.dataset.before), now: last(block.getAttribute("points")) };
+    return { legend, before: last(block.dataset.before), now: last(block.getAttribute("d")) };
   };
   const column = (title, head) => {
     const table = all("section.table").find((it) => it.querySelector("h2").textContent === title);

@@ -14,19 +14,23 @@ const TICKS: f64 = 7.0;
 /// Labels of a linear axis have no more decimals, but an exponent.
 const DECIMALS: f64 = 5.0;
 
-/// Meaning of equal lengths on an axis: equal differences, or equal ratios.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Scale {
+/// Meaning of equal lengths on an axis.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Scale {
+    /// Equal differences.
     Linear,
+    /// Equal ratios.
+    #[default]
     Logarithmic,
 }
 
 /// An axis in pixels.
+#[derive(Debug)]
 pub(super) struct Axis {
     scale: Scale,
     /// Values, or their decimal logarithms.
     ends: [f64; 2],
-    pixels: [i32; 2],
+    pixels: [f64; 2],
     /// Where lines are, and their labels.
     lines: Vec<(f64, String)>,
 }
@@ -36,7 +40,7 @@ impl Axis {
     pub(super) fn around(
         scale: Scale,
         values: impl Iterator<Item = f64> + Clone,
-        pixels: [i32; 2],
+        pixels: [f64; 2],
     ) -> Option<Self> {
         let is_count = values.clone().all(|value| value.fract() == 0.0);
         let (low, high) = (values.clone().reduce(f64::min)?, values.reduce(f64::max)?);
@@ -47,17 +51,15 @@ impl Axis {
         Some(Self { scale, ends, pixels, lines })
     }
 
-    pub(super) fn at(&self, value: f64) -> i32 {
+    /// The place of a value, a whole pixel, so that files with many curves stay small.
+    pub(super) fn at(&self, value: f64) -> f64 {
         let value = if self.scale == Scale::Logarithmic { value.log10() } else { value };
         let share = (value - self.ends[0]) / (self.ends[1] - self.ends[0]);
-        let [from, to] = self.pixels;
-        #[allow(clippy::cast_possible_truncation)]
-        let pixels = (share * f64::from(to - from)).round() as i32;
-        from + pixels
+        (self.pixels[0] + share * (self.pixels[1] - self.pixels[0])).round()
     }
 
     /// Where lines are, and their labels.
-    pub(super) fn labels(&self) -> impl Iterator<Item = (i32, &str)> {
+    pub(super) fn labels(&self) -> impl Iterator<Item = (f64, &str)> {
         self.lines.iter().map(|(value, label)| (self.at(*value), label.as_str()))
     }
 }
@@ -104,8 +106,8 @@ fn label(value: f64, step: f64) -> String {
     if is_zero { "0".to_owned() } else { text }
 }
 
-/// Ends with room; decades and, where these are few, their second and fifth multiples. Labels are alike: with exponents, or none
-/// with.
+/// Ends with room; decades and, if these are few, their second and fifth multiples. Labels are alike: all with exponents, or
+/// none.
 fn logarithmic([low, high]: [f64; 2]) -> ([f64; 2], Vec<(f64, String)>) {
     let room = (0.03 * (high - low)).max(0.1);
     let ends = [low - room, high + room];
@@ -131,10 +133,13 @@ mod tests {
         for ends in
             [[0.0, 11.0], [-3.2e-3, 1.7e-3], [0.0, 0.9], [1.0, 4.0], [120.0, 180.5], [0.0, 7e5]]
         {
-            let axis = Axis::around(Scale::Linear, ends.into_iter(), [0, 100]).unwrap();
+            let axis = Axis::around(Scale::Linear, ends.into_iter(), [0.0, 100.0]).unwrap();
             let labels: Vec<_> = axis.labels().collect();
             assert!((3..=8).contains(&labels.len()), "{ends:?}: {labels:?}");
-            assert!(labels.iter().all(|(at, _)| (0..=100).contains(at)), "{ends:?}: {labels:?}");
+            assert!(
+                labels.iter().all(|(at, _)| (0.0..=100.0).contains(at)),
+                "{ends:?}: {labels:?}"
+            );
             let mut texts: Vec<&str> = labels.iter().map(|it| it.1).collect();
             texts.dedup();
             assert_eq!(texts.len(), labels.len(), "{labels:?}");
@@ -143,7 +148,7 @@ mod tests {
 
     #[test]
     fn a_constant_has_an_axis() {
-        let axis = Axis::around(Scale::Linear, [5.0].into_iter(), [0, 100]).unwrap();
+        let axis = Axis::around(Scale::Linear, [5.0].into_iter(), [0.0, 100.0]).unwrap();
         assert!(axis.ends[0] < 5.0 && axis.ends[1] > 5.0);
     }
 }
