@@ -1,6 +1,7 @@
 //! Problems that are solved one after the other, each from the states and in the memory of the one before.
 
 use std::collections::BTreeMap;
+use std::ops::ControlFlow;
 
 use web_time::Instant;
 
@@ -11,8 +12,8 @@ use crate::scaling::equilibrate;
 use crate::solve::is_over;
 use crate::vector::check_length;
 use crate::{
-    Auto, AutoSettings, Basis, Error, Info, Lcp, Method, Residuals, Side, Solution, Solver, Status,
-    WarmStart,
+    Auto, AutoSettings, Basis, Error, Info, Iteration, Lcp, Method, Observer, Residuals, Side,
+    Solution, Solver, Status, WarmStart,
 };
 
 /// Solves `w = M z + q` for one `q` after the other, each from the free set of the solution before.
@@ -108,14 +109,35 @@ impl<K: Ord + Clone> Sequence<K> {
     /// # Errors
     /// [`Error::Length`] or [`Error::NotFinite`] for `q`.
     pub fn solve(&mut self, q: &[f64]) -> Result<&Solution<Lcp>, Error> {
+        self.solve_observed(q, &mut |_| ControlFlow::Continue(()))
+    }
+
+    /// Solves the problem for this `q`, calling the observer before every factorisation and every iteration of [`Auto`]. `Break`
+    /// stops with [`Status::Cancelled`], unless the point at hand is a solution; the next solve begins at that point. While pairs
+    /// change sides, the residual is the most negative variable, in units of the largest of its vector.
+    ///
+    /// # Errors
+    /// [`Error::Length`] or [`Error::NotFinite`] for `q`.
+    pub fn solve_observed(
+        &mut self,
+        q: &[f64],
+        observer: &mut Observer<'_>,
+    ) -> Result<&Solution<Lcp>, Error> {
         self.lcp.set_q(q)?;
+        let mut is_cancelled = false;
+        let observer = &mut |at: &Iteration| {
+            is_cancelled = is_cancelled || observer(at).is_break();
+            if is_cancelled { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        };
         let (began, before) = (Instant::now(), self.system.factorisations());
         let deadline = self.settings.time_limit.map(|limit| began + limit);
-        let Some(iterations) = self.exchange(deadline) else { return self.anew(began) };
+        let Some(iterations) = self.exchange(deadline, observer) else {
+            return self.anew(began, observer);
+        };
         let residuals = self.point.residuals(&self.lcp, &self.couplings, &mut self.memory);
         let verdict = residuals.verdict(self.settings.tolerance, Status::Stalled);
         if verdict != Status::Solved {
-            return self.anew(began);
+            return self.anew(began, observer);
         }
         let Self { system, point, solution, .. } = self;
         let Solution { status, t, y, basis, info, certificate, condition, .. } = solution;
@@ -134,14 +156,23 @@ impl<K: Ord + Clone> Sequence<K> {
     }
 
     /// Exchanges pairs of the wrong sign until there are none; how often. `None` if their number does not decrease, a matrix is
-    /// singular, or the time is over.
-    fn exchange(&mut self, deadline: Option<Instant>) -> Option<usize> {
+    /// singular, the time is over, or the observer stops it.
+    fn exchange(
+        &mut self,
+        deadline: Option<Instant>,
+        observer: &mut Observer<'_>,
+    ) -> Option<usize> {
         let Self { lcp, system, point, .. } = self;
         let (mut fewest, mut since, mut exchanges) = (usize::MAX, 0, 0);
         while since <= PATIENCE && !is_over(deadline) && system.solve(lcp, point) {
             let wrong = point.violated.len();
             if wrong == 0 {
                 return Some(exchanges);
+            }
+            let (iteration, residual, method) = (exchanges, point.residual, Method::Newton);
+            let at = Iteration { iteration, residual, method, step: None };
+            if observer(&at).is_break() {
+                return None;
             }
             since = if wrong < fewest { 0 } else { since + 1 };
             fewest = fewest.min(wrong);
@@ -152,13 +183,17 @@ impl<K: Ord + Clone> Sequence<K> {
     }
 
     /// The solution by [`Auto`] in the time that is left, and its states.
-    fn anew(&mut self, began: Instant) -> Result<&Solution<Lcp>, Error> {
+    fn anew(
+        &mut self,
+        began: Instant,
+        observer: &mut Observer<'_>,
+    ) -> Result<&Solution<Lcp>, Error> {
         if let Some(basis) = self.solution.basis.take() {
             self.settings.start = WarmStart::Basis(basis);
         }
         let time_limit = self.settings.time_limit.map(|it| it.saturating_sub(began.elapsed()));
         let settings = AutoSettings { time_limit, ..self.settings.clone() };
-        self.solution = Auto::new(settings).solve(&self.lcp)?;
+        self.solution = Auto::new(settings).solve_observed(&self.lcp, observer)?;
         let Solution { t, y, basis, .. } = &self.solution;
         let basis = basis.clone().unwrap_or_else(|| Basis::of_larger(t, y));
         self.point.is_free = basis.sides().iter().map(|side| *side == Side::T).collect();

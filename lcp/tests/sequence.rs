@@ -164,3 +164,26 @@ fn wrong_lengths_and_numbers_are_named() {
     assert!(matches!(sequence.renew(lcp, &[]), Err(Error::Length { name: "keys", .. })));
     assert!((sequence.solve(&[-2.0]).unwrap().t[0] - 1.0).abs() < 1e-15);
 }
+
+/// Once it has said so, the observer is not asked again.
+#[test]
+fn an_observer_stops_a_solve_and_the_next_goes_on() {
+    let mut random = SplitMix::new(11);
+    let n = 60;
+    let m = definite(n, &mut random);
+    let q: Vec<f64> = (0..n).map(|_| random.next_f64() - 0.5).collect();
+    let expected = Auto::default().solve(&Lcp::new(m.clone(), q.clone()).unwrap()).unwrap();
+    let lcp = Lcp::new(m, q.clone()).unwrap();
+    let mut sequence = Sequence::new(lcp, &numbers(n), AutoSettings::default()).unwrap();
+    let mut asked = 0;
+    let stop = &mut |_: &lcp::Iteration| {
+        asked += 1;
+        std::ops::ControlFlow::Break(())
+    };
+    assert_eq!(sequence.solve_observed(&q, stop).unwrap().status, Status::Cancelled);
+    assert_eq!(asked, 1);
+    let found = sequence.solve(&q).unwrap();
+    assert!(found.is_solved());
+    let error = found.t.iter().zip(&expected.t).map(|(a, b)| (a - b).abs());
+    assert!(error.fold(0.0, f64::max) <= 1e-12);
+}

@@ -17,7 +17,7 @@ pub(crate) struct FreePoint {
     /// Pairs with a negative variable, in ascending order.
     pub(crate) violated: Vec<usize>,
     /// The most negative variable, in units of the largest of its vector.
-    pub(super) residual: f64,
+    pub(crate) residual: f64,
     /// The hash of the free set.
     pub(super) hash: u64,
 }
