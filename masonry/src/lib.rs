@@ -83,7 +83,7 @@ pub mod verify;
 pub use analysis::checkpoint::Checkpoint;
 pub use analysis::limit::{
     Bracket, Directions, Laws, Limit, LimitError, Range, Thickness, least_thickness,
-    least_thickness_observed, limit, limit_by, limit_observed, ranges,
+    least_thickness_observed, limit, limit_by, limit_observed, ranges, ranges_observed,
 };
 pub use analysis::outcome::Outcome;
 pub use analysis::solve::{Event, Run, SolveError, solve, solve_observed};

@@ -1,8 +1,9 @@
 //! How much reactions can differ from one set of admissible forces to another.
 
+use std::cell::Cell;
 use std::ops::ControlFlow;
 
-use lcp::Iteration;
+use lcp::{Iteration, Observer};
 use nalgebra::Vector2;
 
 use super::{LimitError, rigid};
@@ -25,6 +26,8 @@ pub struct Range {
     pub model: Model,
     /// The extremes of every support, in the order of the scene; `None` if it is proved that no forces balance the loads.
     pub supports: Option<Vec<Extremes>>,
+    /// Whether the observer has ended the search.
+    pub is_interrupted: bool,
     /// The answer in the words of an engineer.
     pub sentence: String,
 }
@@ -45,17 +48,44 @@ pub struct Extremes {
 /// # Errors
 /// [`LimitError`] when the scene is wrong.
 pub fn ranges(scene: &Scene) -> Result<Range, LimitError> {
-    let on = &mut |_: &Iteration| ControlFlow::Continue(());
+    ranges_observed(scene, &mut |_| ControlFlow::Continue(()))
+}
+
+/// The ranges, with an observer of all iterations that may end the search by `Break`: extremes that were not found by then are
+/// [`Extreme::Open`], or values with a bound further away.
+///
+/// ```
+/// use std::ops::ControlFlow;
+/// use masonry::Scene;
+/// let scene = Scene::from_toml(include_str!("../../../../scenes/arch_semicircular.toml"))?;
+/// let range = masonry::ranges_observed(&scene, &mut |_| ControlFlow::Break(()))?;
+/// assert!(range.is_interrupted && range.sentence.starts_with("Interrupted. "));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Errors
+/// As [`ranges`].
+pub fn ranges_observed(scene: &Scene, observer: &mut Observer<'_>) -> Result<Range, LimitError> {
+    let is_interrupted = Cell::new(false);
+    let on = &mut |at: &Iteration| {
+        is_interrupted.set(is_interrupted.get() || observer(at).is_break());
+        if is_interrupted.get() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    };
     let model = rigid(Model::from_scene(scene)?);
     let system = System::without_factors(&model)?;
     let title = scene.title.clone();
     if let Statics::Impossible(_) = statics::decide(&model, &system, on)?.statics {
         let sentence = "The structure falls: no forces within friction balance all loads of the scene in full (proved).";
-        return Ok(Range { title, model, supports: None, sentence: sentence.to_owned() });
+        let sentence = sentence.to_owned();
+        let is_interrupted = is_interrupted.get();
+        return Ok(Range { title, model, supports: None, is_interrupted, sentence });
     }
     let mut supports = Vec::with_capacity(model.supports.len());
     for (k, support) in model.supports.iter().enumerate() {
         let mut extremes = |along: Vector2<f64>| -> Result<[Extreme; 2], LimitError> {
+            if is_interrupted.get() {
+                return Ok([Extreme::Open; 2]);
+            }
             // The unknowns of the system are larger than the forces by the tensile strength.
             let (rows, beyond) = component(&model, &system, k, along);
             let opposite: Vec<f64> = rows.iter().map(|row| -row).collect();
@@ -67,7 +97,10 @@ pub fn ranges(scene: &Scene) -> Result<Range, LimitError> {
     }
     let sentence = "Reactions lie between the least and the largest that forces within friction allow; each limit is \
                     reached by some of them, not all at once.";
-    Ok(Range { title, model, supports: Some(supports), sentence: sentence.to_owned() })
+    let is_interrupted = is_interrupted.get();
+    let interrupted = if is_interrupted { "Interrupted. " } else { "" };
+    let sentence = format!("{interrupted}{sentence}");
+    Ok(Range { title, model, supports: Some(supports), is_interrupted, sentence })
 }
 
 /// The component of the reaction of a support as a linear function of the forces of all rows, and its value for the tensile
