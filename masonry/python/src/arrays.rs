@@ -15,39 +15,56 @@ pub(crate) enum Indices<'py> {
 }
 
 impl Indices<'_> {
-    /// The indices, each of which has to be at most `largest`.
-    fn checked(&self, what: &str, largest: usize) -> PyResult<Vec<usize>> {
-        let wrong = |value: i64| {
-            PyValueError::new_err(format!(
-                "{what} of the sparse matrix has {value}: it must be from 0 to {largest}"
-            ))
-        };
-        let checked = |value: i64| {
-            let index = usize::try_from(value).map_err(|_| wrong(value))?;
-            if index <= largest { Ok(index) } else { Err(wrong(value)) }
-        };
+    fn len(&self) -> usize {
         match self {
-            Self::Short(array) => array.as_array().iter().map(|v| checked(i64::from(*v))).collect(),
-            Self::Long(array) => array.as_array().iter().map(|v| checked(*v)).collect(),
+            Self::Short(array) => array.len(),
+            Self::Long(array) => array.len(),
         }
     }
+
+    fn iter(&self) -> Box<dyn Iterator<Item = i64> + '_> {
+        match self {
+            Self::Short(array) => Box::new(array.as_array().into_iter().map(|it| i64::from(*it))),
+            Self::Long(array) => Box::new(array.as_array().into_iter().copied()),
+        }
+    }
+
+    /// The indices, each of which has to be at most `largest`.
+    fn checked(&self, what: &str, largest: usize) -> PyResult<Vec<usize>> {
+        self.iter().map(|value| checked(what, value, largest)).collect()
+    }
+}
+
+/// An index that is at most `largest`.
+fn checked(what: &str, value: i64, largest: usize) -> PyResult<usize> {
+    let index = usize::try_from(value).ok().filter(|index| *index <= largest);
+    index.ok_or_else(|| {
+        PyValueError::new_err(format!(
+            "{what} of the sparse matrix has {value}: it must be from 0 to {largest}"
+        ))
+    })
 }
 
 /// A matrix as Python gives it.
 #[derive(FromPyObject)]
 pub(crate) enum GivenMatrix<'py> {
     Dense(PyReadonlyArray2<'py, f64>),
-    /// Compressed columns.
-    Sparse {
-        #[pyo3(item)]
-        shape: [usize; 2],
-        #[pyo3(item)]
-        starts: Indices<'py>,
-        #[pyo3(item)]
-        rows: Indices<'py>,
-        #[pyo3(item)]
-        values: PyReadonlyArray1<'py, f64>,
-    },
+    Sparse(Compressed<'py>),
+}
+
+/// Compressed rows or columns.
+#[derive(FromPyObject)]
+pub(crate) struct Compressed<'py> {
+    #[pyo3(item)]
+    shape: [usize; 2],
+    #[pyo3(item)]
+    by_rows: bool,
+    #[pyo3(item)]
+    starts: Indices<'py>,
+    #[pyo3(item)]
+    indices: Indices<'py>,
+    #[pyo3(item)]
+    values: PyReadonlyArray1<'py, f64>,
 }
 
 impl GivenMatrix<'_> {
@@ -55,29 +72,71 @@ impl GivenMatrix<'_> {
     pub(crate) fn matrix(&self) -> PyResult<Matrix> {
         match self {
             Self::Dense(array) => Ok(dense(array).into()),
-            Self::Sparse { shape: [rows, columns], starts, rows: indices, values } => {
-                let values = values.as_array().to_vec();
-                let starts = starts.checked("indptr", values.len())?;
-                let indices = indices.checked("indices", rows.saturating_sub(1))?;
-                let is_whole = starts.len() == columns + 1
-                    && starts.first() == Some(&0)
-                    && starts.last() == Some(&values.len())
-                    && indices.len() == values.len();
-                let is_sorted = |ends: &[usize]| {
-                    ends[0] <= ends[1] && indices[ends[0]..ends[1]].is_sorted_by(|a, b| a < b)
-                };
-                if !is_whole || !starts.windows(2).all(is_sorted) {
-                    return Err(PyValueError::new_err(
-                        "the sparse matrix is not one of compressed columns with sorted rows: call tocsc() and \
-                         sum_duplicates()",
-                    ));
-                }
-                let pattern =
-                    SymbolicSparseColMat::new_checked(*rows, *columns, starts, None, indices);
-                Ok(SparseColMat::new(pattern, values).into())
-            }
+            Self::Sparse(given) => given.matrix(),
         }
     }
+}
+
+impl Compressed<'_> {
+    fn matrix(&self) -> PyResult<Matrix> {
+        let [rows, columns] = self.shape;
+        let (count, length) = if self.by_rows { (rows, columns) } else { (columns, rows) };
+        let starts = self.starts.checked("indptr", self.values.len())?;
+        let has_all = self.indices.len() == self.values.len();
+        let is_whole = has_all
+            && starts.len() == count + 1
+            && starts.first() == Some(&0)
+            && starts.last() == Some(&self.values.len())
+            && starts.is_sorted();
+        if !is_whole {
+            return Err(not_canonical());
+        }
+        let (starts, indices, values) = if self.by_rows {
+            self.turned(&starts, length)?
+        } else {
+            let indices = self.indices.checked("indices", length.saturating_sub(1))?;
+            (starts, indices, self.values.as_array().to_vec())
+        };
+        let is_sorted = |ends: &[usize]| indices[ends[0]..ends[1]].is_sorted_by(|a, b| a < b);
+        if !starts.windows(2).all(is_sorted) {
+            return Err(not_canonical());
+        }
+        let pattern = SymbolicSparseColMat::new_checked(rows, columns, starts, None, indices);
+        Ok(SparseColMat::new(pattern, values).into())
+    }
+
+    /// The compressed columns of compressed rows: starts, rows and values.
+    fn turned(
+        &self,
+        starts: &[usize],
+        columns: usize,
+    ) -> PyResult<(Vec<usize>, Vec<usize>, Vec<f64>)> {
+        let largest = columns.saturating_sub(1);
+        let mut ends = vec![0; columns + 1];
+        for column in self.indices.iter() {
+            ends[checked("indices", column, largest)? + 1] += 1;
+        }
+        for column in 0..columns {
+            ends[column + 1] += ends[column];
+        }
+        let mut places = ends.clone();
+        let (mut rows, mut values) = (vec![0; self.values.len()], vec![0.0; self.values.len()]);
+        let mut entries = self.indices.iter().zip(self.values.as_array());
+        for (row, bounds) in starts.windows(2).enumerate() {
+            for (column, value) in entries.by_ref().take(bounds[1] - bounds[0]) {
+                let place = &mut places[checked("indices", column, largest)?];
+                (rows[*place], values[*place]) = (row, *value);
+                *place += 1;
+            }
+        }
+        Ok((ends, rows, values))
+    }
+}
+
+fn not_canonical() -> PyErr {
+    PyValueError::new_err(
+        "the sparse matrix is not one of compressed columns or rows without duplicates: call tocsc() and sum_duplicates()",
+    )
 }
 
 fn dense(array: &PyReadonlyArray2<'_, f64>) -> Mat<f64> {
@@ -113,7 +172,10 @@ fn from_rows(values: &[f64], rows: usize, columns: usize) -> Mat<f64> {
 /// Rows and columns of a tile. Theory: the lines of the cache that a tile touches fit into its first level.
 const TILE: usize = 32;
 
+/// A vector as Python gives it.
+pub(crate) type GivenVector<'py> = PyReadonlyArray1<'py, f64>;
+
 /// A vector of numpy, copied.
-pub(crate) fn vector(array: &PyReadonlyArray1<'_, f64>) -> Vec<f64> {
+pub(crate) fn vector(array: &GivenVector<'_>) -> Vec<f64> {
     array.as_array().to_vec()
 }

@@ -1,11 +1,16 @@
-//! The native half of the Python package `lcp`: problems from arrays, solves without the interpreter's lock, and answers as
-//! arrays. What a user sees is in `python/lcp`.
+//! The native half of the Python packages `lcp` and `masonry`: problems from arrays and scenes from keys, solves without the
+//! interpreter's lock, and answers as arrays. What a user sees is in `python/lcp` and `python/masonry`.
 
 mod answer;
 mod arrays;
+mod contact;
+mod drawings;
 mod forms;
+mod found;
+mod many;
 mod options;
-mod walls;
+mod outcome;
+mod scene;
 mod watch;
 
 use pyo3::prelude::*;
@@ -16,12 +21,17 @@ mod _native {
     #[pymodule_export]
     use crate::answer::Answer;
     #[pymodule_export]
-    use crate::forms::Sequence;
+    use crate::contact::Contact;
     #[pymodule_export]
-    use crate::forms::{
-        solve_boxed, solve_contact, solve_horizontal, solve_many, solve_mixed, solve_program,
-        solve_standard,
-    };
+    use crate::drawings::{Imported, import_drawing};
     #[pymodule_export]
-    use crate::walls::{Found, Outcome, PyScene, SceneError};
+    use crate::forms::{solve_boxed, solve_horizontal, solve_mixed, solve_program, solve_standard};
+    #[pymodule_export]
+    use crate::found::{Found, Studied};
+    #[pymodule_export]
+    use crate::many::{Sequence, solve_many};
+    #[pymodule_export]
+    use crate::outcome::{Mesh, Outcome};
+    #[pymodule_export]
+    use crate::scene::{PyScene, SceneError};
 }

@@ -5,7 +5,7 @@ use std::time::Duration;
 use lcp::{
     Auto, AutoSettings, Enumeration, InteriorPoint, InteriorPointSettings, Lemke, LemkeSettings,
     Method, ProjectedGaussSeidel, ProjectedGaussSeidelSettings, QuadraticProgram,
-    QuadraticProgramSettings, SemismoothNewton, SemismoothNewtonSettings,
+    QuadraticProgramSettings, SemismoothNewton, SemismoothNewtonSettings, WarmStart,
 };
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -25,11 +25,36 @@ pub(crate) struct Options {
     pub(crate) callback: Option<Py<PyAny>>,
 }
 
+/// Solves by the method of the options, one of those that treat the problem; the names are these and those that treat all problems.
+macro_rules! by_method {
+    ($py:expr, $options:expr, $start:expr, $problem:expr, $($method:ident => $solver:ident),*) => {{
+        let callback = $options.callback.as_ref();
+        match $options.method()? {
+            Method::Auto => solve($py, &$options.auto($start)?, $problem, callback),
+            Method::Lemke => solve($py, &$options.lemke($start)?, $problem, callback),
+            Method::Enumeration => solve($py, &$options.enumeration()?, $problem, callback),
+            $(Method::$method => solve($py, &$options.$solver($start)?, $problem, callback),)*
+            other => Err($crate::options::untreated(other, &[$(Method::$method),*])),
+        }
+    }};
+}
+pub(crate) use by_method;
+
+/// A method that does not treat the form of a problem, and those that do.
+pub(crate) fn untreated(method: Method, others: &[Method]) -> PyErr {
+    let all = [Method::Auto, Method::Lemke, Method::Enumeration];
+    let names: Vec<&str> = all.iter().chain(others).map(|method| method.name()).collect();
+    let (name, names) = (method.name(), names.join(", "));
+    PyValueError::new_err(format!(
+        "method {name:?} does not treat this form: choose one of {names}"
+    ))
+}
+
 /// The settings of a method that iterates, from its defaults and the options.
 macro_rules! iterative {
     ($name:ident, $method:ident, $settings:ident) => {
-        pub(crate) fn $name(&self) -> PyResult<$method> {
-            let mut settings = $settings::default();
+        pub(crate) fn $name(&self, start: WarmStart) -> PyResult<$method> {
+            let mut settings = $settings { start, ..$settings::default() };
             settings.tolerance = self.tol.unwrap_or(settings.tolerance);
             settings.max_iterations = self.max_iterations.unwrap_or(settings.max_iterations);
             settings.time_limit = self.time()?;
@@ -50,15 +75,17 @@ impl Options {
         })
     }
 
-    pub(crate) fn auto(&self) -> PyResult<Auto> {
+    pub(crate) fn auto(&self, start: WarmStart) -> PyResult<Auto> {
         self.without_iterations()?;
-        let mut settings = AutoSettings { time_limit: self.time()?, ..AutoSettings::default() };
+        let time_limit = self.time()?;
+        let mut settings = AutoSettings { time_limit, start, ..AutoSettings::default() };
         settings.tolerance = self.tol.unwrap_or(settings.tolerance);
         Ok(Auto::new(settings))
     }
 
-    pub(crate) fn lemke(&self) -> PyResult<Lemke> {
-        let mut settings = LemkeSettings { time_limit: self.time()?, ..LemkeSettings::default() };
+    pub(crate) fn lemke(&self, start: WarmStart) -> PyResult<Lemke> {
+        let time_limit = self.time()?;
+        let mut settings = LemkeSettings { time_limit, start, ..LemkeSettings::default() };
         settings.tolerance = self.tol.unwrap_or(settings.tolerance);
         settings.max_pivots = self.max_iterations;
         Ok(Lemke::new(settings))

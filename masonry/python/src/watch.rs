@@ -1,14 +1,16 @@
 //! Solves that the interpreter's lock does not wait for, and that a callback and Ctrl-C may end.
 
 use std::ops::ControlFlow;
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::time::{Duration, Instant};
 
 use lcp::{Error, Iteration, Solution, Solver};
-use pyo3::exceptions::PyValueError;
+use pyo3::call::PyCallArgs;
+use pyo3::exceptions::{PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
 
 /// How long signals may wait. Chosen: a person does not notice it, and the lock is hardly taken.
-const PATIENCE: Duration = Duration::from_millis(50);
+pub(crate) const PATIENCE: Duration = Duration::from_millis(50);
 
 /// An observer that asks a callback, and the signals of the process, whether to go on. It is used with the lock released.
 pub(crate) struct Watch<'a> {
@@ -22,13 +24,16 @@ impl<'a> Watch<'a> {
         Self { callback, looked: Instant::now(), raised: None }
     }
 
-    /// Asks at an iteration with a residual. An exception of the callback or of a signal ends the work.
-    pub(crate) fn ask(&mut self, iteration: usize, residual: f64) -> ControlFlow<()> {
+    /// Asks with the arguments of the callback. An exception of the callback or of a signal ends the work.
+    pub(crate) fn ask(&mut self, told: impl for<'py> PyCallArgs<'py>) -> ControlFlow<()> {
+        if self.raised.is_some() {
+            return ControlFlow::Break(());
+        }
         if self.callback.is_none() && self.looked.elapsed() < PATIENCE {
             return ControlFlow::Continue(());
         }
         self.looked = Instant::now();
-        match Python::attach(|py| self.asked(py, iteration, residual)) {
+        match Python::attach(|py| self.asked(py, told)) {
             Ok(false) => ControlFlow::Continue(()),
             Ok(true) => ControlFlow::Break(()),
             Err(error) => {
@@ -38,11 +43,16 @@ impl<'a> Watch<'a> {
         }
     }
 
+    /// Asks at an iteration of a solver.
+    pub(crate) fn at(&mut self, at: &Iteration) -> ControlFlow<()> {
+        self.ask((at.iteration, at.residual))
+    }
+
     /// Whether the callback asks for an end, by returning something true.
-    fn asked(&self, py: Python<'_>, iteration: usize, residual: f64) -> PyResult<bool> {
+    fn asked(&self, py: Python<'_>, told: impl for<'py> PyCallArgs<'py>) -> PyResult<bool> {
         py.check_signals()?;
         match self.callback {
-            Some(callback) => callback.call1(py, (iteration, residual))?.bind(py).is_truthy(),
+            Some(callback) => callback.call1(py, told)?.bind(py).is_truthy(),
             None => Ok(false),
         }
     }
@@ -53,7 +63,17 @@ impl<'a> Watch<'a> {
     }
 }
 
-/// The solution of a problem, with the lock released.
+/// The result of work with the lock released. A panic is a fault of the library, which Python hears of by an exception that it can
+/// handle.
+pub(crate) fn detached<T: Send>(py: Python<'_>, work: impl FnOnce() -> T + Send) -> PyResult<T> {
+    py.detach(|| catch_unwind(AssertUnwindSafe(work)).ok()).ok_or_else(|| {
+        PyRuntimeError::new_err(
+            "a fault of the library, told on standard error: please report it with the data that led to it",
+        )
+    })
+}
+
+/// The solution of a problem.
 pub(crate) fn solve<P: Sync>(
     py: Python<'_>,
     solver: &(impl Solver<P> + Sync),
@@ -64,10 +84,7 @@ where
     Solution<P>: Send,
 {
     let mut watch = Watch::new(callback);
-    let solution = py.detach(|| {
-        let observer = &mut |at: &Iteration| watch.ask(at.iteration, at.residual);
-        solver.solve_observed(problem, observer)
-    });
+    let solution = detached(py, || solver.solve_observed(problem, &mut |at| watch.at(at)))?;
     watch.finish()?;
     solution.map_err(|error| refused(&error))
 }

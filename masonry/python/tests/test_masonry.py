@@ -118,27 +118,7 @@ def test_keys_change_and_scenes_are_copied():
     assert pickle.loads(pickle.dumps(other)).solve().verdict == "falls"
 
 
-@pytest.mark.parametrize(
-    ("make", "message"),
-    [
-        (lambda: block(thicknes=1), "thicknes"),
-        (lambda: block(gravity=[0]), "gravity"),
-        (lambda: masonry.Scene.read("no.toml"), "no.toml"),
-        (lambda: block(joints={"floor": {"mu": -1}}), "mu"),
-        (lambda: block().limit("wind"), "wind"),
-        (lambda: block().least_thickness("arch"), "arch"),
-    ],
-)
-def test_mistakes_name_the_place(make, message):
-    with pytest.raises(masonry.SceneError, match=message):
-        make()
-
-
-def test_options_that_are_wrong():
-    with pytest.raises(ValueError, match="associative, path, both"):
-        block().limit(law="plastic")
-    with pytest.raises(ValueError, match="choose one of"):
-        block().solve().plot("video")
+def test_a_path_that_leads_nowhere_is_a_wrong_key():
     with pytest.raises(KeyError):
         block()["joints.roof.mu"]
 

@@ -13,20 +13,22 @@ Matrix = NDArray[np.float64] | dict[str, Any]
 
 
 def matrix(given: Any) -> Matrix:
-    """Give a matrix as an array of floats, or a sparse one of scipy by its compressed columns."""
+    """Give a matrix as an array of floats, or a sparse one of scipy by its compressed columns or rows."""
     if type(given) is np.ndarray and given.dtype == np.float64 and given.ndim == 2:
         return given
     if hasattr(given, "tocsc"):
-        columns = given.tocsc()
-        if not columns.has_canonical_format:
+        # The native half takes rows as well, so that they need no copy here.
+        compressed = given if given.format in ("csc", "csr") else given.tocsc()
+        if not compressed.has_canonical_format:
             # sum_duplicates works in place, and the matrix may be the caller's.
-            columns = columns.copy() if columns is given else columns
-            columns.sum_duplicates()
+            compressed = compressed.copy() if compressed is given else compressed
+            compressed.sum_duplicates()
         return {
-            "shape": list(columns.shape),
-            "starts": columns.indptr,
-            "rows": columns.indices,
-            "values": np.asarray(columns.data, dtype=np.float64),
+            "shape": list(compressed.shape),
+            "by_rows": compressed.format == "csr",
+            "starts": compressed.indptr,
+            "indices": compressed.indices,
+            "values": np.asarray(compressed.data, dtype=np.float64),
         }
     dense = np.asarray(given, dtype=np.float64)
     if dense.ndim != 2:

@@ -22,10 +22,13 @@ class Contact2d:
     A gap opens by ``C_n u``, and a point slips by ``C_t u``; normal forces are not negative, and tangential ones at most ``mu``
     times as large, against the slip.
 
+    A solve begins with the states of the contacts in the solution before, which saves most of the work if few of them change.
+    Forces and slips that are not unique may depend on these states: :meth:`forget` begins anew.
+
     Parameters
     ----------
     K : array_like or sparse matrix
-        Symmetric positive semidefinite, one row for every displacement.
+        Symmetric positive semidefinite, one row for every displacement. It is read at the first solve, and not again.
     f : array_like
         Loads.
 
@@ -45,6 +48,8 @@ class Contact2d:
 
     def __init__(self, K: Any, f: ArrayLike) -> None:
         self._k = matrix(K)
+        self._native: _native.Contact | None = None
+        self._is_changed = False
         #: Loads, which may be changed between solves.
         self.f: NDArray[np.float64] = np.array(f, dtype=np.float64)
         self._rows: list[tuple[Row, Row]] = []
@@ -80,6 +85,7 @@ class Contact2d:
         """
         self._rows.append((dict(normal), dict(tangent)))
         self._data.append((gap, slip, mu, *compliance))
+        self._is_changed = True
         return len(self._rows) - 1
 
     def set_point(self, number: int, **changed: float) -> None:
@@ -91,6 +97,12 @@ class Contact2d:
                 raise TypeError(f"a point has no {name}: it has {', '.join(names)}")
             values[names.index(name)] = value
         self._data[number] = tuple(values)  # type: ignore[assignment]
+        self._is_changed = True
+
+    def forget(self) -> None:
+        """Forget the states of the contacts in the solution before."""
+        if self._native is not None:
+            self._native.forget()
 
     def solve(
         self,
@@ -101,23 +113,34 @@ class Contact2d:
         max_iterations: int | None = None,
         callback: Callable[[int, float], Any] | None = None,
     ) -> ContactSolution:
-        """Solve with the present loads and points; parameters are those of :func:`lcp.solve`."""
+        """Solve with the present loads and points; parameters are those of :func:`lcp.solve`.
+
+        All methods except ``"enumeration"`` begin with the states of the contacts in the solution before.
+        """
+        settings = options(method, tol, time_limit, max_iterations, callback)
+        return ContactSolution(self._current().solve(vector(self.f), settings))
+
+    def _current(self) -> _native.Contact:
+        """Give the native problem with the present points."""
+        if self._native is None:
+            self._native = _native.Contact(self._k, vector(self.f), self._points())
+        elif self._is_changed:
+            self._native.renew(self._points())
+        self._is_changed = False
+        return self._native
+
+    def _points(self) -> dict[str, Any]:
+        """Give the points as the native half takes them."""
         data = np.array(self._data, dtype=np.float64).reshape(-1, 5)
         gap, slip, mu = (np.ascontiguousarray(data[:, k]) for k in range(3))
-        normal, tangent = (self._sparse(side) for side in (0, 1))
-        return ContactSolution(
-            _native.solve_contact(
-                self._k,
-                vector(self.f),
-                normal,
-                tangent,
-                gap,
-                slip,
-                mu,
-                np.ascontiguousarray(data[:, 3:]),
-                options(method, tol, time_limit, max_iterations, callback),
-            )
-        )
+        return {
+            "c_n": self._sparse(0),
+            "c_t": self._sparse(1),
+            "gap": gap,
+            "slip": slip,
+            "mu": mu,
+            "compliance": np.ascontiguousarray(data[:, 3:]),
+        }
 
     def _sparse(self, side: int) -> dict[str, Any]:
         """Give the rows of all points by their columns."""
@@ -132,7 +155,8 @@ class Contact2d:
             raise ValueError(f"a contact point refers to a displacement that is not from 0 to {size - 1}")
         return {
             "shape": [len(self._rows), size],
+            "by_rows": False,
             "starts": np.searchsorted(columns, np.arange(size + 1)),
-            "rows": np.array([row for _, row, _ in entries], dtype=np.int64),
+            "indices": np.array([row for _, row, _ in entries], dtype=np.int64),
             "values": np.array([value for _, _, value in entries], dtype=np.float64),
         }

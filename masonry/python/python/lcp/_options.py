@@ -13,6 +13,8 @@ def options(
     callback: Any,
 ) -> dict[str, Any]:
     """Give the options as the native half takes them."""
+    if max_iterations is not None and max_iterations < 0:
+        raise ValueError(f"max_iterations is {max_iterations}, but must be a number of iterations, not negative")
     return {
         "method": method,
         "tol": tol,

@@ -159,10 +159,12 @@ class ContactSolution(Answer):
         Displacements.
     t_n, t_t : numpy.ndarray
         Normal and tangential forces of the contact points.
+    gap, slip : numpy.ndarray
+        Gaps and slips of the contact points.
     """
 
-    __slots__ = ("t_n", "t_t", "u")
+    __slots__ = ("gap", "slip", "t_n", "t_t", "u")
 
     def __init__(self, native: _native.Answer) -> None:
         super().__init__(native)
-        self.u, self.t_n, self.t_t = native.arrays
+        self.u, self.t_n, self.t_t, self.gap, self.slip = native.arrays

@@ -18,16 +18,32 @@
 >>> scene.solve().verdict
 'falls'
 
-``Scene`` is read from a file or a text, or made of keys; ``solve``, ``limit``, ``ranges`` and ``least_thickness`` are its methods, and
-:func:`map` takes many scenes. Results are in the units of the scene.
+``Scene`` is read from a file or a text, or made of keys; :func:`import_drawing` and :func:`from_compas` make scenes of drawings.
+``solve``, ``limit``, ``ranges``, ``least_thickness``, ``study`` and ``plan`` are methods of a scene, and :func:`map` takes many scenes.
+Results are in the units of the scene.
 """
 
 from __future__ import annotations
 
 from lcp._native import SceneError
 
+from ._drawings import Imported, from_compas, import_drawing
 from ._map import Done, map
-from ._results import Limit, Outcome
+from ._mesh import Mesh
+from ._results import Limit, Outcome, Plan, Study
 from ._scene import Scene
 
-__all__ = ["Done", "Limit", "Outcome", "Scene", "SceneError", "map"]
+__all__ = [
+    "Done",
+    "Imported",
+    "Limit",
+    "Mesh",
+    "Outcome",
+    "Plan",
+    "Scene",
+    "SceneError",
+    "Study",
+    "from_compas",
+    "import_drawing",
+    "map",
+]

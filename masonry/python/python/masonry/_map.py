@@ -1,4 +1,4 @@
-"""Many scenes on the cores of one machine."""
+"""Many scenes on all cores, or on the machines of a cluster."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from typing import Any
 
+from ._progress import bar
 from ._scene import Scene
 
 
@@ -23,14 +24,14 @@ class Done:
         The scene.
     result : object
         What the work gave; ``None`` if it raised an exception.
-    error : Exception or None
-        The exception.
+    error : BaseException or None
+        The exception of the work, or of the executor if that has lost it.
     """
 
     index: int
     scene: Scene
     result: Any
-    error: Exception | None
+    error: BaseException | None
 
 
 def map(
@@ -38,10 +39,14 @@ def map(
     what: Callable[[Scene], Any] = Scene.solve,
     *,
     workers: int | None = None,
+    executor: concurrent.futures.Executor | None = None,
+    progress: bool = False,
 ) -> Iterator[Done]:
     """Work on scenes on all cores, and give each as soon as it is done.
 
-    A scene that raises an exception does not stop the others. Solves release the lock of the interpreter, so that threads suffice.
+    A scene that raises an exception does not stop the others. Solves release the lock of the interpreter, so that threads suffice on
+    one machine. If the caller asks for no more, or after Ctrl-C, scenes that run go on to their end in the background, and no other
+    begins.
 
     Parameters
     ----------
@@ -51,6 +56,11 @@ def map(
         The work on a scene, by default :meth:`Scene.solve`.
     workers : int, optional
         Threads, by default one for each core.
+    executor : concurrent.futures.Executor, optional
+        What works in place of threads, such as the ``get_executor()`` of a client of dask. Results of other processes have to be
+        data: what ``what`` gives is then made of numbers, texts and arrays, not an :class:`Outcome`.
+    progress : bool
+        Show a bar, as :meth:`Scene.solve` does.
 
     Examples
     --------
@@ -70,17 +80,22 @@ def map(
     [2.0, 4.0, 6.0]
     """
 
-    def work(index: int, scene: Scene) -> Done:
-        try:
-            return Done(index, scene, what(scene), None)
-        except Exception as error:  # Whatever it is, the others go on.
-            return Done(index, scene, None, error)
-
-    with concurrent.futures.ThreadPoolExecutor(workers or os.cpu_count()) as pool:
-        waiting = [pool.submit(work, index, scene) for index, scene in enumerate(scenes)]
-        try:
-            for future in concurrent.futures.as_completed(waiting):
-                yield future.result()
-        finally:
-            for future in waiting:
-                future.cancel()
+    given = list(scenes)
+    pool = executor or concurrent.futures.ThreadPoolExecutor(workers or os.cpu_count())
+    waiting = {pool.submit(what, scene): index for index, scene in enumerate(given)}
+    try:
+        with bar(progress, "scenes", len(given)) as shown:
+            for count, future in enumerate(concurrent.futures.as_completed(waiting), 1):
+                # What is done is forgotten here, so that its memory is the caller's.
+                index = waiting.pop(future)
+                if shown is not None:
+                    shown.at(count)
+                error = future.exception()
+                result = None if error is not None else future.result()
+                yield Done(index, given[index], result, error)
+    finally:
+        for future in waiting:
+            future.cancel()
+        # After Ctrl-C nobody waits for the scenes that run.
+        if executor is None:
+            pool.shutdown(wait=False)

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import csv
-import io
 import json
 import os
 from typing import Any
@@ -12,6 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lcp import _native
+
+from ._mesh import Mesh
+from ._tables import gathered, records, table
 
 _COLOURS = {"stands": "#1a7f37", "falls": "#b3261e", "undecided": "#8a6100"}
 
@@ -46,12 +47,14 @@ class Outcome:
     @property
     def contacts(self) -> NDArray[np.void] | None:
         """Contact points with gaps, slips, forces and states, a record for each."""
-        return _table(self._native.contacts())
+        text = self._native.contacts()
+        return None if text is None else table(text)
 
     @property
     def history(self) -> NDArray[np.void] | None:
         """Steps of the load history, a record for each."""
-        return _table(self._native.history())
+        text = self._native.history()
+        return None if text is None else table(text)
 
     @property
     def blocks(self) -> list[tuple[str, NDArray[np.float64]]]:
@@ -62,14 +65,20 @@ class Outcome:
     def nodes(self) -> NDArray[np.void] | None:
         """Nodes of elastic blocks, and corners of rigid ones, with their displacements."""
         names = [("block", int), *((name, float) for name in ("x", "y", "ux", "uy"))]
-        return _records(self._native.nodes(), names)
+        rows = self._native.nodes()
+        return None if rows is None else records(rows, names)
 
     @property
     def stresses(self) -> NDArray[np.void] | None:
         """Stresses at the centres of elements; tension is positive."""
         numbers = ("x", "y", "sx", "sy", "txy", "s1", "s2", "theta")
         names = [("block", int), ("element", int), *((name, float) for name in numbers)]
-        return _records(self._native.stresses(), names)
+        rows = self._native.stresses()
+        return None if rows is None else records(rows, names)
+
+    def mesh(self) -> Mesh:
+        """Give blocks and elements with displacements and stresses, for meshio and pyvista."""
+        return Mesh._of(self._native.mesh())
 
     def plot(self, picture: str = "forces") -> str | None:
         """Draw a picture as SVG.
@@ -107,6 +116,80 @@ class Outcome:
         return f'<p style="color: {colour}; font-weight: bold">{_escaped(self.sentence)}</p>{figure}'
 
 
+class Plan:
+    """What a scene needs before it is solved.
+
+    Attributes
+    ----------
+    details : dict
+        Effects and why they are on or off, numbers of blocks, nodes, joints and unknowns, the routes in the order in which they
+        are tried, each with its reason and its memory in bytes, and why the scene is refused, if it is.
+    """
+
+    def __init__(self, native: _native.Found) -> None:
+        self._text = native.text
+        self.details: dict[str, Any] = json.loads(native.json)
+
+    @property
+    def is_refused(self) -> bool:
+        """Whether the scene is too large for this machine."""
+        return self.details["refused"] is not None
+
+    def report(self) -> str:
+        """Give the plan as text."""
+        return self._text
+
+    def __str__(self) -> str:
+        return self._text
+
+    def __repr__(self) -> str:
+        names = "blocks", "joints", "contact_points", "order"
+        numbers = ", ".join(f"{name} {self.details[name]}" for name in names)
+        return f"<Plan: {numbers}, by {self.details['solver']}>"
+
+
+class Study:
+    """What accuracy costs: a scene by several routes, to several tolerances, on several meshes.
+
+    Attributes
+    ----------
+    records : numpy.ndarray
+        A record for each mesh, route and tolerance: status, residual, time in seconds, iterations, and the errors of forces,
+        stresses and energy relative to the most accurate solution on the same mesh.
+    meshes : numpy.ndarray
+        A record for each mesh: numbers of blocks, elements and contact points, values of its most accurate solution in the units
+        of the scene, and their errors relative to those of the finest mesh.
+    details : dict
+        Everything that ``study.json`` has.
+    """
+
+    def __init__(self, native: _native.Studied) -> None:
+        self._native = native
+        self.details: dict[str, Any] = json.loads(native.json())
+        self.records: NDArray[np.void] = table(native.records())
+        self.meshes: NDArray[np.void] = _meshes(self.details["meshes"])
+
+    @property
+    def is_interrupted(self) -> bool:
+        """Whether the callback has ended it, so that solves were skipped."""
+        return bool(self.details["interrupted"])
+
+    def report(self) -> str:
+        """Give the tables as text."""
+        return self._native.report()
+
+    def plot(self) -> str | None:
+        """Draw residuals and errors over time as SVG; ``None`` if nothing was solved."""
+        return self._native.picture()
+
+    def __repr__(self) -> str:
+        solved = int((self.records["status"] == "Solved").sum())
+        return f"<Study: {solved} of {len(self.records)} solved>"
+
+    def _repr_html_(self) -> str:
+        return self.plot() or f"<pre>{_escaped(self.report())}</pre>"
+
+
 class Limit:
     """What an analysis of limits has found.
 
@@ -137,41 +220,24 @@ class Limit:
         return f"<Limit: {self.sentence or self.report().splitlines()[0]}>"
 
 
+def _meshes(meshes: list[dict[str, Any]]) -> NDArray[np.void]:
+    """Give meshes as records; what is not known is not a number."""
+
+    def values(of: str, name: str, place: int | None = None) -> NDArray[np.float64]:
+        found = [(it[of] or {}).get(name) for it in meshes]
+        found = [it if place is None or it is None else it[place] for it in found]
+        return np.array([np.nan if it is None else it for it in found], dtype=np.float64)
+
+    names = ("factor", "blocks", "elements", "contact_points")
+    columns: dict[str, NDArray[Any]] = {
+        name: np.array([it[name] for it in meshes], dtype=np.int64) for name in names
+    }
+    columns.update({name: values("values", name) for name in ("strain_energy", "thrust")})
+    columns.update({name: values("values", "displacement", k) for k, name in enumerate(("ux", "uy"))})
+    errors = ("energy", "thrust", "displacement")
+    columns.update({f"error_{name}": values("errors", name) for name in errors})
+    return gathered(columns, len(meshes))
+
+
 def _escaped(text: str) -> str:
     return text.replace("&", "&amp;").replace("<", "&lt;").replace(">", "&gt;")
-
-
-def _table(text: str | None) -> NDArray[np.void] | None:
-    """Give a CSV table as records, whose fields are its columns."""
-    if text is None:
-        return None
-    names, *rows = csv.reader(io.StringIO(text))
-    columns = [_column(name, [row[place] for row in rows]) for place, name in enumerate(names)]
-    records = np.empty(len(rows), dtype=[(name, it.dtype) for name, it in zip(names, columns)])
-    for name, column in zip(names, columns):
-        records[name] = column
-    return records
-
-
-#: Columns that are text, whatever it looks like, and those of whole numbers.
-_TEXTS = {"class", "a", "b", "status", "stage", "way", "route"}
-_NUMBERS = {"index", "joint", "step", "factorisations", "open", "stick", "slip"}
-
-
-def _column(name: str, values: list[str]) -> NDArray[Any]:
-    if name in _TEXTS:
-        return np.array(values, dtype=str)
-    if name in _NUMBERS:
-        return np.array(values, dtype=np.int64)
-    return np.array([float(value) if value else np.nan for value in values])
-
-
-def _records(
-    rows: NDArray[np.float64] | None, names: list[tuple[str, type]]
-) -> NDArray[np.void] | None:
-    if rows is None:
-        return None
-    records = np.empty(len(rows), dtype=names)
-    for column, (name, _) in enumerate(names):
-        records[name] = rows[:, column]
-    return records

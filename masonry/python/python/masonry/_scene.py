@@ -4,15 +4,19 @@ from __future__ import annotations
 
 import copy
 import json
+import math
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from typing import Any
 
 from lcp import _native
 
-from ._results import Limit, Outcome
+from ._progress import Bar, bar
+from ._results import Limit, Outcome, Plan, Study
 
 Callback = Callable[[int, float], Any]
+#: Tables and lists in each other: a co-ordinate of a block is in five of them.
+_DEPTH = 8
 
 
 class Scene:
@@ -65,7 +69,10 @@ class Scene:
         """
         text = os.fspath(source)
         is_text = "\n" in text
-        native = _native.Scene.from_toml(text) if is_text else _native.Scene.read(text)
+        return cls._of(_native.Scene.from_toml(text) if is_text else _native.Scene.read(text))
+
+    @classmethod
+    def _of(cls, native: _native.Scene) -> Scene:
         scene = cls.__new__(cls)
         scene._native = native
         scene._keys = json.loads(native.to_json(), object_hook=_given)
@@ -112,9 +119,9 @@ class Scene:
         """Give the text of a scene file."""
         return self._checked().to_toml()
 
-    def plan(self) -> str:
+    def plan(self) -> Plan:
         """Say what the scene needs: effects, unknowns, memory, and the method."""
-        return self._checked().plan()
+        return Plan(self._checked().plan())
 
     def plot(self) -> str:
         """Draw blocks, supports, loads and contact points as SVG."""
@@ -123,15 +130,38 @@ class Scene:
     def _repr_html_(self) -> str:
         return self.plot()
 
-    def solve(self, *, callback: Callback | None = None) -> Outcome:
+    def solve(self, *, callback: Callback | None = None, progress: bool = False) -> Outcome:
         """Solve the scene.
 
         Parameters
         ----------
         callback : callable, optional
             Called with the number of the iteration and the residual; something true that it returns ends the solve.
+        progress : bool
+            Show a bar: the steps of a load history, or else the iterations. It is one of tqdm if that is installed, or else a line
+            on standard error.
         """
-        return Outcome(self._checked().solve(callback))
+        native = self._checked()
+        with bar(progress, "solve") as shown:
+            if shown is None:
+                return Outcome(native.solve(callback))
+            steps = 1
+
+            def step(number: int, of: int) -> None:
+                nonlocal steps
+                steps = of
+                if steps > 1:
+                    shown.at(number - 1, total=of)
+
+            def iteration(number: int, residual: float) -> Any:
+                if steps == 1:
+                    shown.at(number, f"residual {residual:.1e}")
+                return callback and callback(number, residual)
+
+            outcome = Outcome(native.solve(iteration, step))
+            if steps > 1:
+                shown.at(steps)
+            return outcome
 
     def limit(
         self,
@@ -140,6 +170,7 @@ class Scene:
         law: str = "both",
         both: bool = False,
         callback: Callback | None = None,
+        progress: bool = False,
     ) -> Limit:
         """Find the factor of a load at which the structure fails.
 
@@ -153,16 +184,114 @@ class Scene:
             Also take the opposite direction.
         callback : callable, optional
             Called with a number and the largest factor that was found to stand; something true that it returns ends the search.
+        progress : bool
+            Show a bar, as :meth:`solve` does.
         """
-        return Limit(self._checked().limit(group, law, both, callback))
+        with bar(progress, "limit") as shown:
+            told = _told(callback, shown, "stands at")
+            return Limit(self._checked().limit(group, law, both, told))
 
-    def ranges(self) -> Limit:
-        """Find the least and the largest reactions that forces within friction allow."""
-        return Limit(self._checked().ranges())
+    def ranges(self, *, callback: Callback | None = None, progress: bool = False) -> Limit:
+        """Find the least and the largest reactions that forces within friction allow.
 
-    def least_thickness(self, arch: str) -> Limit:
-        """Find the least thickness of an arch under the loads of the scene."""
-        return Limit(self._checked().least_thickness(arch))
+        Parameters
+        ----------
+        callback : callable, optional
+            Called with the number of the iteration and the residual; something true that it returns ends the search.
+        progress : bool
+            Show a bar, as :meth:`solve` does.
+        """
+        with bar(progress, "ranges") as shown:
+            told = _told(callback, shown, "residual")
+            return Limit(self._checked().ranges(told))
+
+    def least_thickness(
+        self, arch: str, *, callback: Callback | None = None, progress: bool = False
+    ) -> Limit:
+        """Find the least thickness of an arch under the loads of the scene.
+
+        Parameters
+        ----------
+        arch : str
+            Its name.
+        callback : callable, optional
+            Called with a number and the smallest thickness that was found to stand; something true that it returns ends the search.
+        progress : bool
+            Show a bar, as :meth:`solve` does.
+        """
+        with bar(progress, "least thickness") as shown:
+            told = _told(callback, shown, "stands at")
+            return Limit(self._checked().least_thickness(arch, told))
+
+    def study(
+        self,
+        *,
+        routes: Iterable[str] | None = None,
+        tolerances: Iterable[float] | None = None,
+        meshes: Iterable[int] | None = None,
+        time_limit: float | None = None,
+        repeats: int | None = None,
+        callback: Callable[[int, str, float], Any] | None = None,
+        progress: bool = False,
+    ) -> Study:
+        """Find what accuracy costs.
+
+        Parameters
+        ----------
+        routes : iterable of str, optional
+            ``"forces"``, ``"lemke"``, ``"interior"``, ``"qp"``, ``"pgs"``, ``"alm"``; all except the first if left out.
+        tolerances : iterable of float, optional
+            Largest residuals, from ``1e-2`` to ``1e-12`` if left out.
+        meshes : iterable of int, optional
+            Factors of the numbers of elements in each direction, 1, 2 and 4 if left out; scenes of rigid blocks are studied as they
+            are.
+        time_limit : float, optional
+            Seconds of a solve, 20 if left out.
+        repeats : int, optional
+            How often a solve of less than a second is run, 3 if left out; its time is the median.
+        callback : callable, optional
+            Called with the factor of the mesh, the route and the tolerance of the solve that runs, many times in each; something
+            true that it returns ends the study.
+        progress : bool
+            Show a bar, as :meth:`solve` does.
+
+        Examples
+        --------
+        >>> import masonry
+        >>> scene = Scene(
+        ...     thickness=0.1, plane="stress", units={"length": "m", "force": "kN"},
+        ...     materials={"brick": {"E": 1e6, "nu": 0.2}},
+        ...     joints={"bed": {"mu": 0.6}, "head": {"mu": 0.6}},
+        ...     walls=[{"name": "wall", "material": "brick", "width": 0.4, "courses": 2, "origin": [0, 0],
+        ...             "brick": {"length": 0.2, "height": 0.1}, "mesh": [1, 1]}],
+        ...     supports=[{"name": "floor", "from": [0, 0], "to": [0.4, 0], "joint": "bed"}],
+        ...     loads=[{"name": "top", "from": [0, 0.2], "to": [0.4, 0.2], "pressure": 10}],
+        ... )
+        >>> study = scene.study(routes=["lemke", "interior"], tolerances=[1e-8], meshes=[1, 2])
+        >>> study.records[["mesh", "route", "status"]].tolist()
+        [(1, 'lemke', 'Solved'), (1, 'interior', 'Solved'), (2, 'lemke', 'Solved'), (2, 'interior', 'Solved')]
+        >>> study.meshes["elements"].tolist()
+        [5, 16]
+        """
+        settings = {
+            "routes": _listed(routes),
+            "tolerances": _listed(tolerances),
+            "meshes": _listed(meshes),
+            "time_limit": time_limit,
+            "repeats": repeats,
+        }
+        native = self._checked()
+        with bar(progress, "study") as shown:
+            if shown is None:
+                return Study(native.study(settings, callback))
+            seen: set[tuple[int, str, float]] = set()
+
+            def solve(mesh: int, route: str, tolerance: float) -> Any:
+                seen.add((mesh, route, tolerance))
+                shown.at(len(seen), f"mesh {mesh}, {route}, {tolerance:g}")
+                return callback and callback(mesh, route, tolerance)
+
+            return Study(native.study(settings, solve))
 
     def _written(self) -> str:
         """Give the keys as JSON, arrays and numbers of numpy included."""
@@ -172,7 +301,10 @@ class Scene:
                 return value.tolist()
             raise TypeError(f"a scene has no values of type {type(value).__name__}")
 
-        return json.dumps(self._keys, default=plain)
+        try:
+            return json.dumps(self._keys, default=plain, allow_nan=False)
+        except (ValueError, RecursionError) as error:
+            raise _native.SceneError(_not_finite(self._keys) or str(error)) from None
 
     def _checked(self) -> _native.Scene:
         # Keys may have been changed in any way since the last check.
@@ -185,3 +317,37 @@ class Scene:
 def _given(table: dict[str, Any]) -> dict[str, Any]:
     """Leave out the keys without a value."""
     return {key: value for key, value in table.items() if value is not None}
+
+
+def _not_finite(keys: dict[str, Any]) -> str | None:
+    """Say which key has a number that is not finite, down to the depth that scenes have."""
+
+    def found(value: Any, path: str, depth: int) -> str | None:
+        if isinstance(value, float) and not math.isfinite(value):
+            return f"{path} is {value}: give a finite number"
+        members = value.tolist() if hasattr(value, "tolist") else value
+        parts: Iterable[tuple[Any, Any]] = ()
+        if isinstance(members, dict) and depth > 0:
+            parts = members.items()
+        elif isinstance(members, (list, tuple)) and depth > 0:
+            parts = enumerate(members)
+        inner = (found(it, f"{path}.{name}".lstrip("."), depth - 1) for name, it in parts)
+        return next((it for it in inner if it is not None), None)
+
+    return found(keys, "", _DEPTH)
+
+
+def _listed(given: Iterable[Any] | None) -> list[Any] | None:
+    return None if given is None else list(given)
+
+
+def _told(callback: Callback | None, shown: Bar | None, what: str) -> Callback | None:
+    """Give a callback that also moves a bar; none if there is neither."""
+    if shown is None:
+        return callback
+
+    def told(number: int, value: float) -> Any:
+        shown.at(number, "" if math.isnan(value) else f"{what} {value:.4g}")
+        return callback and callback(number, value)
+
+    return told

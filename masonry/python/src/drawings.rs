@@ -1,0 +1,115 @@
+//! Scenes from drawings.
+#![expect(clippy::needless_pass_by_value, reason = "functions own what they take from Python")]
+
+use masonry_drawing::{Drawing, Format, Unit};
+use masonry_import::{Joints, Options, import};
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+
+use crate::scene::{PyScene, SceneError, wrong};
+use crate::watch::detached;
+
+/// How a drawing becomes a scene; `None` is the default.
+#[derive(FromPyObject)]
+pub(crate) struct ImportOptions {
+    #[pyo3(item)]
+    title: String,
+    #[pyo3(item)]
+    unit: Option<String>,
+    #[pyo3(item)]
+    scale: f64,
+    #[pyo3(item)]
+    tolerance: Option<f64>,
+    #[pyo3(item)]
+    thickness: Option<f64>,
+    #[pyo3(item)]
+    joints: Option<String>,
+    #[pyo3(item)]
+    density: Option<f64>,
+    #[pyo3(item)]
+    mu: Option<f64>,
+    #[pyo3(item)]
+    ignore: Vec<String>,
+}
+
+impl ImportOptions {
+    fn options(self) -> PyResult<Options> {
+        let defaults = Options::default();
+        let unit = self.unit.map(|symbol| {
+            let names: Vec<&str> = Unit::ALL.iter().map(|unit| unit.symbol()).collect();
+            let unknown = || unknown("unit", &symbol, &names);
+            Unit::of_symbol(&symbol).ok_or_else(unknown)
+        });
+        let joints = self.joints.map(|name| match name.as_str() {
+            "mortar" => Ok(Joints::Mortar),
+            "close" => Ok(Joints::Close),
+            "open" => Ok(Joints::Open),
+            other => Err(unknown("joints", other, &["mortar", "close", "open"])),
+        });
+        Ok(Options {
+            title: self.title,
+            unit: unit.transpose()?,
+            scale: self.scale,
+            tolerance: self.tolerance,
+            thickness: self.thickness,
+            joints: joints.transpose()?,
+            density: self.density.unwrap_or(defaults.density),
+            mu: self.mu.unwrap_or(defaults.mu),
+            ignore: self.ignore,
+        })
+    }
+}
+
+fn unknown(option: &str, given: &str, known: &[&str]) -> PyErr {
+    let known = known.join(", ");
+    PyValueError::new_err(format!("{option} is {given:?}, but must be one of: {known}"))
+}
+
+/// A scene from a drawing.
+#[pyclass(frozen)]
+pub(crate) struct Imported {
+    imported: masonry_import::Imported,
+}
+
+#[pymethods]
+impl Imported {
+    fn scene(&self) -> PyScene {
+        PyScene { scene: self.imported.scene.clone() }
+    }
+
+    /// What was changed, left out and assumed.
+    fn report(&self) -> String {
+        self.imported.report()
+    }
+
+    /// The scene file, with the report and the places in the drawing as comments.
+    fn to_toml(&self) -> PyResult<String> {
+        self.imported.to_toml().map_err(wrong)
+    }
+
+    /// The drawing under the blocks, as SVG.
+    fn picture(&self) -> String {
+        self.imported.picture()
+    }
+}
+
+/// Makes a scene of the bytes of a drawing, in the format of a file with this name.
+#[pyfunction]
+pub(crate) fn import_drawing(
+    py: Python<'_>,
+    name: &str,
+    bytes: &[u8],
+    options: ImportOptions,
+) -> PyResult<Imported> {
+    let options = options.options()?;
+    let named = |error: &dyn std::fmt::Display| SceneError::new_err(format!("{name}: {error}"));
+    let ending = name.rsplit_once('.').map_or("", |(_, ending)| ending);
+    let format = Format::of_ending(ending).ok_or_else(|| {
+        named(&"drawings end in .dxf, .svg, .obj or .json: save it as one of these")
+    })?;
+    detached(py, || {
+        let drawing = Drawing::read(bytes, format).map_err(|error| named(&error))?;
+        let imported = import(&drawing, &options).map_err(|error| named(&error))?;
+        Ok(Imported { imported })
+    })?
+}

@@ -1,0 +1,73 @@
+//! What analyses have found: plans, limits, ranges, thicknesses, studies.
+
+use masonry::analysis::limit::Directions;
+use masonry::analysis::study::Study;
+use masonry::report::{self, page};
+use masonry::{Plan, Range, Thickness};
+use pyo3::prelude::*;
+
+use crate::scene::failed;
+
+/// What an analysis has found, as text, JSON and a page.
+#[pyclass(frozen, get_all)]
+pub(crate) struct Found {
+    text: String,
+    json: String,
+    page: Option<String>,
+}
+
+impl Found {
+    pub(crate) fn plan(plan: &Plan) -> PyResult<Self> {
+        let json = serde_json::to_string(plan).map_err(failed)?;
+        Ok(Self { text: report::table::plan(plan), json, page: None })
+    }
+
+    pub(crate) fn limit(limit: &masonry::Limit) -> PyResult<Self> {
+        let json = report::limit::json(limit, &[]).map_err(failed)?;
+        Ok(Self { text: report::limit::table(limit), json, page: Some(page::limit(limit)) })
+    }
+
+    pub(crate) fn directions(both: &Directions) -> PyResult<Self> {
+        let json = report::limit::json_both(both, &[]).map_err(failed)?;
+        let page = Some(page::limit(both.governing()));
+        Ok(Self { text: report::limit::table_both(both), json, page })
+    }
+
+    pub(crate) fn range(range: &Range) -> PyResult<Self> {
+        let json = report::limit::range_json(range).map_err(failed)?;
+        Ok(Self { text: report::limit::range_table(range), json, page: None })
+    }
+
+    pub(crate) fn thickness(thickness: &Thickness) -> PyResult<Self> {
+        let json = report::limit::thickness_json(thickness, &[]).map_err(failed)?;
+        let page = Some(page::thickness(thickness));
+        Ok(Self { text: report::limit::thickness_table(thickness), json, page })
+    }
+}
+
+/// What a study has found.
+#[pyclass(frozen)]
+pub(crate) struct Studied {
+    pub(crate) study: Study,
+}
+
+#[pymethods]
+impl Studied {
+    fn report(&self) -> String {
+        report::study::table(&self.study)
+    }
+
+    fn json(&self) -> PyResult<String> {
+        report::study::json(&self.study, &[]).map_err(failed)
+    }
+
+    /// The records as CSV.
+    fn records(&self) -> String {
+        report::study::csv(&self.study)
+    }
+
+    /// The residuals over the times as SVG; `None` if nothing was solved.
+    fn picture(&self) -> Option<String> {
+        report::study::accuracy(&self.study)
+    }
+}
