@@ -7,8 +7,11 @@ import textwrap
 import threading
 
 import numpy as np
+import pytest
 
 import lcp
+
+pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="memory is read as Linux tells it")
 
 
 def resident():
