@@ -173,9 +173,18 @@ impl Sheet {
         self.data.extend([" data-", name, "=\"", &escape(value), "\""]);
     }
 
+    /// Tells a page where lengths of the scene are drawn: the place of its origin, and pixels for one unit of length, upwards.
+    fn tell_frame(&mut self) {
+        let Frame { scale, low, origin } = self.frame;
+        let (x, y) = (origin.x - low.x * scale, origin.y + low.y * scale);
+        let per_unit = self.units.0.length_to_si() * scale;
+        self.tell("frame", &format!("{x:.3} {y:.3} {per_unit:.9e}"));
+    }
+
     /// The finished file.
     pub(super) fn finish(mut self) -> String {
         self.add_length();
+        self.tell_frame();
         let mut elements = self.titles;
         elements.group("class=\"drawing\"", |it| it.append(&self.canvas));
         let Sides { top, bottom, .. } = self.room;
