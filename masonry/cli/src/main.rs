@@ -8,6 +8,7 @@ mod end;
 mod import;
 mod interrupt;
 mod limit;
+mod live;
 mod new;
 mod out_dir;
 mod page;
@@ -47,6 +48,8 @@ enum Command {
     Limit(limit::LimitArgs),
     /// Measure error and cost of routes, tolerances and meshes.
     Study(study::StudyArgs),
+    /// Open a page on which a scene answers while it is changed.
+    Live(live::LiveArgs),
     /// Make a scene of a drawing: DXF, SVG, OBJ, COMPAS JSON.
     Import(import::ImportArgs),
     /// Print or write a commented scene to begin with.
@@ -86,6 +89,7 @@ fn main() -> ExitCode {
         Command::Solve(args) => solve::run(&args),
         Command::Limit(args) => limit::run(&args),
         Command::Study(args) => study::run(&args),
+        Command::Live(args) => live::run(&args),
         Command::Import(args) => import::run(&args),
         Command::New(args) => new::run(&args),
         Command::Schema => print(Scene::schema()).map(|()| SOLVED),

@@ -3,40 +3,25 @@
 use std::io::Write;
 use std::path::PathBuf;
 
-use clap::{Args, ValueEnum};
+use clap::Args;
+use clap::builder::{PossibleValue, PossibleValuesParser};
 
 use crate::end::{Failure, SOLVED, listing, print};
-
-/// The kinds of new scenes.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum Kind {
-    /// A wall of rigid bricks with a window, pushed to the side.
-    Wall,
-    /// A segmental arch on piers with a load on its crown.
-    Arch,
-    /// An elastic panel between rigid walls.
-    Panel,
-    /// A wall with a door and a beam above it.
-    Door,
-}
+use masonry_live::beginnings::BEGINNINGS;
 
 #[derive(Debug, Args)]
 pub(super) struct NewArgs {
     /// The kind of scene.
-    #[arg(value_enum)]
-    kind: Kind,
+    #[arg(value_parser = kinds())]
+    kind: String,
     /// The file, which must not exist yet; by default the scene is printed.
     #[arg(long)]
     out: Option<PathBuf>,
 }
 
 pub(super) fn run(args: &NewArgs) -> Result<u8, Failure> {
-    let text = match args.kind {
-        Kind::Wall => include_str!("new/wall.toml"),
-        Kind::Arch => include_str!("new/arch.toml"),
-        Kind::Panel => include_str!("new/panel.toml"),
-        Kind::Door => include_str!("new/door.toml"),
-    };
+    let found = BEGINNINGS.into_iter().find(|it| it.name == args.kind);
+    let text = found.ok_or("there is no scene of this kind")?.text;
     let Some(out) = &args.out else {
         print(text)?;
         return Ok(SOLVED);
@@ -47,4 +32,9 @@ pub(super) fn run(args: &NewArgs) -> Result<u8, Failure> {
         .map_err(|error| format!("cannot write {}: {error}; choose another name", out.display()))?;
     print(&listing(std::slice::from_ref(out)))?;
     Ok(SOLVED)
+}
+
+/// The kinds of scenes, with what they mean.
+fn kinds() -> PossibleValuesParser {
+    PossibleValuesParser::new(BEGINNINGS.map(|it| PossibleValue::new(it.name).help(it.meaning)))
 }

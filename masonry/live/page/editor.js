@@ -1,0 +1,225 @@
+import { parts, replaced, stepOf, writtenAs } from "./numbers.js";
+
+// The text of the scene: a text area below a layer of the same letters in colours, in which numbers can be dragged.
+
+// So many pixels of dragging are one step of a number: one that stands near the left edge of a screen still comes to zero.
+const PIXELS = 2;
+// Typing is undone in pieces of this time [ms].
+const PIECE = 1000;
+
+export class Editor {
+  // `onChange(event)` hears of every change by hand, `onLine(line)` of the line of the cursor.
+  constructor({ onChange, onLine }) {
+    this.area = document.getElementById("scene");
+    this.layer = document.getElementById("colours");
+    this.lines = document.getElementById("lines");
+    this.onChange = onChange;
+    this.rules = new Map();
+    this.past = [];
+    this.future = [];
+    this.typed = 0;
+    this.before = "";
+    this.area.addEventListener("input", (event) => this.type(event));
+    this.area.addEventListener("keydown", (event) => this.key(event));
+    document.addEventListener("selectionchange", () => {
+      if (document.activeElement === this.area) onLine(this.lineAt(this.area.selectionStart));
+    });
+    this.layer.addEventListener("pointerdown", (event) => this.hold(event));
+  }
+
+  get text() {
+    return this.area.value;
+  }
+
+  // Puts in another text, with the one before to go back to.
+  set(text, event) {
+    if (text === this.text) return;
+    this.remember();
+    this.put(text, event);
+  }
+
+  // Changes some places, each `{ from, to, text }`, of this text, or of that at the beginning of a drag: what was remembered before
+  // it comes back at once.
+  change(changes, event, base = this.text) {
+    this.put(replaced(base, changes), event);
+  }
+
+  put(text, event) {
+    const { selectionStart, selectionEnd } = this.area;
+    this.area.value = text;
+    if (document.activeElement === this.area) this.area.setSelectionRange(selectionStart, selectionEnd);
+    this.before = text;
+    this.draw();
+    this.onChange(event);
+  }
+
+  // A new text to begin with, which cannot be undone.
+  begin(text) {
+    [this.past, this.future] = [[], []];
+    this.put(text);
+  }
+
+  remember() {
+    if (this.past.at(-1) !== this.before) this.past.push(this.before);
+    this.future = [];
+    this.typed = 0;
+  }
+
+  undo(event) {
+    this.step(this.past, this.future, event);
+  }
+
+  redo(event) {
+    this.step(this.future, this.past, event);
+  }
+
+  step(from, to, event) {
+    while (from.length > 0 && from.at(-1) === this.text) from.pop();
+    if (from.length === 0) return;
+    to.push(this.text);
+    this.typed = 0;
+    this.put(from.pop(), event);
+  }
+
+  type(event) {
+    if (event.timeStamp - this.typed > PIECE) this.remember();
+    this.typed = event.timeStamp;
+    this.before = this.text;
+    this.draw();
+    this.onChange(event);
+  }
+
+  key(event) {
+    const letter = event.key.toLowerCase();
+    if ((event.ctrlKey || event.metaKey) && (letter === "z" || letter === "y")) {
+      event.preventDefault();
+      if (letter === "y" || event.shiftKey) this.redo(event);
+      else this.undo(event);
+    } else if (event.altKey && (event.key === "ArrowUp" || event.key === "ArrowDown")) {
+      const number = this.numberAt(this.area.selectionStart);
+      if (!number) return;
+      event.preventDefault();
+      this.remember();
+      this.turn(number, event.key === "ArrowUp" ? 1 : -1, event);
+    }
+  }
+
+  // What the engine says of the numbers of this text: whether they count something, and their least value.
+  setRules(numbers) {
+    this.rules = new Map(numbers.map((it) => [it.from, it]));
+  }
+
+  draw() {
+    const rows = this.text.split("\n");
+    this.lines.textContent = rows.map((_, index) => index + 1).join("\n");
+    let from = 0;
+    this.layer.replaceChildren(...rows.map((row) => {
+      const line = document.createElement("span");
+      line.className = "row";
+      for (const { kind, text, at } of parts(row)) {
+        const piece = document.createElement("span");
+        piece.textContent = text;
+        if (kind !== "other") piece.className = kind;
+        if (kind === "number") piece.dataset.from = from + at;
+        line.append(piece);
+      }
+      from += row.length + 1;
+      return line;
+    }));
+    if (this.held) this.spanAt(this.held.from)?.classList.add("held");
+  }
+
+  spanAt(from) {
+    return this.layer.querySelector(`[data-from="${from}"]`);
+  }
+
+  // The number at or beside a place in the text.
+  numberAt(place) {
+    const spans = [...this.layer.querySelectorAll(".number")];
+    const span = spans.find((it) => {
+      const from = Number(it.dataset.from);
+      return from <= place && place <= from + it.textContent.length;
+    });
+    return span ? this.numberOf(span) : null;
+  }
+
+  numberOf(span) {
+    const [from, written] = [Number(span.dataset.from), span.textContent];
+    const rule = this.rules.get(from) ?? { whole: false, least: null };
+    return { from, written, value: Number(written.replaceAll("_", "")), ...rule, to: from + written.length };
+  }
+
+  // Holds a number with the pointer. Without a movement it was a click, which sets the cursor.
+  hold(event) {
+    const span = event.target.closest(".number");
+    if (!span || event.button !== 0) return;
+    event.preventDefault();
+    const number = this.numberOf(span);
+    const { left, width } = span.getBoundingClientRect();
+    const base = this.text;
+    this.held = number;
+    let isMoved = false;
+    const move = (now) => {
+      const steps = Math.trunc((now.clientX - event.clientX) / PIXELS);
+      if (steps === 0 && !isMoved) return;
+      if (!isMoved) this.remember();
+      isMoved = true;
+      this.turn(number, steps, now, base);
+    };
+    const release = () => {
+      removeEventListener("pointermove", move);
+      removeEventListener("pointerup", release);
+      removeEventListener("pointercancel", release);
+      this.held = null;
+      this.draw();
+      if (isMoved) return;
+      const at = Math.round(((event.clientX - left) / width) * number.written.length);
+      this.area.focus();
+      this.area.setSelectionRange(number.from + at, number.from + at);
+    };
+    addEventListener("pointermove", move);
+    addEventListener("pointerup", release);
+    addEventListener("pointercancel", release);
+    span.classList.add("held");
+  }
+
+  // Changes a number by so many steps, with Shift by tenths of them.
+  turn({ from, to, written, value, whole, least }, steps, event, base = this.text) {
+    const step = stepOf(value, whole, written) * (event.shiftKey && !whole ? 0.1 : 1);
+    const turned = Math.max(value + steps * step, least ?? -Infinity);
+    this.change([{ from, to, text: writtenAs(turned, written, step, whole) }], event, base);
+  }
+
+  lineAt(place) {
+    return this.text.slice(0, place).split("\n").length;
+  }
+
+  // Marks lines and shows the first of them.
+  mark(first, last) {
+    [...this.layer.children].forEach((row, index) => row.classList.toggle("marked", first <= index + 1 && index + 1 <= last));
+  }
+
+  show(line, column) {
+    const rows = this.text.split("\n");
+    const before = rows.slice(0, line - 1).reduce((sum, row) => sum + row.length + 1, 0);
+    // Columns count letters, of which some take two units.
+    const at = before + [...rows[line - 1]].slice(0, column - 1).join("").length;
+    this.area.focus();
+    this.area.setSelectionRange(at, at);
+    this.layer.children[line - 1]?.scrollIntoView({ block: "nearest" });
+  }
+
+  // Marks the place of a mistake; without one nothing is marked.
+  fault(line, column) {
+    for (const row of this.layer.children) row.classList.remove("wrong");
+    const row = line ? this.layer.children[line - 1] : null;
+    if (!row) return;
+    row.classList.add("wrong");
+    let left = column;
+    for (const piece of row.children) {
+      const letters = [...piece.textContent].length;
+      piece.classList.toggle("at", left >= 1 && left <= letters);
+      left -= letters;
+    }
+  }
+}

@@ -1,0 +1,70 @@
+// The picture of the answer, which changes in place, and what of it the text describes.
+
+// The kinds of elements, and what of them the text has as a name: of a joint that is its class.
+const KINDS = { block: "block", joint: "class", support: "support", load: "name" };
+const SELECTOR = Object.keys(KINDS).map((kind) => `[data-${kind}]`).join(",");
+
+export class Picture {
+  // `onPlace(place)` hears which place of the text describes what was clicked.
+  constructor(onPlace) {
+    this.figure = document.getElementById("picture");
+    this.places = [];
+    this.figure.addEventListener("click", (event) => {
+      const element = event.target.closest(SELECTOR);
+      const place = element && this.placeOf(element);
+      if (place) onPlace(place);
+    });
+  }
+
+  get svg() {
+    return this.figure.querySelector("svg:not(.handles)");
+  }
+
+  show(markup) {
+    const { content } = Object.assign(document.createElement("template"), { innerHTML: markup });
+    const [old, next] = [this.svg, content.firstElementChild];
+    if (old) become(old, next);
+    else this.figure.prepend(next);
+    this.svg.setAttribute("role", "img");
+  }
+
+  // The place that describes an element: of a brick that of its wall, which has the name before the first stroke.
+  placeOf(element) {
+    for (const [kind, key] of Object.entries(KINDS)) {
+      if (element.dataset[kind] === undefined) continue;
+      const name = element.dataset[key];
+      const of = (it) => it.kind === kind && (it.name === name || name.startsWith(`${it.name}/`));
+      const place = this.places.filter(of).sort((a, b) => b.name.length - a.name.length)[0];
+      if (place) return place;
+    }
+    return null;
+  }
+
+  // Marks what the lines around one describe.
+  mark(line) {
+    const place = this.places.find((it) => it.first <= line && line <= it.last);
+    for (const element of this.svg?.querySelectorAll(SELECTOR) ?? []) {
+      element.classList.toggle("found", place !== undefined && this.placeOf(element) === place);
+    }
+    return place;
+  }
+}
+
+// Gives an element the attributes and children of another one, and keeps what is of the same kind, so that it moves.
+function become(old, next) {
+  for (const { name, value } of next.attributes) {
+    if (old.getAttribute(name) !== value) old.setAttribute(name, value);
+  }
+  for (const { name } of [...old.attributes]) {
+    if (!next.hasAttribute(name)) old.removeAttribute(name);
+  }
+  const [olds, nexts] = [[...old.childNodes], [...next.childNodes]];
+  nexts.forEach((child, index) => {
+    const before = olds[index];
+    if (before === undefined) old.append(child);
+    else if (before.nodeName !== child.nodeName) before.replaceWith(child);
+    else if (child.nodeType !== Node.ELEMENT_NODE) before.data !== child.data && (before.data = child.data);
+    else become(before, child);
+  });
+  olds.slice(nexts.length).forEach((child) => child.remove());
+}

@@ -1,0 +1,38 @@
+//! Commented scenes to begin with.
+
+use serde::Serialize;
+
+/// A scene to begin with.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+pub struct Beginning {
+    /// One word for it.
+    pub name: &'static str,
+    /// What it is.
+    pub meaning: &'static str,
+    /// The text of the scene, in TOML.
+    pub text: &'static str,
+}
+
+/// All of them.
+pub const BEGINNINGS: [Beginning; 4] = [
+    Beginning {
+        name: "wall",
+        meaning: "A wall of rigid bricks with a window, pushed to the side",
+        text: include_str!("../scenes/wall.toml"),
+    },
+    Beginning {
+        name: "door",
+        meaning: "A wall with a door and a beam above it",
+        text: include_str!("../scenes/door.toml"),
+    },
+    Beginning {
+        name: "arch",
+        meaning: "A segmental arch on piers with a load on its crown",
+        text: include_str!("../scenes/arch.toml"),
+    },
+    Beginning {
+        name: "panel",
+        meaning: "An elastic panel between rigid walls",
+        text: include_str!("../scenes/panel.toml"),
+    },
+];

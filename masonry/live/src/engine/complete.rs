@@ -1,0 +1,99 @@
+//! Completion: the keys, words and names that fit where the cursor is.
+
+use serde::Serialize;
+
+use super::schema::{Key, Schema, Step};
+use super::text::{Text, text_of};
+
+/// What may be written at a place.
+#[derive(Debug, Serialize)]
+pub(super) struct Completion {
+    /// What is there already of it, in units of UTF-16 before the cursor.
+    before: usize,
+    /// What may stand in its place.
+    entries: Vec<Key>,
+}
+
+/// What fits at the end of a text that is broken off at the cursor; names are taken from the whole text.
+pub(super) fn complete(until: &str, whole: &Text<'_>) -> Completion {
+    let line_start = until.rfind('\n').map_or(0, |it| it + 1);
+    let (above, line) = until.split_at(line_start);
+    let is_in_word = |c: char| c.is_alphanumeric() || "_-/\"".contains(c);
+    let word_start = line.rfind(|c| !is_in_word(c)).map_or(0, |it| it + 1);
+    // A letter of several bytes ends such a word before its last byte.
+    let word_start = (word_start..=line.len()).find(|it| line.is_char_boundary(*it)).unwrap_or(0);
+    let (context, word) = line.split_at(word_start);
+    let mut path = header(above);
+    path.extend(braces(context));
+    let entries = match context.trim_end().strip_suffix('=') {
+        Some(key) => {
+            let key = key.trim_end().rsplit(|c: char| !is_in_word(c) && c != '.').next();
+            path.extend(key.unwrap_or_default().split('.').map(Step::Key));
+            values(&path, whole)
+        }
+        None if context.trim_end().ends_with(['[', '.', '#']) => Vec::new(),
+        None => Schema::keys(&path),
+    };
+    let fits = |entry: &Key| entry.name.starts_with(word) && entry.name != word;
+    Completion {
+        before: word.encode_utf16().count(),
+        entries: entries.into_iter().filter(fits).collect(),
+    }
+}
+
+/// The table that the last header opens.
+fn header(above: &str) -> Vec<Step<'_>> {
+    let Some(line) = above.lines().rev().map(str::trim).find(|it| it.starts_with('[')) else {
+        return Vec::new();
+    };
+    let name = line.split(']').next().unwrap_or_default().trim_start_matches('[');
+    let mut path: Vec<Step<'_>> = name.split('.').map(|it| Step::Key(it.trim())).collect();
+    if line.starts_with("[[") {
+        path.push(Step::Item);
+    }
+    path
+}
+
+/// The tables in braces of a line that are still open, with the keys that have them.
+fn braces(line: &str) -> Vec<Step<'_>> {
+    let mut open: Vec<Vec<Step<'_>>> = Vec::new();
+    for (at, letter) in line.char_indices() {
+        let key =
+            || line[..at].trim_end().strip_suffix('=').and_then(|it| it.split_whitespace().last());
+        match letter {
+            '[' => open.push(key().map(Step::Key).into_iter().chain([Step::Item]).collect()),
+            '{' => open.push(key().map(Step::Key).into_iter().collect()),
+            ']' | '}' => drop(open.pop()),
+            _ => {}
+        }
+    }
+    open.concat()
+}
+
+/// The words of the schema, or the names to which a key refers, as they are written.
+fn values(path: &[Step<'_>], whole: &Text<'_>) -> Vec<Key> {
+    let mut list = Schema::words(path);
+    let Some(Step::Key(key)) = path.last() else { return list };
+    let mut refer = |names: Vec<&str>, what: &str| {
+        let key =
+            |name: &str| Key { name: name.to_owned(), meaning: format!("{what} of this scene") };
+        list.extend(names.into_iter().map(key));
+    };
+    let keys = |table: &str| whole.named(table).into_iter().map(|(name, _)| name).collect();
+    let groups = || {
+        let of = |it| text_of(it, "group").or_else(|| text_of(it, "name"));
+        let mut names: Vec<&str> = whole.tables("loads").into_iter().filter_map(of).collect();
+        names.dedup();
+        names
+    };
+    match *key {
+        "material" => refer(keys("materials"), "a material"),
+        "joint" | "springing" | "bed" | "head" => refer(keys("joints"), "a class of joints"),
+        "group" => refer(groups(), "a group of loads"),
+        _ => {}
+    }
+    for entry in &mut list {
+        entry.name = format!("\"{}\"", entry.name);
+    }
+    list
+}

@@ -1,0 +1,118 @@
+//! The sliders of a scene: friction of joint classes, factors of load groups, thicknesses of arches.
+
+use serde::Serialize;
+
+use super::schema::Step;
+use super::text::{Number, Text, Value, text_of};
+
+/// A slider.
+#[derive(Debug, Serialize)]
+pub(super) struct Control {
+    label: String,
+    value: f64,
+    /// The end of the slider; it begins at zero.
+    most: f64,
+    /// What it changes in the text.
+    edits: Vec<Edit>,
+}
+
+/// A place of the text that gets a new number. Places are in units of UTF-16.
+#[derive(Debug, Serialize)]
+pub(super) struct Edit {
+    pub(super) from: usize,
+    pub(super) to: usize,
+    /// What is written before the number, if it is not there yet.
+    pub(super) before: String,
+    /// The number is that of the control times this part.
+    pub(super) part: f64,
+}
+
+impl Edit {
+    pub(super) fn of(number: Number) -> Self {
+        Self { from: number.from, to: number.to, before: String::new(), part: 1.0 }
+    }
+}
+
+/// Steeper joints than these are rough rock.
+const MOST_FRICTION: f64 = 1.2;
+/// The angle of that coefficient of friction, rounded up.
+const MOST_ANGLE: f64 = 60.0;
+/// Loads are usually looked at up to this multiple.
+const MOST_FACTOR: f64 = 3.0;
+
+/// All sliders of a scene.
+pub(super) fn controls(text: &Text<'_>) -> Vec<Control> {
+    [friction(text), factors(text), thicknesses(text)].into_iter().flatten().collect()
+}
+
+fn friction(text: &Text<'_>) -> Vec<Control> {
+    let mut list = Vec::new();
+    for (class, table) in text.named("joints") {
+        for (key, sign, most) in [("mu", "μ", MOST_FRICTION), ("phi_deg", "φ [°]", MOST_ANGLE)] {
+            let value = table.get_ref().as_table().and_then(|it| it.get(key));
+            let path = [Step::Key("joints"), Step::Key(class), Step::Key(key)];
+            let number = value.and_then(|it| text.number(it, &path));
+            list.extend(number.map(|it| Control {
+                label: format!("{sign} of {class}"),
+                value: it.value,
+                most: at_least(most, it.value),
+                edits: vec![Edit::of(it)],
+            }));
+        }
+    }
+    list
+}
+
+/// A slider for every group of loads, which keeps the ratios of the factors within it.
+fn factors(text: &Text<'_>) -> Vec<Control> {
+    let mut list: Vec<Control> = Vec::new();
+    for load in &text.tables("loads") {
+        let Some(name) = text_of(load, "name") else { continue };
+        let label = format!("factor of {}", text_of(load, "group").unwrap_or(name));
+        let Some((value, edit)) = factor(text, load) else { continue };
+        match list.iter_mut().find(|it| it.label == label) {
+            Some(control) => {
+                let part = if control.value == 0.0 { 1.0 } else { value / control.value };
+                control.edits.push(Edit { part, ..edit });
+            }
+            None => {
+                list.push(Control {
+                    label,
+                    value,
+                    most: at_least(MOST_FACTOR, value),
+                    edits: vec![edit],
+                });
+            }
+        }
+    }
+    list
+}
+
+/// The factor of a load, and where it is or would be written.
+fn factor(text: &Text<'_>, load: &Value<'_>) -> Option<(f64, Edit)> {
+    if let Some(number) = text.number_in("loads", load, &[Step::Key("factor")]) {
+        return Some((number.value, Edit::of(number)));
+    }
+    let name = load.get_ref().as_table()?.get("name")?;
+    let (at, separator) = text.room_after(load, name);
+    Some((1.0, Edit { from: at, to: at, before: format!("{separator}factor = "), part: 1.0 }))
+}
+
+fn thicknesses(text: &Text<'_>) -> Vec<Control> {
+    let of = |arch: &&Value<'_>| {
+        let number = text.number_in("arches", arch, &[Step::Key("thickness")])?;
+        let label = format!("thickness of {}", text_of(arch, "name")?);
+        Some(Control {
+            label,
+            value: number.value,
+            most: 2.0 * number.value,
+            edits: vec![Edit::of(number)],
+        })
+    };
+    text.tables("arches").iter().filter_map(of).collect()
+}
+
+/// The usual end of a slider, or twice the value beyond it.
+fn at_least(usual: f64, value: f64) -> f64 {
+    if value > usual { 2.0 * value } else { usual }
+}

@@ -1,0 +1,88 @@
+//! What the schema of scenes says: which numbers count something, and which keys and values have a place somewhere.
+
+use std::sync::LazyLock;
+
+use masonry::Scene;
+use serde::Serialize;
+use serde_json::Value;
+
+/// One step into the data of a scene.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Step<'a> {
+    Key(&'a str),
+    Item,
+}
+
+/// The schema of scenes.
+pub(super) struct Schema;
+
+static ROOT: LazyLock<Value> =
+    LazyLock::new(|| serde_json::from_str(Scene::schema()).unwrap_or(Value::Null));
+
+impl Schema {
+    /// Whether the number at a place counts something.
+    pub(super) fn is_whole(path: &[Step<'_>]) -> bool {
+        let places = at(path);
+        let has = |name: &str| places.iter().any(|it| types(it).any(|it| it == name));
+        has("integer") && !has("number")
+    }
+
+    /// The keys of the table at a place.
+    pub(super) fn keys(path: &[Step<'_>]) -> Vec<Key> {
+        let properties = at(path).into_iter().filter_map(|it| it["properties"].as_object());
+        let key = |(name, inner): (&String, &Value)| Key {
+            name: name.clone(),
+            meaning: inner["description"].as_str().unwrap_or_default().to_owned(),
+        };
+        properties.flatten().map(key).collect()
+    }
+
+    /// The words of which the value at a place is one.
+    pub(super) fn words(path: &[Step<'_>]) -> Vec<Key> {
+        let mut list = Vec::new();
+        for place in at(path) {
+            let meaning = place["description"].as_str().unwrap_or_default();
+            let words = place["enum"].as_array().into_iter().flatten().chain(place.get("const"));
+            list.extend(words.filter_map(|word| {
+                Some(Key { name: word.as_str()?.to_owned(), meaning: meaning.to_owned() })
+            }));
+        }
+        list
+    }
+}
+
+/// A key or a word, and what it means.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub(super) struct Key {
+    pub(super) name: String,
+    pub(super) meaning: String,
+}
+
+/// The alternatives that the schema has at a place.
+fn at(path: &[Step<'_>]) -> Vec<&'static Value> {
+    let mut places = alternatives(&ROOT);
+    for step in path {
+        let inner = places.into_iter().filter_map(|place| match step {
+            Step::Key(key) => place["properties"]
+                .get(key)
+                .or_else(|| place.get("additionalProperties").filter(|it| it.is_object())),
+            Step::Item => place.get("items"),
+        });
+        places = inner.flat_map(alternatives).collect();
+    }
+    places
+}
+
+/// A node of the schema, or those that it stands for.
+fn alternatives(node: &'static Value) -> Vec<&'static Value> {
+    let named = node["$ref"].as_str().and_then(|it| ROOT.pointer(it.trim_start_matches('#')));
+    let listed = ["anyOf", "oneOf"].into_iter().filter_map(|it| node[it].as_array()).flatten();
+    let inner: Vec<_> = named.into_iter().chain(listed).flat_map(alternatives).collect();
+    if inner.is_empty() { vec![node] } else { inner }
+}
+
+fn types(node: &Value) -> impl Iterator<Item = &str> {
+    let one = node["type"].as_str();
+    let several = node["type"].as_array().into_iter().flatten().filter_map(Value::as_str);
+    one.into_iter().chain(several)
+}

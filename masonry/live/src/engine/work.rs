@@ -1,0 +1,125 @@
+//! Work that takes longer than a solve: limit loads, ranges, least thicknesses, studies.
+
+use std::fmt;
+use std::ops::ControlFlow;
+
+use masonry::analysis::study::{self, Progress};
+use masonry::report::{limit as output, study as study_output, svg};
+use masonry::{Bracket, Laws, LimitError, Scene, least_thickness_observed, limit_observed, ranges};
+use serde::{Deserialize, Serialize};
+
+use super::{Fault, Watch};
+
+/// The laws of friction of a limit load.
+#[derive(Debug, Clone, Copy, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub(super) enum Law {
+    Associative,
+    Path,
+    Both,
+}
+
+impl From<Law> for Laws {
+    fn from(law: Law) -> Self {
+        match law {
+            Law::Associative => Self::Associative,
+            Law::Path => Self::Path,
+            Law::Both => Self::Both,
+        }
+    }
+}
+
+/// What the work has come to.
+#[derive(Debug, Serialize)]
+pub(super) struct Found {
+    sentence: String,
+    pictures: Vec<Picture>,
+    /// The report.
+    text: String,
+}
+
+#[derive(Debug, Serialize)]
+struct Picture {
+    name: &'static str,
+    picture: String,
+}
+
+impl Found {
+    /// A result with its pictures, of which some may not exist. Without a sentence of its own it is the first line of the report.
+    fn new(sentence: &str, pictures: Vec<(&'static str, Option<String>)>, text: String) -> Self {
+        let first = text.lines().next().unwrap_or_default();
+        let sentence = if sentence.is_empty() { first } else { sentence }.to_owned();
+        let drawn =
+            |(name, picture): (_, Option<String>)| Some(Picture { name, picture: picture? });
+        Self { sentence, pictures: pictures.into_iter().filter_map(drawn).collect(), text }
+    }
+}
+
+pub(super) fn limit(scene: &Scene, law: Law, watch: &mut Watch<'_>) -> Result<Found, LimitError> {
+    let limit = limit_observed(scene, law.into(), &mut |at| watch(&Known(at)))?;
+    let (title, mut pictures) = (limit.title.as_str(), Vec::new());
+    if let Some(path) = &limit.path {
+        let rates = path.mechanism.as_ref();
+        pictures.extend([
+            ("Mechanism", rates.map(|it| svg::mechanism(title, &path.model, it))),
+            ("Forces", path.contacts.as_ref().map(|it| svg::forces(title, &path.model, it))),
+            ("Path", svg::path(title, &limit.group, path)),
+        ]);
+    }
+    if let Some(found) = &limit.associative {
+        let rates = found.mechanism.as_ref();
+        pictures.extend([
+            ("Mechanism, associative", rates.map(|it| svg::mechanism(title, &limit.model, it))),
+            (
+                "Forces, associative",
+                found.forces.as_ref().map(|it| svg::forces(title, &limit.model, it)),
+            ),
+        ]);
+    }
+    Ok(Found::new(&limit.sentence, pictures, output::table(&limit)))
+}
+
+pub(super) fn range(scene: &Scene) -> Result<Found, LimitError> {
+    Ok(Found::new("", Vec::new(), output::range_table(&ranges(scene)?)))
+}
+
+pub(super) fn thickness(
+    scene: &Scene,
+    arch: &str,
+    watch: &mut Watch<'_>,
+) -> Result<Found, LimitError> {
+    let found = least_thickness_observed(scene, arch, &mut |at| watch(&Known(at)))?;
+    let (title, model) = (&found.title, &found.model);
+    let pictures = vec![
+        ("Mechanism", found.mechanism.as_ref().map(|it| svg::mechanism(title, model, it))),
+        ("Forces", found.forces.as_ref().map(|it| svg::forces(title, model, it))),
+    ];
+    Ok(Found::new("", pictures, output::thickness_table(&found)))
+}
+
+pub(super) fn study(scene: &Scene, watch: &mut Watch<'_>) -> Result<Found, Fault> {
+    let mut observe = |at: Progress| -> ControlFlow<()> {
+        watch(&format_args!("{} to {:e}, mesh {}", at.route.name(), at.tolerance, at.mesh))
+    };
+    let settings = study::Settings::default();
+    let study = study::study(scene, &settings, &mut observe).map_err(|it| Fault::new(&it))?;
+    let pictures = vec![("Accuracy", study_output::accuracy(&study))];
+    Ok(Found::new("", pictures, study_output::table(&study)))
+}
+
+/// The bounds of a limit that are known during its search.
+struct Known(Bracket);
+
+impl fmt::Display for Known {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Bracket { stands, falls } = self.0;
+        match (stands, falls) {
+            (None, None) => f.write_str("searching"),
+            (Some(stands), None) => write!(f, "stands at {stands:.5}"),
+            (None, Some(falls)) => write!(f, "falls at {falls:.5}"),
+            (Some(stands), Some(falls)) => {
+                write!(f, "stands at {stands:.5}, falls at {falls:.5}")
+            }
+        }
+    }
+}

@@ -1,0 +1,60 @@
+//! The page as one text of HTML, in which everything is: style, script, and in the single file the solver too.
+
+const PAGE: &str = include_str!("../page/page.html");
+const STYLE: &str = include_str!("../page/page.css");
+const WORKER: &str = include_str!("../page/worker.js");
+/// The modules of the script; each imports only those before it.
+const MODULES: [&str; 7] = [
+    include_str!("../page/numbers.js"),
+    include_str!("../page/engine.js"),
+    include_str!("../page/completion.js"),
+    include_str!("../page/editor.js"),
+    include_str!("../page/picture.js"),
+    include_str!("../page/handles.js"),
+    include_str!("../page/main.js"),
+];
+
+/// The page as a server has it. The nonce, a word that nobody can guess, is that of the only script that browsers then run.
+pub fn served(nonce: &str) -> String {
+    assembled(nonce, "", "connect-src 'self'")
+}
+
+/// The solver for a browser, as the single file contains it.
+#[derive(Debug, Clone, Copy)]
+pub struct Solver<'a> {
+    /// The script that starts the module, without modules of its own, and defines `wasm_bindgen`.
+    pub glue: &'a str,
+    /// The module of WebAssembly, as gzip in base64.
+    pub module: &'a str,
+}
+
+/// The page with its solver, which works without a server and without a network.
+pub fn single(nonce: &str, solver: Solver<'_>) -> String {
+    let Solver { glue, module } = solver;
+    // Scripts of this type are not run by the page itself.
+    let extra = format!(
+        "<script type=\"text/plain\" id=\"worker\">\n{glue}\n{WORKER}</script>\n\
+         <script type=\"text/plain\" id=\"solver\">{module}</script>\n"
+    );
+    assembled(nonce, &extra, "worker-src blob:; connect-src data: blob:")
+}
+
+fn assembled(nonce: &str, extra: &str, more: &str) -> String {
+    let policy = format!(
+        "default-src 'none'; style-src 'unsafe-inline'; img-src data:; base-uri 'none'; form-action 'none'; \
+         script-src 'nonce-{nonce}' 'wasm-unsafe-eval'; {more}"
+    );
+    let pieces =
+        [("{policy}", policy.as_str()), ("{style}", STYLE), ("{nonce}", nonce), ("{extra}", extra)];
+    let (head, tail) = PAGE.split_once("{script}").unwrap_or((PAGE, ""));
+    let head =
+        pieces.iter().fold(head.to_owned(), |text, (name, piece)| text.replacen(name, piece, 1));
+    format!("{head}{}{tail}", script())
+}
+
+/// The modules as one: what they export and import is at the top of the same script.
+fn script() -> String {
+    let lines = MODULES.iter().flat_map(|module| module.lines());
+    let own = lines.filter(|line| !line.starts_with("import "));
+    own.map(|line| line.strip_prefix("export ").unwrap_or(line).to_owned() + "\n").collect()
+}

@@ -1,0 +1,158 @@
+//! The page on the loopback address: one page, questions to the engine, and the file of the scene.
+//!
+//! Only programs of this machine reach the address, and only pages that it has served itself get answers: every request names
+//! the address as its host, comes from no other page, and knows a token that is drawn anew for every server. One connection
+//! has one request. A question ends with its connection: a page that wants no answer any more closes it, and the work stops.
+
+mod desk;
+mod guard;
+mod http;
+
+use std::fmt::Display;
+use std::io::{self, Write as _};
+use std::net::{Ipv4Addr, TcpListener, TcpStream};
+use std::ops::ControlFlow;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::thread;
+use std::time::{Duration, Instant};
+
+use serde::Deserialize;
+use serde_json::json;
+
+pub use desk::{Desk, DeskError};
+use guard::Guard;
+use http::{Reply, Request};
+
+use crate::engine::Engine;
+use crate::page;
+
+/// Connections at once. A browser opens six to a host; more than a few tabs need are refused at once.
+const MOST_CONNECTIONS: usize = 32;
+/// How often a page hears of work that goes on, and how soon work ends that no page waits for.
+const NEWS: Duration = Duration::from_millis(100);
+
+/// A server of the page, which listens from its making on.
+#[derive(Debug)]
+pub struct Server {
+    listener: TcpListener,
+    shared: Arc<Shared>,
+}
+
+/// What all connections share.
+#[derive(Debug)]
+struct Shared {
+    guard: Guard,
+    desk: Desk,
+    engine: Engine,
+    connections: AtomicUsize,
+}
+
+impl Server {
+    /// A server on a free port of the loopback address.
+    ///
+    /// # Errors
+    /// What the system says when no port or no random token is to be had.
+    pub fn new(desk: Desk) -> io::Result<Self> {
+        let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, 0))?;
+        let guard = Guard::new(listener.local_addr()?.port())?;
+        let (engine, connections) = (Engine::default(), AtomicUsize::new(0));
+        let shared = Arc::new(Shared { guard, desk, engine, connections });
+        Ok(Self { listener, shared })
+    }
+
+    /// The address of the page, with its token.
+    pub fn address(&self) -> String {
+        self.shared.guard.address()
+    }
+
+    /// Serves until the program ends.
+    ///
+    /// # Errors
+    /// What the system says when it accepts no connections any more.
+    pub fn run(&self) -> io::Result<()> {
+        loop {
+            let (stream, _) = self.listener.accept()?;
+            let shared = self.shared.clone();
+            if shared.connections.fetch_add(1, Ordering::SeqCst) >= MOST_CONNECTIONS {
+                // A browser that is refused tries again; nothing is read from it.
+                let _ = http::send(
+                    &stream,
+                    &Reply::error(503, "too many connections: close some pages"),
+                );
+                shared.connections.fetch_sub(1, Ordering::SeqCst);
+                continue;
+            }
+            thread::spawn(move || {
+                // The page may be gone; then nobody hears that the answer could not be sent.
+                let _ = shared.serve(&stream);
+                shared.connections.fetch_sub(1, Ordering::SeqCst);
+            });
+        }
+    }
+}
+
+impl Shared {
+    fn serve(&self, stream: &TcpStream) -> io::Result<()> {
+        let request = match http::receive(stream, |head| self.guard.check(head)) {
+            Ok(request) => request,
+            Err(reply) => return http::refuse(stream, &reply),
+        };
+        match (request.method.as_str(), request.path.as_str()) {
+            ("GET", "/") => http::send(stream, &Reply::page(page::served(&guard::secret()?))),
+            ("GET", "/scene") => http::send(stream, &self.scene()),
+            ("POST", "/save") => http::send(stream, &self.save(&request)),
+            ("POST", "/ask") => self.ask(stream, &request),
+            _ => http::send(stream, &Reply::error(404, "there is nothing of this name")),
+        }
+    }
+
+    fn scene(&self) -> Reply {
+        match self.desk.load() {
+            Ok(sheet) => Reply::json(&json!(sheet)),
+            Err(error) => Reply::json(&json!({ "error": { "message": error.to_string() } })),
+        }
+    }
+
+    fn save(&self, request: &Request) -> Reply {
+        #[derive(Deserialize)]
+        struct Save {
+            name: String,
+            text: String,
+            /// The text that the file had when the page read it; nothing for a new file.
+            was: Option<String>,
+        }
+        let Ok(save) = serde_json::from_slice::<Save>(&request.body) else {
+            return Reply::error(400, "the request is no JSON of a file");
+        };
+        match self.desk.save(&save.name, &save.text, save.was.as_deref()) {
+            Ok(()) => Reply::json(&json!({ "saved": save.name })),
+            Err(error) => Reply::json(&json!({ "error": { "message": error.to_string() } })),
+        }
+    }
+
+    /// Sends news while the engine works, each in a line, and last its answer.
+    fn ask(&self, stream: &TcpStream, request: &Request) -> io::Result<()> {
+        let Ok(question) = std::str::from_utf8(&request.body) else {
+            return http::send(stream, &Reply::error(400, "the question is no UTF-8 text"));
+        };
+        http::begin_lines(stream)?;
+        let mut last = Instant::now();
+        let mut watch = |news: &dyn Display| {
+            if last.elapsed() < NEWS {
+                return ControlFlow::Continue(());
+            }
+            last = Instant::now();
+            let line = json!({ "news": news.to_string() }).to_string() + "\n";
+            let is_gone = http::is_closed(stream) || (&*stream).write_all(line.as_bytes()).is_err();
+            if is_gone { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        };
+        let work = AssertUnwindSafe(|| self.engine.answer(question, &mut watch));
+        let answer = catch_unwind(work).unwrap_or_else(|_| {
+            let message = "the solver has failed: this is a fault of the program, please report it with the scene";
+            json!({ "error": { "message": message } }).to_string()
+        });
+        (&*stream).write_all((answer + "\n").as_bytes())
+    }
+}

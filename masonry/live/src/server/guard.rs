@@ -1,0 +1,71 @@
+//! Who may ask: pages of this server alone.
+
+use std::io;
+
+use super::http::{Head, Reply};
+
+/// The header in which a page sends the token. A page of another origin cannot send it without asking first, which is refused.
+const TOKEN: &str = "x-masonry-token";
+
+/// Knows the address of the server and its token.
+#[derive(Debug)]
+pub(super) struct Guard {
+    port: u16,
+    token: String,
+}
+
+impl Guard {
+    pub(super) fn new(port: u16) -> io::Result<Self> {
+        Ok(Self { port, token: secret()? })
+    }
+
+    pub(super) fn address(&self) -> String {
+        format!("http://127.0.0.1:{}/?token={}", self.port, self.token)
+    }
+
+    /// Refuses requests to other hosts, from other pages, and without the token.
+    ///
+    /// # Errors
+    /// The reply that says what is missing.
+    pub(super) fn check(&self, head: &Head<'_>) -> Result<(), Reply> {
+        let host = format!("127.0.0.1:{}", self.port);
+        // A name of another host may lead here too, and the page of that host would then count as one of this server.
+        if head.header("host") != Some(host.as_str()) {
+            return Err(Reply::error(
+                403,
+                "this is another host: open the address that the command has printed",
+            ));
+        }
+        let origin = head.header("origin");
+        if origin.is_some_and(|it| it != format!("http://{host}")) {
+            return Err(Reply::error(403, "another page has no access"));
+        }
+        let site = head.header("sec-fetch-site");
+        if site.is_some_and(|it| it != "same-origin" && it != "none") {
+            return Err(Reply::error(403, "another page has no access"));
+        }
+        let in_address = head.query.and_then(|it| it.strip_prefix("token="));
+        let token = if head.path == "/" { in_address } else { head.header(TOKEN) };
+        if token.is_some_and(|it| self.is_token(it)) {
+            Ok(())
+        } else {
+            Err(Reply::error(
+                403,
+                "the token is missing: open the address that the command has printed",
+            ))
+        }
+    }
+
+    /// Compares all letters, so that the time says nothing about the first that differ.
+    fn is_token(&self, given: &str) -> bool {
+        let differences = self.token.bytes().zip(given.bytes()).map(|(a, b)| a ^ b);
+        given.len() == self.token.len() && differences.fold(0, |all, it| all | it) == 0
+    }
+}
+
+/// A word that nobody can guess.
+pub(super) fn secret() -> io::Result<String> {
+    let mut bytes = [0; 16];
+    getrandom::fill(&mut bytes).map_err(io::Error::other)?;
+    Ok(format!("{:032x}", u128::from_le_bytes(bytes)))
+}

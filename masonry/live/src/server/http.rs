@@ -1,0 +1,175 @@
+//! As much of HTTP/1.1 as one page needs: one request to a connection, of limited size and time.
+
+use std::io::{self, ErrorKind, Read as _, Write as _};
+use std::net::{Shutdown, TcpStream};
+use std::time::{Duration, Instant};
+
+use serde_json::Value;
+
+use crate::engine::LONGEST_TEXT;
+
+/// Those of a browser take one or two thousand bytes.
+const LONGEST_HEAD: usize = 16 << 10;
+const MOST_HEADERS: usize = 64;
+/// A scene and its question; in JSON a letter may take six bytes, but few do.
+const LONGEST_BODY: usize = 2 * LONGEST_TEXT;
+/// A request from the same machine is there at once.
+const PATIENCE: Duration = Duration::from_secs(5);
+
+/// Line, query and headers of a request.
+pub(super) struct Head<'a> {
+    pub(super) method: &'a str,
+    pub(super) path: &'a str,
+    pub(super) query: Option<&'a str>,
+    headers: &'a [httparse::Header<'a>],
+}
+
+impl Head<'_> {
+    /// The value of the only header of a name.
+    pub(super) fn header(&self, name: &str) -> Option<&str> {
+        let mut named = self.headers.iter().filter(|it| it.name.eq_ignore_ascii_case(name));
+        let value = std::str::from_utf8(named.next()?.value).ok();
+        // Of two it is unknown which one counts.
+        if named.next().is_some() { Some("") } else { value }
+    }
+}
+
+/// A request that was read.
+#[derive(Debug)]
+pub(super) struct Request {
+    pub(super) method: String,
+    pub(super) path: String,
+    pub(super) body: Vec<u8>,
+}
+
+/// A whole answer.
+#[derive(Debug)]
+pub(super) struct Reply {
+    status: u16,
+    kind: &'static str,
+    body: String,
+}
+
+impl Reply {
+    pub(super) fn page(body: String) -> Self {
+        Self { status: 200, kind: "text/html; charset=utf-8", body }
+    }
+
+    pub(super) fn json(value: &Value) -> Self {
+        Self { status: 200, kind: "application/json", body: value.to_string() }
+    }
+
+    pub(super) fn error(status: u16, message: &str) -> Self {
+        Self { status, kind: "text/plain; charset=utf-8", body: format!("{message}\n") }
+    }
+}
+
+/// Reads a request, of which `check` may refuse the head before anything more is read.
+///
+/// # Errors
+/// The reply that says why it is refused.
+pub(super) fn receive(
+    stream: &TcpStream,
+    check: impl FnOnce(&Head<'_>) -> Result<(), Reply>,
+) -> Result<Request, Reply> {
+    let until = Instant::now() + PATIENCE;
+    let mut bytes = Vec::new();
+    let head_end = loop {
+        if let Some(end) = bytes.windows(4).position(|it| it == b"\r\n\r\n") {
+            break end + 4;
+        }
+        if bytes.len() > LONGEST_HEAD {
+            return Err(Reply::error(431, "the head of the request is too long"));
+        }
+        read_more(stream, &mut bytes, until)?;
+    };
+    let mut headers = [httparse::EMPTY_HEADER; MOST_HEADERS];
+    let mut parsed = httparse::Request::new(&mut headers);
+    let malformed = || Reply::error(400, "the request is malformed");
+    parsed.parse(&bytes[..head_end]).map_err(|_| malformed())?;
+    let (Some(method), Some(target)) = (parsed.method, parsed.path) else {
+        return Err(malformed());
+    };
+    let (path, query) = target.split_once('?').map_or((target, None), |(a, b)| (a, Some(b)));
+    let head = Head { method, path, query, headers: parsed.headers };
+    check(&head)?;
+    let length = length_of_body(&head)?;
+    let (method, path) = (head.method.to_owned(), head.path.to_owned());
+    let mut body = bytes.split_off(head_end);
+    while body.len() < length {
+        read_more(stream, &mut body, until)?;
+    }
+    body.truncate(length);
+    Ok(Request { method, path, body })
+}
+
+fn length_of_body(head: &Head<'_>) -> Result<usize, Reply> {
+    if head.header("transfer-encoding").is_some() {
+        return Err(Reply::error(501, "the length of a request must be known"));
+    }
+    let Some(length) = head.header("content-length") else { return Ok(0) };
+    match length.parse() {
+        Ok(length) if length <= LONGEST_BODY => Ok(length),
+        _ => Err(Reply::error(413, "the request is too long")),
+    }
+}
+
+fn read_more(stream: &TcpStream, bytes: &mut Vec<u8>, until: Instant) -> Result<(), Reply> {
+    let late = || Reply::error(408, "the request has not come to its end");
+    let left = until.checked_duration_since(Instant::now()).filter(|it| !it.is_zero());
+    stream.set_read_timeout(Some(left.ok_or_else(late)?)).map_err(|_| late())?;
+    let mut part = [0; 16 << 10];
+    match (&*stream).read(&mut part) {
+        Ok(0) | Err(_) => Err(late()),
+        Ok(count) => {
+            bytes.extend_from_slice(&part[..count]);
+            Ok(())
+        }
+    }
+}
+
+/// Headers of every answer: nothing is kept, shown in other pages, or taken for something else than it is.
+const ALWAYS: &str = "Connection: close\r\nCache-Control: no-store\r\nX-Content-Type-Options: nosniff\r\n\
+     X-Frame-Options: DENY\r\nReferrer-Policy: no-referrer\r\nCross-Origin-Resource-Policy: same-origin\r\n";
+
+/// Sends a whole answer.
+pub(super) fn send(mut stream: &TcpStream, reply: &Reply) -> io::Result<()> {
+    let Reply { status, kind, body } = reply;
+    let reason = if *status == 200 { "OK" } else { "Refused" };
+    let length = body.len();
+    stream.set_write_timeout(Some(PATIENCE))?;
+    let head = format!(
+        "HTTP/1.1 {status} {reason}\r\nContent-Type: {kind}\r\nContent-Length: {length}\r\n{ALWAYS}\r\n"
+    );
+    stream.write_all(&[head.as_bytes(), body.as_bytes()].concat())?;
+    stream.shutdown(Shutdown::Write)
+}
+
+/// Sends the answer to a request that was not read to its end. What is under way is thrown away for a moment, since a connection
+/// that is closed before is broken off, and the answer lost.
+pub(super) fn refuse(stream: &TcpStream, reply: &Reply) -> io::Result<()> {
+    /// Enough for what a socket holds.
+    const THROWN_AWAY: usize = 1 << 20;
+    send(stream, reply)?;
+    stream.set_read_timeout(Some(Duration::from_millis(100)))?;
+    io::copy(&mut stream.take(THROWN_AWAY as u64), &mut io::sink()).map(drop)
+}
+
+/// Begins an answer of lines of JSON, whose end is that of the connection.
+pub(super) fn begin_lines(mut stream: &TcpStream) -> io::Result<()> {
+    stream.set_nodelay(true)?;
+    stream.set_write_timeout(Some(PATIENCE))?;
+    let head = format!("HTTP/1.1 200 OK\r\nContent-Type: application/x-ndjson\r\n{ALWAYS}\r\n");
+    stream.write_all(head.as_bytes())
+}
+
+/// Whether the other side has closed the connection.
+pub(super) fn is_closed(stream: &TcpStream) -> bool {
+    let mut byte = [0];
+    let peeked = stream.set_nonblocking(true).and_then(|()| stream.peek(&mut byte));
+    let is_blocking = stream.set_nonblocking(false).is_ok();
+    match peeked {
+        Ok(count) => count == 0 || !is_blocking,
+        Err(error) => error.kind() != ErrorKind::WouldBlock || !is_blocking,
+    }
+}

@@ -1,0 +1,271 @@
+//! The page in a browser, operated by mouse and keys.
+
+use std::fs;
+use std::io::Write as _;
+
+use masonry_live::server::Desk;
+
+use crate::common::{DOOR, directory, serve, serve_scene};
+use crate::driver::Page;
+
+/// The picture is that of the text.
+const SETTLED: &str = "document.querySelector('#shown[aria-busy=false] svg[data-frame]')";
+const CONTROL: &str = "\u{e009}";
+const ALT: &str = "\u{e00a}";
+/// The key with an arrow upwards.
+const UP: char = '\u{e013}';
+
+/// The sentence above the picture.
+const SENTENCE: &str = "document.querySelector('h1').textContent";
+/// The text of the scene.
+const TEXT: &str = "document.getElementById('scene').value";
+
+fn opened(name: &str, text: &str) -> Option<Page> {
+    let (address, _) = serve_scene(name, text);
+    let page = Page::open(&address, 1280)?;
+    page.wait(SETTLED);
+    Some(page)
+}
+
+fn text(page: &Page) -> String {
+    page.run(&format!("return {TEXT}")).as_str().unwrap().to_owned()
+}
+
+/// Gives the number after some words in the text a name by which it is found.
+#[track_caller]
+fn name_number(page: &Page, words: &str, name: &str) {
+    let at = text(page).find(words).unwrap_or_else(|| panic!("no {words}")) + words.len();
+    page.run(&format!("document.querySelector('[data-from=\"{at}\"]').id = {name:?}"));
+}
+
+#[test]
+fn a_number_is_dragged_and_the_wall_falls() {
+    let Some(page) = opened("drag", DOOR) else { return };
+    page.wait(&format!("{SENTENCE}.startsWith('The wall stands')"));
+    page.run("window.before = document.querySelector('#picture svg[data-frame]')");
+    name_number(&page, "[joints.bed]\nmu = ", "mu");
+    page.drag("#mu", [-120, 0], 25);
+    page.wait(&format!("{SENTENCE}.startsWith('The wall falls')"));
+    assert!(text(&page).contains("[joints.bed]\nmu = 0.05\n"), "{}", text(&page));
+    // The comment is still there, and the picture is the same element.
+    assert!(text(&page).contains("mu = 0.65   # between bricks of a course"));
+    assert_eq!(page.run("return window.before === document.querySelector('#picture svg[data-frame]')"), true);
+    page.click("#undo");
+    page.wait(&format!("{SENTENCE}.startsWith('The wall stands')"));
+    assert_eq!(text(&page), DOOR, "a drag is undone at once");
+}
+
+#[test]
+fn keys_change_numbers_too() {
+    let Some(page) = opened("keys", DOOR) else { return };
+    name_number(&page, "courses = ", "courses");
+    page.click("#courses");
+    page.keys(ALT, &UP.to_string());
+    assert!(text(&page).contains("courses = 13\n"), "{}", text(&page));
+    page.keys(CONTROL, "z");
+    assert_eq!(text(&page), DOOR);
+}
+
+#[test]
+fn a_mistake_is_shown_in_its_place_and_the_last_picture_stays() {
+    let Some(page) = opened("mistake", DOOR) else { return };
+    let at = DOOR.find("courses").unwrap();
+    page.run(&format!(
+        "const it = document.getElementById('scene'); it.focus(); it.setSelectionRange({at}, {at})"
+    ));
+    page.keys("", "x");
+    page.wait("!document.getElementById('fault').hidden");
+    let fault = page.run("return document.getElementById('fault').textContent");
+    let line = 1 + DOOR.lines().position(|it| it.starts_with("courses")).unwrap();
+    let fault = fault.as_str().unwrap();
+    assert!(fault.starts_with(&format!("Line {line}, column 1")), "{fault}");
+    assert!(fault.contains("did you mean `courses`?"), "{fault}");
+    assert_eq!(
+        page.run("return document.querySelector('.row.wrong').textContent"),
+        "xcourses = 12"
+    );
+    page.wait("document.querySelector('#shown.stale svg')");
+    page.keys("", "\u{e003}");
+    page.wait("document.getElementById('fault').hidden && !document.querySelector('#shown.stale')");
+}
+
+#[test]
+fn sliders_and_openings_change_the_text() {
+    let Some(page) = opened("handles", DOOR) else { return };
+    page.run(
+        "const it = document.querySelector('#controls input'); it.value = 0.3; \
+         it.dispatchEvent(new Event('input')); it.dispatchEvent(new Event('change'))",
+    );
+    page.wait(&format!("{TEXT}.includes('[joints.bed]\\nmu = 0.30')"));
+    page.wait("document.querySelector('.handle')");
+    let scale = "Number(document.querySelector('#picture svg[data-frame]').dataset.frame.split(' ')[2]) * \
+                 document.querySelector('svg.handles').getScreenCTM().a";
+    let per_length = page.run(&format!("return {scale}")).as_f64().unwrap();
+    let half_a_metre = (0.5 * per_length).round() as i32;
+    page.drag("[aria-label^='place of wall']", [half_a_metre, 0], 10);
+    page.wait(&format!("/x = 1\\.2[0-9]*,/.test({TEXT})"));
+    page.wait(SETTLED);
+    page.drag("[aria-label^='top of wall']", [0, (0.25 * per_length).round() as i32], 10);
+    page.wait(&format!("{TEXT}.includes('courses = 5,')"));
+    page.wait("document.getElementById('fault').hidden");
+}
+
+#[test]
+fn text_and_picture_mark_each_other() {
+    let Some(page) = opened("marks", DOOR) else { return };
+    let marked = "Array.from(document.querySelectorAll('.row.marked'), it => it.textContent)";
+    page.click("[data-block='wall/12/1']");
+    page.wait(&format!("{marked}[0] === '[[walls]]' && {marked}.at(-1).startsWith('openings')"));
+    page.wait("document.querySelectorAll('[data-block].found').length > 90");
+    page.run(
+        "const it = document.getElementById('scene'); it.focus(); \
+         const at = it.value.indexOf('[[supports]]'); it.setSelectionRange(at, at)",
+    );
+    page.wait("document.querySelector('[data-support=floor].found')");
+    assert_eq!(page.run("return document.querySelectorAll('[data-block].found').length"), 0);
+}
+
+#[test]
+fn keys_move_handles_and_take_completions() {
+    let Some(page) = opened("keyboard", DOOR) else { return };
+    page.run("document.querySelector(\"[aria-label^='top of wall']\").focus()");
+    page.keys("", &UP.to_string());
+    page.wait(&format!("{TEXT}.includes('courses = 8,')"));
+    page.run(
+        "const it = document.getElementById('scene'); it.focus(); \
+         const at = it.value.indexOf('courses = 12'); it.setSelectionRange(at, at)",
+    );
+    page.keys("", "bo");
+    page.wait("!document.getElementById('completion').hidden");
+    page.keys("", "\u{e007}");
+    page.wait(&format!("{TEXT}.includes('bondcourses = 12')"));
+}
+
+#[test]
+fn a_limit_is_found_and_another_one_is_stopped() {
+    let Some(page) = opened("limit", DOOR) else { return };
+    page.click("[data-task=limit]");
+    page.wait("document.querySelector('#found h2')");
+    let found = page.run("return document.querySelector('#found h2').textContent");
+    assert!(found.as_str().unwrap().contains("sideways"), "{found}");
+    page.wait("document.querySelector('#found figure svg')");
+
+    let large = DOOR
+        .replace("width = 2.5", "width = 12.5")
+        .replace("courses = 12", "courses = 40")
+        .replace("[2.5, 0.0]", "[12.5, 0.0]");
+    let (address, _) = serve_scene("large_limit", &large);
+    page.go(&address);
+    page.wait(SETTLED);
+    page.click("[data-task=limit]");
+    page.wait("!document.getElementById('stop').hidden");
+    page.click("#stop");
+    page.wait("document.getElementById('news').textContent.endsWith('(stopped)')");
+    assert_eq!(page.run("return document.getElementById('stop').hidden"), true);
+    // The page goes on at once.
+    name_number(&page, "[joints.bed]\nmu = ", "mu");
+    page.drag("#mu", [4, 0], 2);
+    page.wait(&format!("{SETTLED} && {TEXT}.includes('mu = 0.67')"));
+}
+
+#[test]
+fn a_scene_is_saved_and_changes_on_the_disk_are_loaded() {
+    let (address, path) = serve_scene("save", DOOR);
+    let Some(page) = Page::open(&address, 1280) else { return };
+    page.wait(SETTLED);
+    name_number(&page, "courses = ", "courses");
+    page.drag("#courses", [4, 0], 2);
+    page.wait("document.querySelector('#name.changed')");
+    page.keys(CONTROL, "s");
+    page.wait("!document.querySelector('#name.changed')");
+    assert_eq!(fs::read_to_string(&path).unwrap(), DOOR.replace("courses = 12", "courses = 14"));
+    fs::write(&path, DOOR.replace("0.981", "0.5")).unwrap();
+    page.wait(&format!("{TEXT}.includes('acceleration = [0.5, 0.0]')"));
+}
+
+#[test]
+fn two_pages_have_each_its_own_text() {
+    let scene = DOOR.replace("0.981", "1.962");
+    let (address, _) = serve_scene("two", &scene);
+    let Some(first) = Page::open(&address, 1280) else { return };
+    let second = Page::open(&address, 420).unwrap();
+    for page in [&first, &second] {
+        page.wait(SETTLED);
+    }
+    name_number(&second, "[joints.bed]\nmu = ", "mu");
+    second.drag("#mu", [-100, 0], 5);
+    second.wait(&format!("{SENTENCE}.startsWith('The wall falls')"));
+    assert_eq!(text(&first), scene);
+    first.wait(&format!("{SENTENCE}.startsWith('The wall stands')"));
+}
+
+#[test]
+fn without_a_scene_the_page_begins_with_a_choice() {
+    let place = directory("new");
+    let Some(page) = Page::open(&serve(Desk::empty(&place)), 1280) else { return };
+    page.wait(SETTLED);
+    let names =
+        page.run("return Array.from(document.querySelectorAll('#begin option'), it => it.value)");
+    assert_eq!(names, serde_json::json!(["", "wall", "door", "arch", "panel"]));
+    page.run("window.prompt = () => 'mine.toml'");
+    page.click("#save");
+    page.wait("document.getElementById('name').textContent === 'mine.toml'");
+    assert_eq!(fs::read_to_string(place.join("mine.toml")).unwrap(), text(&page));
+}
+
+/// Times from an input to the picture on the screen [ms], and of the solves alone.
+fn times(page: &Page) -> Vec<[f64; 2]> {
+    let list = page.run(
+        "return performance.getEntriesByName('answer').map(it => [it.duration, it.detail.solve])",
+    );
+    serde_json::from_value(list).unwrap()
+}
+
+/// The page is fast because it adds little to the solve. What is printed are ratios, since a machine that tests has others to serve.
+#[test]
+fn pictures_follow_the_hand() {
+    let arch = fs::read_to_string("../../scenes/arch_semicircular.toml").unwrap();
+    for (name, scene, words) in [
+        ("door", DOOR.to_owned(), "[joints.bed]\nmu = "),
+        (
+            "arch",
+            arch,
+            "voussoirs = 40\njoint = \"radial\"\nspringing = \"radial\"\n\n[[loads]]\nname = \"sideways\"\nacceleration = [",
+        ),
+    ] {
+        let Some(page) = opened(&format!("times_{name}"), &scene) else { return };
+        name_number(&page, words, "number");
+        page.run("performance.clearMeasures()");
+        page.drag("#number", [-60, 0], 60);
+        page.wait(SETTLED);
+        page.wait("performance.getEntriesByName('answer').length > 0");
+        let mut times = times(&page);
+        times.sort_by(|a, b| a[0].total_cmp(&b[0]));
+        let of = |part: f64| times[(part * (times.len() - 1) as f64) as usize];
+        let [[median, solve], [slow, _]] = [of(0.5), of(0.95)];
+        let line = format!(
+            "{name}: {} pictures, in the middle {:.1} times the solve ({median:.0} ms), 95 % within {:.1} times ({slow:.0} ms)",
+            times.len(),
+            median / solve,
+            slow / solve,
+        );
+        writeln!(std::io::stderr(), "{line}").unwrap();
+    }
+}
+
+/// The page as a reader sees it, in files to be looked at.
+#[test]
+fn the_page_is_drawn_wide_and_narrow() {
+    let place = directory("pictures");
+    let (address, _) = serve_scene("seen", DOOR);
+    for width in [1280, 420] {
+        let Some(page) = Page::open(&address, width) else { return };
+        page.wait(SETTLED);
+        // Nothing is wider than the window, except what scrolls by itself.
+        let overflow = page.run("return document.documentElement.scrollWidth - document.documentElement.clientWidth");
+        page.picture(&place.join(format!("{width}.png")));
+        page.darken();
+        page.picture(&place.join(format!("{width}_dark.png")));
+        assert_eq!(overflow, 0, "{width}");
+    }
+}

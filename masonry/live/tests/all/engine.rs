@@ -1,0 +1,181 @@
+//! Questions and answers.
+
+use std::fmt::Display;
+use std::ops::ControlFlow;
+
+use masonry_drawing::{Drawing, Format};
+use masonry_live::beginnings::BEGINNINGS;
+use masonry_live::engine::Engine;
+use serde_json::{Value, json};
+
+use crate::common::DOOR;
+
+fn ask(question: &Value) -> Value {
+    let answer =
+        Engine::default().answer(&question.to_string(), &mut |_| ControlFlow::Continue(()));
+    serde_json::from_str(&answer).unwrap()
+}
+
+fn solve(text: &str) -> Value {
+    ask(&json!({ "task": "solve", "text": text, "show": "answer", "step": null }))
+}
+
+/// A piece of a text by its place in units of UTF-16.
+fn piece(text: &str, place: &Value) -> String {
+    let units: Vec<u16> = text.encode_utf16().collect();
+    let [from, to] =
+        ["from", "to"].map(|key| usize::try_from(place[key].as_u64().unwrap()).unwrap());
+    String::from_utf16(&units[from..to]).unwrap()
+}
+
+#[test]
+fn a_scene_is_answered_by_its_verdict_and_the_picture_that_explains_it() {
+    let answer = solve(DOOR);
+    assert_eq!(answer["error"], Value::Null);
+    let shown = &answer["shown"];
+    assert_eq!((&shown["verdict"], &shown["show"]), (&json!("stands"), &json!("forces")));
+    assert!(shown["picture"].as_str().unwrap().starts_with("<svg "));
+
+    let falls = solve(&DOOR.replace("mu = 0.65", "mu = 0.05"));
+    assert_eq!(falls["shown"]["verdict"], "falls");
+    assert_eq!(falls["shown"]["show"], "mechanism");
+}
+
+#[test]
+fn every_beginning_stands() {
+    for beginning in BEGINNINGS {
+        let answer = solve(beginning.text);
+        assert_eq!(answer["shown"]["verdict"], "stands", "{}: {answer}", beginning.name);
+    }
+}
+
+#[test]
+fn a_mistake_has_its_place_and_all_numbers_can_still_be_changed() {
+    let text = DOOR
+        .replace("title = ", "# μ, 𝜇 and a face: 🙂\ntitle = ")
+        .replace("courses = 12", "curses = 12");
+    let answer = solve(&text);
+    let error = &answer["error"];
+    assert!(error["message"].as_str().unwrap().contains("did you mean `courses`?"), "{error}");
+    let line = 1 + text.lines().position(|it| it.starts_with("curses")).unwrap();
+    assert_eq!((&error["line"], &error["column"]), (&json!(line), &json!(1)));
+    let numbers: Vec<String> =
+        answer["numbers"].as_array().unwrap().iter().map(|it| piece(&text, it)).collect();
+    for number in ["0.25", "-9.81", "1800.0", "12", "0.981"] {
+        assert!(numbers.iter().any(|it| it == number), "{number} in {numbers:?}");
+    }
+}
+
+#[test]
+fn counts_stay_whole_sizes_positive_and_coordinates_free() {
+    let answer = solve(DOOR);
+    let rule = |number: &str, nth: usize| {
+        let numbers = answer["numbers"].as_array().unwrap().iter();
+        let it = numbers.filter(|it| piece(DOOR, it) == number).nth(nth).unwrap();
+        (it["whole"].as_bool().unwrap(), it["least"].as_f64())
+    };
+    assert_eq!(rule("12", 0), (true, Some(1.0)), "courses");
+    assert_eq!(rule("0.65", 0), (false, Some(0.0)), "mu");
+    assert_eq!(rule("-9.81", 0), (false, None), "gravity");
+    assert_eq!(rule("0.0", 1), (false, None), "origin");
+}
+
+#[test]
+fn sliders_change_the_text_where_it_has_a_number_or_room_for_one() {
+    let text = DOOR.to_owned()
+        + "\n[[loads]]\nname = \"roof\" # heavy\nfrom = [0.0, 1.5]\nto = [2.5, 1.5]\npressure = 2.0\ngroup = \"sideways\"\nfactor = 3\n";
+    let answer = solve(&text);
+    let controls = answer["controls"].as_array().unwrap();
+    let labels: Vec<&str> = controls.iter().map(|it| it["label"].as_str().unwrap()).collect();
+    assert_eq!(labels, ["μ of bed", "μ of head", "factor of sideways"]);
+    let edits = controls[2]["edits"].as_array().unwrap();
+    assert_eq!((&edits[0]["before"], &edits[1]["part"]), (&json!("\nfactor = "), &json!(3.0)));
+    assert_eq!(piece(&text, &edits[1]), "3");
+    // The changed text has the factors that were asked for.
+    let mut units: Vec<u16> = text.encode_utf16().collect();
+    for edit in edits.iter().rev() {
+        let value = 2.0 * edit["part"].as_f64().unwrap();
+        let new = format!("{}{value}", edit["before"].as_str().unwrap());
+        let [from, to] =
+            ["from", "to"].map(|key| usize::try_from(edit[key].as_u64().unwrap()).unwrap());
+        units.splice(from..to, new.encode_utf16());
+    }
+    let scene = masonry::Scene::from_toml(&String::from_utf16(&units).unwrap()).unwrap();
+    let factors: Vec<f64> = scene.loads.iter().map(|it| it.factor).collect();
+    assert_eq!(factors, [2.0, 6.0]);
+}
+
+#[test]
+fn openings_and_supports_have_handles_in_the_scene_and_in_the_text() {
+    let answer = solve(DOOR);
+    let handles = answer["handles"].as_array().unwrap();
+    let handle = |label: &str| handles.iter().find(|it| it["label"] == label).unwrap();
+    let place = handle("place of wall, opening 1");
+    assert_eq!((&place["low"], &place["high"]), (&json!([0.75, 0.0]), &json!([1.75, 0.875])));
+    assert_eq!(piece(DOOR, &place["right"][0]), "0.75");
+    let top = &handle("top of wall, opening 1")["up"][0];
+    assert_eq!((piece(DOOR, top).as_str(), &top["per_length"]), ("7", &json!(8.0)));
+    let end = handle("to of support floor");
+    assert_eq!(end["low"], json!([2.5, 0.0]));
+    assert_eq!(piece(DOOR, &end["right"][0]), "2.5");
+}
+
+#[test]
+fn completion_knows_keys_words_and_names() {
+    let offered = |text: &str| -> Vec<String> {
+        let whole = format!("{text}\n{DOOR}");
+        let answer =
+            ask(&json!({ "task": "complete", "text": whole, "at": text.encode_utf16().count() }));
+        let entries = answer["entries"].as_array().unwrap().iter();
+        entries.map(|it| it["name"].as_str().unwrap().to_owned()).collect()
+    };
+    assert_eq!(offered("th"), ["thickness"]);
+    assert_eq!(offered("[[walls]]\nbo"), ["bond"]);
+    assert_eq!(offered("[[walls]]\nbond = \"r"), ["\"running\""]);
+    assert_eq!(offered("[[walls]]\nopenings = [{ x = 1.0, be"), ["bearing"]);
+    assert_eq!(offered("[joints.bed]\nco"), ["cohesion"]);
+    assert_eq!(offered("[[supports]]\njoint = "), ["\"bed\"", "\"head\""]);
+    assert_eq!(offered("[limit]\ngroup = "), ["\"sideways\""]);
+    assert_eq!(offered("# a wörd"), Vec::<String>::new());
+}
+
+#[test]
+fn a_limit_is_found_told_on_the_way_and_stopped() {
+    let engine = Engine::default();
+    let question = json!({ "task": "limit", "law": "both", "text": DOOR }).to_string();
+    let mut news = Vec::new();
+    let mut listen = |it: &dyn Display| {
+        news.push(it.to_string());
+        ControlFlow::Continue(())
+    };
+    let found: Value = serde_json::from_str(&engine.answer(&question, &mut listen)).unwrap();
+    assert!(found["sentence"].as_str().unwrap().contains("sideways"), "{found}");
+    assert!(found["pictures"].as_array().unwrap().iter().any(|it| it["name"] == "Mechanism"));
+    assert!(news.iter().any(|it| it.starts_with("stands at")), "{news:?}");
+    let all = news.len();
+    let mut asked = 0;
+    let mut stop = |_: &dyn Display| {
+        asked += 1;
+        ControlFlow::Break(())
+    };
+    engine.answer(&question, &mut stop);
+    assert!(asked < all);
+}
+
+#[test]
+fn an_exported_drawing_has_the_blocks_of_the_scene() {
+    let file = ask(&json!({ "task": "export", "text": DOOR, "format": "dxf" }));
+    let drawing = Drawing::read(file["file"].as_str().unwrap().as_bytes(), Format::Dxf).unwrap();
+    let scene = masonry::Scene::from_toml(DOOR).unwrap();
+    let model = masonry::Model::from_scene(&scene).unwrap();
+    assert_eq!(drawing.outlines.len(), model.blocks.len());
+    assert_eq!(drawing.lines.len(), 1);
+}
+
+#[test]
+fn text_in_a_scene_stays_text_in_the_picture() {
+    let text = DOOR.replace("Wall with a door", "<img src=x onerror=alert(1)>");
+    let shown = solve(&text)["shown"].clone();
+    let picture = shown["picture"].as_str().unwrap();
+    assert!(picture.contains("&lt;img src=x") && !picture.contains("<img"));
+}

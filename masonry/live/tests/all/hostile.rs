@@ -1,0 +1,195 @@
+//! Requests that do not come from a page of the server are refused, and the server goes on.
+
+use std::fs;
+use std::net::TcpStream;
+
+use masonry_live::server::Desk;
+use serde_json::{Value, json};
+
+use crate::common::{DOOR, directory, parts, posted, sent, serve, serve_scene};
+
+const QUESTION: &str = r#"{"task":"begin"}"#;
+
+/// The status of an answer.
+#[track_caller]
+fn status(answer: &str) -> u16 {
+    answer.split(' ').nth(1).unwrap_or_else(|| panic!("no answer: {answer}")).parse().unwrap()
+}
+
+/// What the body of an answer says.
+fn said(answer: &str) -> Value {
+    serde_json::from_str(answer.split("\r\n\r\n").nth(1).unwrap()).unwrap()
+}
+
+/// A question with other headers than those of the page.
+fn asked(host: &str, headers: &str) -> String {
+    let length = QUESTION.len();
+    let request =
+        format!("POST /ask HTTP/1.1\r\n{headers}Content-Length: {length}\r\n\r\n{QUESTION}");
+    sent(host, request.as_bytes())
+}
+
+#[test]
+fn only_the_page_of_the_server_gets_answers() {
+    let (address, _) = serve_scene("origin", DOOR);
+    let (host, token) = parts(&address);
+    let token = format!("X-Masonry-Token: {token}\r\n");
+    let from_host = format!("Host: {host}\r\n");
+    let good = format!("{from_host}Origin: http://{host}\r\n{token}");
+    assert_eq!(status(&asked(host, &good)), 200);
+    for (what, headers) in [
+        ("no token", from_host.clone()),
+        ("another token", format!("{from_host}X-Masonry-Token: {}\r\n", "0".repeat(32))),
+        ("a part of the token", format!("{from_host}{}\r\n", &token[..token.len() - 3])),
+        ("two tokens", format!("{from_host}{token}{token}")),
+        ("no host", token.clone()),
+        ("a host that leads here", format!("Host: example.org\r\n{token}")),
+        ("another origin", format!("{good}Origin: http://example.org\r\n")),
+        ("an opaque origin", format!("{from_host}Origin: null\r\n{token}")),
+        ("another site", format!("{good}Sec-Fetch-Site: cross-site\r\n")),
+    ] {
+        assert_eq!(status(&asked(host, &headers)), 403, "{what}");
+    }
+    assert_eq!(status(&asked(host, &good)), 200, "it goes on");
+}
+
+#[test]
+fn the_page_itself_needs_the_token_and_is_shown_nowhere_else() {
+    let (address, _) = serve_scene("page", DOOR);
+    let (host, token) = parts(&address);
+    let get = |target: &str| {
+        sent(host, format!("GET {target} HTTP/1.1\r\nHost: {host}\r\n\r\n").as_bytes())
+    };
+    for target in ["/", "/?token=", "/?token=00", "/scene", &format!("/scene?token={token}")] {
+        let answer = get(target);
+        assert_eq!(status(&answer), 403, "{target}");
+        assert!(!answer.contains(token) && !answer.contains("Access-Control"), "{target}");
+    }
+    let page = get(&format!("/?token={token}"));
+    assert_eq!(status(&page), 200);
+    for header in
+        ["X-Frame-Options: DENY", "Referrer-Policy: no-referrer", "Cache-Control: no-store"]
+    {
+        assert!(page.contains(header), "{header}");
+    }
+    assert!(page.contains("default-src 'none'") && !page.contains("'unsafe-eval'"));
+    // Nothing is fetched from elsewhere: the only addresses are names.
+    let own = page.replace("http://www.w3.org/2000/svg", "");
+    for word in ["http:", "https:", "src=", "@import", "url("] {
+        assert!(!own.contains(word), "{word}");
+    }
+}
+
+#[test]
+fn other_pages_are_not_even_allowed_to_ask() {
+    let (address, _) = serve_scene("preflight", DOOR);
+    let (host, _) = parts(&address);
+    let request = format!(
+        "OPTIONS /ask HTTP/1.1\r\nHost: {host}\r\nOrigin: http://example.org\r\n\
+         Access-Control-Request-Method: POST\r\nAccess-Control-Request-Headers: x-masonry-token\r\n\r\n"
+    );
+    let answer = sent(host, request.as_bytes());
+    assert_eq!(status(&answer), 403);
+    assert!(!answer.contains("Access-Control-Allow"));
+}
+
+#[test]
+fn no_file_outside_of_the_directory_is_read_or_written() {
+    let place = directory("paths");
+    let inside = place.join("inside");
+    fs::create_dir_all(&inside).unwrap();
+    let secret = place.join("secret.toml");
+    fs::write(&secret, "secret").unwrap();
+    fs::write(inside.join("scene.toml"), DOOR).unwrap();
+    let address = serve(Desk::with_scene(&inside.join("scene.toml")).unwrap());
+    let (host, token) = parts(&address);
+    for path in ["/../secret.toml", "/%2e%2e/secret.toml", "//etc/passwd", "/scene.toml"] {
+        let headers = format!("Host: {host}\r\nX-Masonry-Token: {token}\r\n");
+        let answer = sent(host, format!("GET {path} HTTP/1.1\r\n{headers}\r\n").as_bytes());
+        assert_eq!(status(&answer), 404, "{path}");
+    }
+    let secret_path = secret.to_str().unwrap();
+    let names = [
+        "../secret.toml",
+        secret_path,
+        "..\\secret.toml",
+        "a/../../secret.toml",
+        "C:x.toml",
+        "..",
+        "",
+        "run.sh",
+    ];
+    for name in names {
+        for was in [json!("secret"), Value::Null] {
+            let body = json!({ "name": name, "text": "x", "was": was }).to_string();
+            let answer = said(&posted(&address, "/save", &body));
+            let message = answer["error"]["message"].as_str().unwrap();
+            assert!(message.contains("is no plain name"), "{name}: {message}");
+        }
+    }
+    assert_eq!(fs::read_to_string(&secret).unwrap(), "secret");
+    // A scene may name another file, which the page does not read.
+    let text = format!("block_list = {secret_path:?}\n{DOOR}");
+    let body = json!({ "task": "solve", "text": text, "show": "answer", "step": null }).to_string();
+    let answer = said(&posted(&address, "/ask", &body));
+    assert!(
+        answer["error"]["message"]
+            .as_str()
+            .unwrap()
+            .starts_with("block_list: the page reads no other file")
+    );
+}
+
+#[test]
+fn a_file_that_has_changed_is_not_overwritten() {
+    let (address, path) = serve_scene("changed", DOOR);
+    let save = |text: &str, was: Option<&str>| {
+        let body = json!({ "name": "scene.toml", "text": text, "was": was }).to_string();
+        said(&posted(&address, "/save", &body))
+    };
+    assert_eq!(save("# mine", Some(DOOR)), json!({ "saved": "scene.toml" }));
+    fs::write(&path, "# theirs").unwrap();
+    for was in [Some("# mine"), None] {
+        assert!(save("# again", was)["error"]["message"].is_string());
+    }
+    assert_eq!(fs::read_to_string(&path).unwrap(), "# theirs");
+}
+
+#[test]
+fn large_requests_and_broken_ones_are_refused() {
+    let (address, _) = serve_scene("large", DOOR);
+    let (host, token) = parts(&address);
+    let head = format!("POST /ask HTTP/1.1\r\nHost: {host}\r\nX-Masonry-Token: {token}\r\n");
+    let hundred_megabytes = 100 << 20;
+    for (wanted, request) in [
+        (413, format!("{head}Content-Length: {hundred_megabytes}\r\n\r\n{}", "x".repeat(1 << 16))),
+        (413, format!("{head}Content-Length: -1\r\n\r\n")),
+        (501, format!("{head}Transfer-Encoding: chunked\r\n\r\n0\r\n\r\n")),
+        (431, format!("{head}X-Long: {}\r\n\r\n", "x".repeat(1 << 17))),
+        (400, "\u{1}\u{2}\r\n\r\n".to_owned()),
+        (400, format!("{head}{}\r\n", "X: y\r\n".repeat(100))),
+    ] {
+        let answer = sent(host, request.as_bytes());
+        assert_eq!(status(&answer), wanted, "{}", &request[..60.min(request.len())]);
+    }
+    // What is no question is answered by an error.
+    for question in ["", "[]", "{\"task\":\"format disk\"}", "\"\\ud800\""] {
+        assert!(said(&posted(&address, "/ask", question))["error"]["message"].is_string());
+    }
+    let long = json!({ "task": "range", "text": "#".repeat(5 << 20) }).to_string();
+    let answer = said(&posted(&address, "/ask", &long));
+    assert!(answer["error"]["message"].as_str().unwrap().contains("at most"));
+}
+
+#[test]
+fn a_hundred_connections_do_not_stop_it() {
+    let (address, _) = serve_scene("many", DOOR);
+    let (host, _) = parts(&address);
+    let idle: Vec<TcpStream> = (0..100).map(|_| TcpStream::connect(host).unwrap()).collect();
+    // The places of those that say nothing are taken until they close; others hear so at once.
+    let refused = sent(host, b"");
+    assert_eq!(status(&refused), 503);
+    drop(idle);
+    let answers = std::iter::repeat_with(|| posted(&address, "/ask", QUESTION));
+    assert!(answers.take(100).any(|it| it.starts_with("HTTP/1.1 200")));
+}
