@@ -19,10 +19,8 @@ pub(super) fn complete(until: &str, whole: &Text<'_>) -> Completion {
     let line_start = until.rfind('\n').map_or(0, |it| it + 1);
     let (above, line) = until.split_at(line_start);
     let is_in_word = |c: char| c.is_alphanumeric() || "_-/\"".contains(c);
-    let word_start = line.rfind(|c| !is_in_word(c)).map_or(0, |it| it + 1);
-    // A letter of several bytes ends such a word before its last byte.
-    let word_start = (word_start..=line.len()).find(|it| line.is_char_boundary(*it)).unwrap_or(0);
-    let (context, word) = line.split_at(word_start);
+    let before_word = line.trim_end_matches(is_in_word);
+    let (context, word) = line.split_at(before_word.len());
     let mut path = header(above);
     path.extend(braces(context));
     let entries = match context.trim_end().strip_suffix('=') {
@@ -31,7 +29,8 @@ pub(super) fn complete(until: &str, whole: &Text<'_>) -> Completion {
             path.extend(key.unwrap_or_default().split('.').map(Step::Key));
             values(&path, whole)
         }
-        None if context.trim_end().ends_with(['[', '.', '#']) => Vec::new(),
+        // In a comment or a header nothing is a key.
+        None if context.contains('#') || context.trim_end().ends_with(['[', '.']) => Vec::new(),
         None => Schema::keys(&path),
     };
     let fits = |entry: &Key| entry.name.starts_with(word) && entry.name != word;

@@ -49,7 +49,10 @@ fn a_number_is_dragged_and_the_wall_falls() {
     assert!(text(&page).contains("[joints.bed]\nmu = 0.05\n"), "{}", text(&page));
     // The comment is still there, and the picture is the same element.
     assert!(text(&page).contains("mu = 0.65   # between bricks of a course"));
-    assert_eq!(page.run("return window.before === document.querySelector('#picture svg[data-frame]')"), true);
+    assert_eq!(
+        page.run("return window.before === document.querySelector('#picture svg[data-frame]')"),
+        true
+    );
     page.click("#undo");
     page.wait(&format!("{SENTENCE}.startsWith('The wall stands')"));
     assert_eq!(text(&page), DOOR, "a drag is undone at once");
@@ -262,7 +265,9 @@ fn the_page_is_drawn_wide_and_narrow() {
         let Some(page) = Page::open(&address, width) else { return };
         page.wait(SETTLED);
         // Nothing is wider than the window, except what scrolls by itself.
-        let overflow = page.run("return document.documentElement.scrollWidth - document.documentElement.clientWidth");
+        let overflow = page.run(
+            "return document.documentElement.scrollWidth - document.documentElement.clientWidth",
+        );
         page.picture(&place.join(format!("{width}.png")));
         page.darken();
         page.picture(&place.join(format!("{width}_dark.png")));

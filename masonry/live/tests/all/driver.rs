@@ -120,7 +120,8 @@ impl Page {
     /// Has the page in dark colours.
     pub(crate) fn darken(&self) {
         let features = json!([{ "name": "prefers-color-scheme", "value": "dark" }]);
-        let command = json!({ "cmd": "Emulation.setEmulatedMedia", "params": { "features": features } });
+        let command =
+            json!({ "cmd": "Emulation.setEmulatedMedia", "params": { "features": features } });
         self.post("/goog/cdp/execute", &command);
     }
 

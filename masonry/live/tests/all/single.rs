@@ -39,7 +39,7 @@ fn results(answer: &Value) -> (Value, Vec<(String, f64)>) {
 #[test]
 fn the_single_file_has_the_digits_of_the_command() {
     let Ok(path) = std::env::var("MASONRY_LIVE_FILE") else {
-        let missing = "not tested: MASONRY_LIVE_FILE names no page that `cargo run --release -p masonry-live-single` has written";
+        let missing = "not tested: MASONRY_LIVE_FILE names no page that `cargo run -p masonry-live-single` has written";
         writeln!(std::io::stderr(), "{missing}").unwrap();
         return;
     };
