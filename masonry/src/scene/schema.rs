@@ -22,6 +22,7 @@ mod tests {
     use schemars::Schema;
     use schemars::generate::SchemaSettings;
     use schemars::transform::{Transform, transform_subschemas};
+    use serde_json::Value;
 
     use super::Scene;
 
@@ -34,9 +35,11 @@ mod tests {
             if let Some(text) = schema.get("description").and_then(|it| it.as_str()).map(plain) {
                 schema.insert("description".to_owned(), text.into());
             }
-            // A key without a value is left out.
-            if schema.get("default").is_some_and(serde_json::Value::is_null) {
-                schema.remove("default");
+            // Keys without a value are left out.
+            match schema.get_mut("default") {
+                Some(Value::Null) => drop(schema.remove("default")),
+                Some(Value::Object(keys)) => keys.retain(|_, value| !value.is_null()),
+                _ => {}
             }
             transform_subschemas(self, schema);
         }

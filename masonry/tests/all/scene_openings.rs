@@ -138,11 +138,11 @@ fn impossible_openings_name_the_key_the_value_and_what_would_fit() {
         ),
         (
             "{ x = 0.1, width = 0.8, courses = 4 }",
-            "rest on 0.2 of wall on its left, and there are 0.1",
+            "needs 0.2 of wall on its left to rest on, and has 0.1",
         ),
         (
             "{ x = 1.0, width = 0.8, courses = 4, bearing = 2.5 }",
-            "rest on 2.5 of wall on its left, and there are 1",
+            "needs 2.5 of wall on its left to rest on, and has 1",
         ),
         (
             "{ x = 1.0, width = 0.8, courses = 4 }, { x = 1.9, width = 0.8, courses = 3 }",
