@@ -16,7 +16,7 @@
 //!  y = (F - F_CL H^-1 F_LC) t + C K^+ f - F_CL H^-1 L K^+ f + x + G alpha
 //! ```
 //!
-//! (Woodbury's identity). `H` is positive definite. It is the block of the bars in the [`Flexibility`] of rows and bars.
+//! (Woodbury's identity). `H` is positive definite. It is the block of the bars in the flexibility of rows and bars.
 
 use faer::linalg::solvers::{PartialPivLu, Solve};
 use faer::{Mat, MatRef};
