@@ -25,8 +25,8 @@ const SPACING: f64 = 24.0;
 const ASIDE: f64 = 7.0;
 /// Height that an acceleration takes beside the structure: its arrow, its label and room between.
 const ROW: f64 = LONGEST + 2.0 * TEXT;
-/// Reactions below this part of the largest are not drawn.
-const LEAST_REACTION: f64 = 1e-6;
+/// Forces of joints and supports below this part of the largest are not drawn.
+pub(super) const LEAST: f64 = 1e-6;
 
 /// A group of loads that grows, and the factor that it has in a picture.
 #[derive(Debug, Clone, Copy)]
@@ -234,7 +234,7 @@ impl Arrows {
         let units = InUnits(model.units);
         let mut all = joints::reactions(model, forces);
         let sizes: Vec<f64> = all.iter().map(|it| it.force.norm()).collect();
-        all.retain(|it| it.force.norm() > LEAST_REACTION * largest(&sizes));
+        all.retain(|it| it.force.norm() > LEAST * largest(&sizes));
         let push = |it: joints::SupportForce| Push {
             on: vec![Pushed { block: None, ends: [it.at; 2] }],
             value: it.force,

@@ -6,7 +6,7 @@ use super::canvas::{Anchor, Canvas, Pixel, closed, open, wrapped};
 use super::labels::{Label, Labels};
 use super::legend::{self, Legend};
 use super::sheet::Sides;
-use super::style::{COLOURS, EDGE, TEXT, TEXT_LINE, WIDTH};
+use super::style::{COLOURS, EDGE, TEXT, TEXT_LINE, TICK, WIDTH};
 
 /// Heights of a diagram with logarithmic axes alone and with linear ones, and the size of one of several.
 const HEIGHT: f64 = 430.0;
@@ -20,8 +20,6 @@ const RIGHT: f64 = 15.0;
 const BELOW: f64 = 52.0;
 /// Between rows of diagrams.
 const GAP: f64 = 8.0;
-/// Lengths of the marks at the labels of an axis.
-const TICK: f64 = 5.0;
 /// Corners of markers, in pixels.
 const SHAPES: [&[[f64; 2]]; COLOURS] = [
     &[[-1., -4.], [2., -4.], [4., -1.], [4., 2.], [2., 4.], [-1., 4.], [-4., 2.], [-4., -1.]],

@@ -3,14 +3,13 @@
 use super::canvas::{Anchor, Pixel, open};
 use super::sheet::{Bounds, Sheet, Sides};
 use super::structure;
-use super::style::TEXT;
+use super::style::{TEXT, TICK};
 use crate::model::Model;
 use crate::report::format::InUnits;
 
 /// From what else stands beside the structure to a dimension line, and room for its text.
 const GAP: f64 = 10.0;
 const ROOM: f64 = GAP + TEXT + 8.0;
-const TICK: f64 = 5.0;
 
 /// Width and height of the box around all blocks.
 #[derive(Debug)]

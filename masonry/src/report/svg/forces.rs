@@ -2,7 +2,7 @@
 
 use nalgebra::{Point2, Vector2};
 
-use super::arrows::{Arrows, Displaced};
+use super::arrows::{Arrows, Displaced, LEAST};
 use super::canvas::{Pixel, fixed, open};
 use super::labels::{Label, Labels};
 use super::legend;
@@ -15,8 +15,6 @@ use crate::model::{Body, Model};
 use crate::report::format::InUnits;
 use crate::report::joints::{self, JointForce};
 
-/// Resultants below this part of the largest are not drawn.
-const LEAST: f64 = 1e-6;
 /// Resultants below this part are left out of structures with many joints, from so many on.
 const LEAST_OF_MANY: f64 = 1e-2;
 const MANY: usize = 150;
@@ -196,7 +194,7 @@ impl Drawn<'_> {
             });
             sheet.layer(&places, |canvas, frame| {
                 for it in &own {
-                    let name = names::joint(self.model, it.joint);
+                    let name = names::number(it.joint);
                     let class = if is_inside(it) { "" } else { outside };
                     canvas.circle(frame.at(it.at), radius, format!("{name} {class}").trim_end());
                 }

@@ -64,9 +64,11 @@ pub(in crate::report) fn collapse(collapse: &Collapse<'_>, for_page: bool) -> St
     draw_yielding(&mut sheet, model, &joints, motion, &mut labels);
     let rate = |on: &Pushed| rate_of(collapse, on);
     loads.draw(&mut sheet, model, &mut labels, &Displaced { motion, rate: &rate });
-    if let Some(Growth { group, factor }) = growth {
+    // A weight that grows has no arrow, which would tell its factor.
+    let has_arrow = |it: &Growth<'_>| model.loads.iter().any(|load| load.group == it.group);
+    if let Some(Growth { group, factor }) = growth.filter(|it| !has_arrow(it)) {
         let factor = significant(factor, 4);
-        sheet.legend.note(&format!("load factor of \"{group}\": {factor}"));
+        sheet.legend.note(&format!("factor of \"{group}\" {factor}"));
     }
     sheet.legend.note("amplitude is arbitrary");
     sheet.finish()

@@ -16,16 +16,18 @@ pub(super) fn support(support: &Support) -> String {
     format!("data-support=\"{}\"", escape(&support.name))
 }
 
-/// `data-joint`: the number of a joint, from one, as in tables; `data-class`: the name of its class; `data-a` and
-/// `data-b`: the names of the bodies behind and in front.
+/// `data-joint`: the number of a joint, from one, as in tables.
+pub(super) fn number(id: JointId) -> String {
+    format!("data-joint=\"{}\"", id.index() + 1)
+}
+
+/// The number of a joint, with `data-class`, the name of its class, and `data-a` and `data-b`, the names of the bodies
+/// behind and in front.
 pub(super) fn joint(model: &Model, id: JointId) -> String {
     let joint = &model.joints[id.index()];
     let class = escape(model.joint_classes.get(joint.class).map_or("", |class| &class.name));
     let [a, b] = [joint.a, Body::Block(joint.b)].map(|body| escape(body_name(model, body)));
-    format!(
-        "data-joint=\"{}\" data-class=\"{class}\" data-a=\"{a}\" data-b=\"{b}\"",
-        id.index() + 1
-    )
+    format!("{} data-class=\"{class}\" data-a=\"{a}\" data-b=\"{b}\"", number(id))
 }
 
 /// `data-load`: the number of a load in the scene, from one; `data-name`: its name.

@@ -103,7 +103,7 @@ fn draw_joints(sheet: &mut Sheet, model: &Model) {
         structure::joints(sheet, &lines, model, own);
         sheet.layer(&dots, |canvas, frame| {
             for contact in model.contacts.iter().filter(|it| is_own(&it.joint)) {
-                let name = names::joint(model, contact.joint);
+                let name = names::number(contact.joint);
                 canvas.circle(frame.at(contact.position), radius, &name);
             }
         });

@@ -14,6 +14,8 @@ pub(super) const TITLE: f64 = 17.0;
 pub(super) const TITLE_LINE: f64 = 22.0;
 pub(super) const TEXT: f64 = 13.0;
 pub(super) const TEXT_LINE: f64 = 17.0;
+/// Half the length of marks at the ends of dimensions, and the length of those at the labels of axes.
+pub(super) const TICK: f64 = 5.0;
 /// How many classes of colours, and of materials, the style sheet has.
 pub(super) const COLOURS: usize = 7;
 pub(super) const MATERIALS: usize = 5;
