@@ -45,7 +45,7 @@ export class Handles {
     const shape = document.createElementNS(SVG, "rect");
     shape.classList.add("handle");
     shape.setAttribute("tabindex", "0");
-    shape.setAttribute("role", "slider");
+    shape.setAttribute("role", "button");
     shape.setAttribute("aria-label", `${label}: arrow keys move it`);
     shape.append(Object.assign(document.createElementNS(SVG, "title"), { textContent: label }));
     shape.addEventListener("pointerdown", (event) => this.hold(shape, event));

@@ -26,6 +26,7 @@ export class Picture {
     if (old) become(old, next);
     else this.figure.prepend(next);
     this.svg.setAttribute("role", "img");
+    if (this.line) this.mark(this.line);
   }
 
   // The place that describes an element: of a brick that of its wall, which has the name before the first stroke.
@@ -42,6 +43,7 @@ export class Picture {
 
   // Marks what the lines around one describe.
   mark(line) {
+    this.line = line;
     const place = this.places.find((it) => it.first <= line && line <= it.last);
     for (const element of this.svg?.querySelectorAll(SELECTOR) ?? []) {
       element.classList.toggle("found", place !== undefined && this.placeOf(element) === place);

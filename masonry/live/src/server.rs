@@ -14,7 +14,6 @@ use std::net::{Ipv4Addr, TcpListener, TcpStream};
 use std::ops::ControlFlow;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
-use std::sync::atomic::{AtomicUsize, Ordering};
 use std::thread;
 use std::time::{Duration, Instant};
 
@@ -46,7 +45,6 @@ struct Shared {
     guard: Guard,
     desk: Desk,
     engine: Engine,
-    connections: AtomicUsize,
 }
 
 impl Server {
@@ -57,8 +55,7 @@ impl Server {
     pub fn new(desk: Desk) -> io::Result<Self> {
         let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, 0))?;
         let guard = Guard::new(listener.local_addr()?.port())?;
-        let (engine, connections) = (Engine::default(), AtomicUsize::new(0));
-        let shared = Arc::new(Shared { guard, desk, engine, connections });
+        let shared = Arc::new(Shared { guard, desk, engine: Engine::default() });
         Ok(Self { listener, shared })
     }
 
@@ -73,22 +70,22 @@ impl Server {
     /// What the system says when it accepts no connections any more.
     pub fn run(&self) -> io::Result<()> {
         loop {
-            let (stream, _) = self.listener.accept()?;
+            let stream = match self.listener.accept() {
+                Ok((stream, _)) => stream,
+                // One that is gone before it was taken is no fault of the server.
+                Err(error) if error.kind() == io::ErrorKind::ConnectionAborted => continue,
+                Err(error) => return Err(error),
+            };
+            // Every connection has its share until it ends, however it does.
             let shared = self.shared.clone();
-            if shared.connections.fetch_add(1, Ordering::SeqCst) >= MOST_CONNECTIONS {
-                // A browser that is refused tries again; nothing is read from it.
-                let _ = http::send(
-                    &stream,
-                    &Reply::error(503, "too many connections: close some pages"),
-                );
-                shared.connections.fetch_sub(1, Ordering::SeqCst);
+            if Arc::strong_count(&shared) > 1 + MOST_CONNECTIONS {
+                // Nothing is read: the reply may be lost with the connection.
+                let reply = Reply::error(503, "too many connections: close some pages");
+                let _ = http::send(&stream, &reply);
                 continue;
             }
-            thread::spawn(move || {
-                // The page may be gone; then nobody hears that the answer could not be sent.
-                let _ = shared.serve(&stream);
-                shared.connections.fetch_sub(1, Ordering::SeqCst);
-            });
+            // The page may be gone; then nobody hears that the answer could not be sent.
+            thread::spawn(move || shared.serve(&stream).ok());
         }
     }
 }

@@ -12,6 +12,7 @@ mod cli_runs;
 mod guide;
 mod import_command;
 mod limit;
+mod live;
 mod new_scenes;
 mod page;
 mod readme;

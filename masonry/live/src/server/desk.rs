@@ -56,7 +56,7 @@ pub enum DeskError {
         path: PathBuf,
     },
     /// The system refuses.
-    #[error("cannot read or write {}: {source}", path.display())]
+    #[error("cannot read or write {}: {source}; give another file", path.display())]
     System {
         /// The file.
         path: PathBuf,

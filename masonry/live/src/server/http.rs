@@ -148,11 +148,14 @@ pub(super) fn send(mut stream: &TcpStream, reply: &Reply) -> io::Result<()> {
 /// Sends the answer to a request that was not read to its end. What is under way is thrown away for a moment, since a connection
 /// that is closed before is broken off, and the answer lost.
 pub(super) fn refuse(stream: &TcpStream, reply: &Reply) -> io::Result<()> {
-    /// Enough for what a socket holds.
-    const THROWN_AWAY: usize = 1 << 20;
+    const MOMENT: Duration = Duration::from_millis(200);
     send(stream, reply)?;
-    stream.set_read_timeout(Some(Duration::from_millis(100)))?;
-    io::copy(&mut stream.take(THROWN_AWAY as u64), &mut io::sink()).map(drop)
+    let until = Instant::now() + MOMENT;
+    let mut thrown_away = Vec::new();
+    while read_more(stream, &mut thrown_away, until).is_ok() {
+        thrown_away.clear();
+    }
+    Ok(())
 }
 
 /// Begins an answer of lines of JSON, whose end is that of the connection.

@@ -176,6 +176,9 @@ fn large_requests_and_broken_ones_are_refused() {
     for question in ["", "[]", "{\"task\":\"format disk\"}", "\"\\ud800\""] {
         assert!(said(&posted(&address, "/ask", question))["error"]["message"].is_string());
     }
+    // Depth is no way to break it.
+    let deep = json!({ "task": "solve", "text": format!("a = {}", "[".repeat(1 << 20)), "show": "answer", "step": null });
+    assert!(said(&posted(&address, "/ask", &deep.to_string()))["error"]["message"].is_string());
     let long = json!({ "task": "range", "text": "#".repeat(5 << 20) }).to_string();
     let answer = said(&posted(&address, "/ask", &long));
     assert!(answer["error"]["message"].as_str().unwrap().contains("at most"));

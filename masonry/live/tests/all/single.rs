@@ -10,7 +10,7 @@ use serde_json::{Value, json};
 
 use crate::driver::Page;
 
-/// All numbers of an answer with their places, but for times.
+/// All numbers of an answer with their places, without times, and without residuals, which are rounding errors alone.
 fn numbers(path: &str, value: &Value, list: &mut Vec<(String, f64)>) {
     match value {
         Value::Number(number) => list.push((path.to_owned(), number.as_f64().unwrap())),
@@ -20,7 +20,10 @@ fn numbers(path: &str, value: &Value, list: &mut Vec<(String, f64)>) {
             }
         }
         Value::Object(members) => {
-            let others = members.iter().filter(|(key, _)| !key.contains("time"));
+            let is_kept = |key: &str| {
+                !["time", "seconds", "residual", "balance"].iter().any(|it| key.contains(it))
+            };
+            let others = members.iter().filter(|(key, _)| is_kept(key));
             for (key, member) in others {
                 numbers(&format!("{path}.{key}"), member, list);
             }

@@ -1,0 +1,158 @@
+import { all, button, made, one } from "./elements.js";
+
+// Solves the text, always the newest and one at a time, and shows the answer.
+
+// What comes within this time is there at once, as a hand feels it: a picture that is older grows pale [ms].
+const AT_ONCE = 100;
+// A solve that is younger is waited for when the text changes, so that pictures follow a hand that goes on. An older one is
+// stopped: thoughts do not wait longer [ms].
+const PATIENCE = 1000;
+
+const NAMES = {
+  answer: "Answer", forces: "Forces", stresses: "Stresses", cracks: "Cracks",
+  deformed: "Deformed", mechanism: "Mechanism", scene: "Scene", report: "Report",
+};
+
+export class Answers {
+  // `show(answer)` has the parts of the page show what the text has that can be changed.
+  constructor({ engine, editor, picture, handles, show }) {
+    Object.assign(this, { engine, editor, picture, handles, parts: show });
+    // What is seen, and the answer to the last text that could be solved.
+    this.seen = { show: "answer", step: null };
+    this.last = null;
+    this.isMistaken = false;
+    // The solve that runs, and the event that the next one answers.
+    this.running = null;
+    this.next = null;
+    one("#steps input").addEventListener("input", (event) => this.look({ step: Number(event.target.value) }, event));
+  }
+
+  // Shows something else of the same scene.
+  look(change, event) {
+    Object.assign(this.seen, change);
+    this.changed(event);
+  }
+
+  changed(event) {
+    this.next = event ?? { timeStamp: performance.now() };
+    if (this.running === null) this.solve();
+  }
+
+  async solve() {
+    while (this.next !== null) {
+      const [event, text] = [this.next, this.editor.text];
+      this.next = null;
+      this.running = { began: performance.now(), controller: new AbortController() };
+      this.age();
+      const ageing = setInterval(() => this.age(), AT_ONCE);
+      try {
+        const { signal } = this.running.controller;
+        const onNews = (news) => (this.running.news = news);
+        const answer = await this.engine.ask({ task: "solve", text, ...this.seen }, { signal, onNews });
+        this.show(answer, text);
+        painted(event, answer.shown?.seconds ?? 0);
+      } catch (error) {
+        if (error.name !== "AbortError") this.fail(error);
+      } finally {
+        clearInterval(ageing);
+      }
+    }
+    this.running = null;
+    this.age();
+  }
+
+  // The last good picture stays, and says how old it is. A solve of an older text ends with the patience for it.
+  age() {
+    const time = this.running === null ? 0 : performance.now() - this.running.began;
+    if (time > PATIENCE && this.next !== null) this.running.controller.abort();
+    const isOld = time > AT_ONCE || this.isMistaken;
+    one("#shown").classList.toggle("stale", isOld);
+    one("#shown").setAttribute("aria-busy", this.running !== null);
+    one("#age").hidden = !isOld;
+    one("#age").textContent = time > AT_ONCE
+      ? `Solving for ${(time / 1000).toFixed(1)} s: ${this.running.news ?? "begun"}. Verdict and picture are those of the text before.`
+      : "The text has a mistake: verdict and picture are those of the text before.";
+  }
+
+  show(answer, text) {
+    this.isMistaken = answer.error != null;
+    if (answer.numbers) this.parts(answer);
+    this.showFault(answer.error, text === this.editor.text);
+    if (this.isMistaken) return;
+    this.last = { ...answer, text };
+    const { verdict, sentence, warnings, seconds, picture, report } = answer.shown;
+    setVerdict(verdict, sentence);
+    const time = (1000 * seconds).toFixed(seconds < 0.01 ? 1 : 0);
+    one("#warnings").textContent = [...warnings, `Solved in ${time} ms.`].join(" ");
+    this.showTabs(answer.shown);
+    one("#report").hidden = report === null;
+    one("#picture").hidden = report !== null;
+    if (report !== null) one("#report").textContent = report;
+    else this.picture.show(picture);
+    this.handles.show(answer.handles, report === null ? this.picture.svg : null);
+  }
+
+  showFault(error, isCurrent) {
+    const place = one("#fault");
+    place.hidden = error == null;
+    if (isCurrent) this.editor.fault(error?.line, error?.column);
+    if (error == null) return;
+    const { message, line, column } = error;
+    place.replaceChildren(message);
+    if (line) place.prepend(button(`Line ${line}, column ${column}`, () => this.editor.show(line, column)));
+  }
+
+  // The program, not the scene, is at fault.
+  fail(error) {
+    setVerdict("", error.message);
+    this.isMistaken = true;
+  }
+
+  showTabs({ choices, steps }) {
+    const tabs = one("#tabs");
+    if (all("button", tabs).map((it) => it.dataset.show).join() !== choices.join()) {
+      tabs.replaceChildren(...choices.map((choice) => {
+        const tab = button(NAMES[choice], (event) => this.look({ show: choice }, event));
+        tab.dataset.show = choice;
+        return tab;
+      }));
+    }
+    for (const tab of tabs.children) tab.setAttribute("aria-pressed", tab.dataset.show === this.seen.show);
+    one("#steps").hidden = steps.length < 2;
+    const slider = one("#steps input");
+    slider.max = Math.max(steps.length - 1, 0);
+    slider.value = this.seen.step ?? slider.max;
+    one("#steps output").textContent = steps[slider.value] ?? "";
+  }
+
+  // Puts a copy of what is seen beside it.
+  keep() {
+    if (this.last === null) return;
+    const { text, shown } = this.last;
+    const section = made("section", {}, made("h2", { textContent: `Kept: ${shown.sentence}` }));
+    const copy = made("figure");
+    if (this.picture.svg) copy.append(this.picture.svg.cloneNode(true));
+    section.append(
+      button("Back to this", (event) => this.editor.set(text, event)),
+      button("Drop", () => section.remove()),
+      copy,
+    );
+    one("#kept").prepend(section);
+  }
+}
+
+function setVerdict(verdict, sentence) {
+  one("#verdict").className = verdict;
+  // Only what differs is announced.
+  if (one("h1").textContent !== sentence) one("h1").textContent = sentence;
+  document.title = `${verdict}: masonry live`;
+}
+
+// Measures from an input to the picture on the screen, as `performance.getEntriesByName("answer")` has it.
+function painted(event, seconds) {
+  requestAnimationFrame(() => {
+    const { port1, port2 } = new MessageChannel();
+    port1.onmessage = () => performance.measure("answer", { start: event.timeStamp, detail: { solve: 1000 * seconds } });
+    port2.postMessage(null);
+  });
+}

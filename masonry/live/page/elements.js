@@ -1,0 +1,17 @@
+// Elements of the page, in short words.
+
+export const one = (query, within = document) => within.querySelector(query);
+
+export const all = (query, within = document) => [...within.querySelectorAll(query)];
+
+export function made(tag, properties, ...children) {
+  const element = Object.assign(document.createElement(tag), properties);
+  element.append(...children);
+  return element;
+}
+
+export function button(text, action) {
+  const element = made("button", { type: "button", textContent: text });
+  element.addEventListener("click", action);
+  return element;
+}

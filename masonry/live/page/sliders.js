@@ -1,0 +1,53 @@
+import { made, one } from "./elements.js";
+import { stepOf, writtenAs } from "./numbers.js";
+
+// Sliders of what a scene offers, which change the numbers of its text.
+
+export class Sliders {
+  constructor(editor) {
+    this.editor = editor;
+    this.box = one("#controls");
+  }
+
+  // A slider that is held stays as it is.
+  show(controls) {
+    const old = new Map([...this.box.children].map((it) => [it.offer.label, it]));
+    const labels = controls.map((control) => old.get(control.label) ?? this.made(control));
+    // An element that is taken out and put in again loses hold and focus.
+    const isSame = labels.length === old.size && labels.every((it, index) => it === this.box.children[index]);
+    if (!isSame) this.box.replaceChildren(...labels);
+    labels.forEach((label, index) => {
+      const control = (label.offer = controls[index]);
+      const input = one("input", label);
+      if (!label.held) {
+        input.max = Math.max(control.most, control.value);
+        input.value = control.value;
+      }
+      one("output", label).textContent = Number(control.value.toPrecision(6));
+    });
+  }
+
+  made(control) {
+    const input = made("input", { type: "range", min: 0, max: control.most, step: "any" });
+    const text = made("span", { textContent: control.label, title: control.label });
+    const label = made("label", { offer: control }, text, input, made("output"));
+    input.addEventListener("input", (event) => this.move(label, input, event));
+    input.addEventListener("change", () => (label.held = null));
+    return label;
+  }
+
+  // From its first movement on a slider changes the text as it was then.
+  move(label, input, event) {
+    if (!label.held) {
+      label.held = { edits: label.offer.edits, base: this.editor.text };
+      this.editor.remember();
+    }
+    const { edits, base } = label.held;
+    const step = stepOf(Number(input.max), false) / 10;
+    const value = Math.round(input.value / step) * step;
+    const changes = edits.map(({ from, to, before, part }) => {
+      return { from, to, text: before + writtenAs(value * part, base.slice(from, to), step, false) };
+    });
+    this.editor.change(changes, event, base);
+  }
+}
