@@ -1,11 +1,10 @@
 //! The page in a browser, operated by mouse and keys.
 
 use std::fs;
-use std::io::Write as _;
 
 use masonry_live::server::Desk;
 
-use crate::common::{DOOR, directory, serve, serve_scene};
+use crate::common::{DOOR, directory, say, serve, serve_scene};
 use crate::driver::Page;
 
 /// The picture is that of the text.
@@ -44,7 +43,7 @@ fn a_number_is_dragged_and_the_wall_falls() {
     page.wait(&format!("{SENTENCE}.startsWith('The wall stands')"));
     page.run("window.before = document.querySelector('#picture svg[data-frame]')");
     name_number(&page, "[joints.bed]\nmu = ", "mu");
-    page.drag("#mu", [-120, 0], 25);
+    page.drag("#mu", [-120.0, 0.0], 25);
     page.wait(&format!("{SENTENCE}.startsWith('The wall falls')"));
     assert!(text(&page).contains("[joints.bed]\nmu = 0.05\n"), "{}", text(&page));
     // The comment is still there, and the picture is the same element.
@@ -104,11 +103,10 @@ fn sliders_and_openings_change_the_text() {
     let scale = "Number(document.querySelector('#picture svg[data-frame]').dataset.frame.split(' ')[2]) * \
                  document.querySelector('svg.handles').getScreenCTM().a";
     let per_length = page.run(&format!("return {scale}")).as_f64().unwrap();
-    let half_a_metre = (0.5 * per_length).round() as i32;
-    page.drag("[aria-label^='place of wall']", [half_a_metre, 0], 10);
+    page.drag("[aria-label^='place of wall']", [0.5 * per_length, 0.0], 10);
     page.wait(&format!("/x = 1\\.2[0-9]*,/.test({TEXT})"));
     page.wait(SETTLED);
-    page.drag("[aria-label^='top of wall']", [0, (0.25 * per_length).round() as i32], 10);
+    page.drag("[aria-label^='top of wall']", [0.0, 0.25 * per_length], 10);
     page.wait(&format!("{TEXT}.includes('courses = 5,')"));
     page.wait("document.getElementById('fault').hidden");
 }
@@ -167,7 +165,7 @@ fn a_limit_is_found_and_another_one_is_stopped() {
     assert_eq!(page.run("return document.getElementById('stop').hidden"), true);
     // The page goes on at once.
     name_number(&page, "[joints.bed]\nmu = ", "mu");
-    page.drag("#mu", [4, 0], 2);
+    page.drag("#mu", [4.0, 0.0], 2);
     page.wait(&format!("{SETTLED} && {TEXT}.includes('mu = 0.67')"));
 }
 
@@ -177,7 +175,7 @@ fn a_scene_is_saved_and_changes_on_the_disk_are_loaded() {
     let Some(page) = Page::open(&address, 1280) else { return };
     page.wait(SETTLED);
     name_number(&page, "courses = ", "courses");
-    page.drag("#courses", [4, 0], 2);
+    page.drag("#courses", [4.0, 0.0], 2);
     page.wait("document.querySelector('#name.changed')");
     page.keys(CONTROL, "s");
     page.wait("!document.querySelector('#name.changed')");
@@ -196,7 +194,7 @@ fn two_pages_have_each_its_own_text() {
         page.wait(SETTLED);
     }
     name_number(&second, "[joints.bed]\nmu = ", "mu");
-    second.drag("#mu", [-100, 0], 5);
+    second.drag("#mu", [-100.0, 0.0], 5);
     second.wait(&format!("{SENTENCE}.startsWith('The wall falls')"));
     assert_eq!(text(&first), scene);
     first.wait(&format!("{SENTENCE}.startsWith('The wall stands')"));
@@ -239,20 +237,20 @@ fn pictures_follow_the_hand() {
         let Some(page) = opened(&format!("times_{name}"), &scene) else { return };
         name_number(&page, words, "number");
         page.run("performance.clearMeasures()");
-        page.drag("#number", [-60, 0], 60);
+        page.drag("#number", [-60.0, 0.0], 60);
         page.wait(SETTLED);
         page.wait("performance.getEntriesByName('answer').length > 0");
         let mut times = times(&page);
         times.sort_by(|a, b| a[0].total_cmp(&b[0]));
-        let of = |part: f64| times[(part * (times.len() - 1) as f64) as usize];
-        let [[median, solve], [slow, _]] = [of(0.5), of(0.95)];
+        let [[median, solve], [slow, _]] =
+            [50, 95].map(|part| times[(times.len() - 1) * part / 100]);
         let line = format!(
             "{name}: {} pictures, in the middle {:.1} times the solve ({median:.0} ms), 95 % within {:.1} times ({slow:.0} ms)",
             times.len(),
             median / solve,
             slow / solve,
         );
-        writeln!(std::io::stderr(), "{line}").unwrap();
+        say(&line);
     }
 }
 

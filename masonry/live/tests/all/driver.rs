@@ -1,4 +1,4 @@
-//! A browser that is operated as by a hand: as much of WebDriver as the tests need.
+//! A browser that is operated as by a hand: as much of `WebDriver` as the tests need.
 
 use std::io::{BufRead as _, BufReader, Read as _, Write as _};
 use std::net::TcpStream;
@@ -8,6 +8,8 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use serde_json::{Value, json};
+
+use crate::common::say;
 
 /// No wait of a test is as long as this on any machine.
 const PATIENCE: Duration = Duration::from_secs(60);
@@ -28,9 +30,8 @@ impl Page {
             .stderr(Stdio::null())
             .spawn();
         let Ok(mut driver) = started else {
-            // Past the capture of the test harness, which hides what a test prints that passes.
             let missing = "not tested: there is no chromedriver on this machine, by which the page could be operated";
-            writeln!(std::io::stderr(), "{missing}").unwrap();
+            say(missing);
             return None;
         };
         let said = BufReader::new(driver.stdout.take().unwrap()).lines();
@@ -46,7 +47,7 @@ impl Page {
         let wanted =
             json!({ "capabilities": { "alwaysMatch": { "goog:chromeOptions": options } } });
         let session = page.call("POST", "/session", &wanted);
-        page.session = session["sessionId"].as_str().expect("a session").to_owned();
+        session["sessionId"].as_str().expect("a session").clone_into(&mut page.session);
         let patience = 1000 * PATIENCE.as_secs();
         page.post("/timeouts", &json!({ "script": patience, "pageLoad": patience }));
         page.go(address);
@@ -89,11 +90,13 @@ impl Page {
 
     /// Presses the mouse at the middle of an element, moves it by pixels in so many equal parts, and lets it go.
     #[track_caller]
-    pub(crate) fn drag(&self, selector: &str, by: [i32; 2], parts: i32) {
+    pub(crate) fn drag(&self, selector: &str, by: [f64; 2], parts: u32) {
         let [x, y] = self.middle(selector);
         let mut actions = vec![at(x, y), json!({ "type": "pointerDown", "button": 0 })];
-        actions
-            .extend((1..=parts).map(|part| at(x + by[0] * part / parts, y + by[1] * part / parts)));
+        actions.extend((1..=parts).map(|part| {
+            let done = f64::from(part) / f64::from(parts);
+            at((x + by[0] * done).round(), (y + by[1] * done).round())
+        }));
         actions.push(json!({ "type": "pointerUp", "button": 0 }));
         let parameters = json!({ "pointerType": "mouse" });
         let mouse = json!({ "type": "pointer", "id": "mouse", "parameters": parameters, "actions": actions });
@@ -102,7 +105,7 @@ impl Page {
 
     #[track_caller]
     pub(crate) fn click(&self, selector: &str) {
-        self.drag(selector, [0, 0], 1);
+        self.drag(selector, [0.0, 0.0], 1);
     }
 
     /// Presses keys, one after the other, on what has the focus; those that `held` names are held down.
@@ -138,12 +141,12 @@ impl Page {
 
     /// The middle of an element, scrolled into sight.
     #[track_caller]
-    fn middle(&self, selector: &str) -> [i32; 2] {
+    fn middle(&self, selector: &str) -> [f64; 2] {
         let middle = self.run(&format!(
             "const it = document.querySelector({selector:?}); it.scrollIntoView({{ block: 'center', inline: 'nearest' }}); \
              const box = it.getBoundingClientRect(); return [box.x + box.width / 2, box.y + box.height / 2]"
         ));
-        [0, 1].map(|k| middle[k].as_f64().expect("an element on the page").round() as i32)
+        [0, 1].map(|k| middle[k].as_f64().expect("an element on the page").round())
     }
 
     fn post(&self, path: &str, body: &Value) -> Value {
@@ -181,7 +184,7 @@ impl Page {
 }
 
 /// The pointer goes to a place of the window within a frame of the screen.
-fn at(x: i32, y: i32) -> Value {
+fn at(x: f64, y: f64) -> Value {
     json!({ "type": "pointerMove", "duration": 16, "x": x, "y": y, "origin": "viewport" })
 }
 

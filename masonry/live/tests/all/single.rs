@@ -2,12 +2,12 @@
 
 use std::collections::BTreeMap;
 use std::fs;
-use std::io::Write as _;
 use std::ops::ControlFlow;
 
 use masonry_live::engine::Engine;
 use serde_json::{Value, json};
 
+use crate::common::say;
 use crate::driver::Page;
 
 /// All numbers of an answer with their places, without times, and without residuals, which are rounding errors alone.
@@ -43,7 +43,7 @@ fn results(answer: &Value) -> (Value, Vec<(String, f64)>) {
 fn the_single_file_has_the_digits_of_the_command() {
     let Ok(path) = std::env::var("MASONRY_LIVE_FILE") else {
         let missing = "not tested: MASONRY_LIVE_FILE names no page that `cargo run -p masonry-live-single` has written";
-        writeln!(std::io::stderr(), "{missing}").unwrap();
+        say(missing);
         return;
     };
     let text = fs::read_to_string(&path).unwrap().replace("http://www.w3.org/2000/svg", "");
