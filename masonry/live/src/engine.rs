@@ -163,13 +163,14 @@ impl Engine {
         step: Option<usize>,
         watch: &mut Watch<'_>,
     ) -> Result<String, Fault> {
-        let shown = self.solved(text, watch).map(|it| it.shown(show, step));
-        let (shown, error) = match shown {
-            Ok(shown) => (Some(shown), None),
-            Err(fault) => (None, Some(fault)),
-        };
         let read = Text::read(text);
-        let handles = scene(text).map(|scene| handles::handles(&scene, &read)).unwrap_or_default();
+        let (shown, handles, error) = match self.solved(text, watch) {
+            Ok(solved) => {
+                let handles = handles::handles(solved.scene(), &read);
+                (Some(solved.shown(show, step)), handles, None)
+            }
+            Err(fault) => (None, Vec::new(), Some(fault)),
+        };
         json(&Answer {
             numbers: read.numbers(),
             controls: controls::controls(&read),
@@ -185,7 +186,7 @@ impl Engine {
         if let Some(last) = last.filter(|it| it.is_of(text)) {
             return Ok(last);
         }
-        let solved = Arc::new(Solved::new(text, &scene(text)?, watch)?);
+        let solved = Arc::new(Solved::new(text, scene(text)?, watch)?);
         if solved.is_complete() {
             *self.last.lock().unwrap_or_else(PoisonError::into_inner) = Some(solved.clone());
         }
