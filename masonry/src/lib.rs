@@ -88,7 +88,7 @@ pub use analysis::limit::{
 pub use analysis::outcome::Outcome;
 pub use analysis::solve::{Event, Run, SolveError, solve, solve_observed};
 pub use data::route::Route;
-pub use data::state::{ContactState, ContactStatus, Reaction, State};
+pub use data::state::{PointState, PointStatus, Reaction, State};
 pub use data::verdict::{Evidence, Judgement, Verdict};
 pub use history::History;
 pub use model::Model;

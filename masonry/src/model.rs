@@ -1,6 +1,7 @@
 //! The model: blocks, supports, joints and contact points of a scene, in SI units.
 //!
-//! A [`Model`] is geometry and data only: nothing is assembled and no system is solved here.
+//! A [`Model`] is geometry and data only: nothing is assembled and no system is solved here. Its blocks, supports and joints
+//! are those of the [`scene`](crate::scene) in their places.
 //!
 //! # Signs
 //! At an interface `a` is the body behind and `b` the body in front: the unit normal `n` points
@@ -26,7 +27,7 @@ mod unusual;
 pub use dry::DRY_JOINT;
 pub use forces::Cause;
 pub use heal::Healed;
-pub use loads::{Acceleration, BlockLoad, EdgeLoad, Load, PlacedForce, PointLoad};
+pub use loads::{Acceleration, BlockLoad, EdgeLoad, LoadCase, PlacedForce, PointLoad};
 use nalgebra::{Point2, Vector2};
 
 use crate::geometry::Quad;
@@ -43,11 +44,11 @@ use crate::units::Units;
 #[derive(Debug, Clone)]
 pub struct Model {
     /// The blocks, in the order of the scene.
-    pub blocks: Vec<Block>,
+    pub blocks: Vec<PlacedBlock>,
     /// The rigid supports, in the order of the scene.
-    pub supports: Vec<Support>,
+    pub supports: Vec<PlacedSupport>,
     /// Where two blocks, or a block and a support, can touch.
-    pub joints: Vec<Joint>,
+    pub joints: Vec<PlacedJoint>,
     /// The points at which the contact law is enforced, joint by joint.
     pub contacts: Vec<ContactPoint>,
     /// The frictional classes that the joints refer to.
@@ -61,7 +62,7 @@ pub struct Model {
     /// Accelerations among the loads, which act on mass in addition to gravity.
     pub accelerations: Vec<Acceleration>,
     /// Names and factors of the loads, in the order of the scene.
-    pub loads: Vec<Load>,
+    pub loads: Vec<LoadCase>,
     /// The corners of single blocks that were moved; `None` if none were.
     pub healed: Option<Healed>,
     /// The units of the scene, in which results are reported.
@@ -82,9 +83,9 @@ impl Model {
     }
 }
 
-/// A block (brick, voussoir): a convex polygon; a quadrilateral if it is elastic.
+/// A block in its place (brick, voussoir): a convex polygon; a quadrilateral if it is elastic.
 #[derive(Debug, Clone)]
-pub struct Block {
+pub struct PlacedBlock {
     /// The name by which messages and files refer to it.
     pub name: String,
     /// The corners, counter-clockwise \[m\]. Edge `k` runs from corner `k` to the next.
@@ -99,7 +100,7 @@ pub struct Block {
     pub loads: Vec<BlockLoad>,
 }
 
-impl Block {
+impl PlacedBlock {
     /// Its corners, if there are four.
     pub fn quad(&self) -> Option<Quad> {
         self.corners.as_slice().try_into().ok()
@@ -120,9 +121,9 @@ impl Block {
     }
 }
 
-/// A rigid straight support.
+/// A rigid straight support in its place.
 #[derive(Debug, Clone)]
-pub struct Support {
+pub struct PlacedSupport {
     /// The name by which messages and reports refer to it.
     pub name: String,
     /// One end \[m\].
@@ -133,7 +134,7 @@ pub struct Support {
     pub movement: Movement,
 }
 
-impl Support {
+impl PlacedSupport {
     /// The displacement \[m\] of the support at a place near it.
     pub fn displacement_at(&self, place: Point2<f64>) -> Vector2<f64> {
         let Movement { x, y, turn } = self.movement;
@@ -218,7 +219,7 @@ pub enum Body {
 
 /// The overlap of an edge of one block with an edge of another, or with a support.
 #[derive(Debug, Clone)]
-pub struct Joint {
+pub struct PlacedJoint {
     /// The body behind: the normal points away from it. A support is always this side.
     pub a: Body,
     /// The body in front.
@@ -235,7 +236,7 @@ pub struct Joint {
     pub film: Option<Film>,
 }
 
-impl Joint {
+impl PlacedJoint {
     /// The unit tangent: the normal turned by -90 degrees.
     pub fn tangent(&self) -> Vector2<f64> {
         Vector2::new(self.normal.y, -self.normal.x)

@@ -48,7 +48,7 @@ pub struct Plan {
     /// Why this solver.
     pub because: String,
     /// The routes in the order in which they are tried, until one has a result.
-    pub routes: Vec<Choice>,
+    pub routes: Vec<PlannedRoute>,
     /// Why the scene is not solved on this machine, if that is so.
     pub refused: Option<String>,
 }
@@ -71,7 +71,7 @@ pub struct Effect {
 
 /// A route of a plan.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Choice {
+pub struct PlannedRoute {
     /// The route.
     pub route: Route,
     /// Why it has this place.
@@ -92,7 +92,7 @@ impl Plan {
     pub fn of(scene: &Scene, model: &Model) -> Self {
         let sizes = Sizes::of(model);
         let routes = routes(scene, model, &sizes);
-        let Choice { route, order, largest_order, .. } = routes[0];
+        let PlannedRoute { route, order, largest_order, .. } = routes[0];
         let frictional = sizes.frictional();
         let (solver, because) = solver(route, scene.solver.form, frictional > 0);
         let mut plan = Self {
@@ -136,14 +136,14 @@ impl Plan {
 }
 
 /// The routes in the order in which they are tried.
-fn routes(scene: &Scene, model: &Model, sizes: &Sizes) -> Vec<Choice> {
+fn routes(scene: &Scene, model: &Model, sizes: &Sizes) -> Vec<PlannedRoute> {
     let form = scene.solver.form;
     let facts = Facts {
         at_rest: sizes.is_rigid() && model.contacts.iter().all(|contact| contact.gap.abs() <= 0.0),
         largest_dense: sizes.choice(Route::Lemke, form).largest_order.max(sizes.largest_block),
     };
     let routes = auto::routes(&scene.solver, facts).into_iter();
-    routes.map(|(route, because)| Choice { because, ..sizes.choice(route, form) }).collect()
+    routes.map(|(route, because)| PlannedRoute { because, ..sizes.choice(route, form) }).collect()
 }
 
 /// The solver of a route, and why it is taken.

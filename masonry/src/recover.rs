@@ -5,7 +5,7 @@ use std::borrow::Cow;
 use nalgebra::{SVector, Vector2};
 
 use crate::data::state::{
-    ContactState, ContactStatus, ElementStress, FilmStress, Principal, Reaction, RowState, State,
+    ElementStress, FilmStress, PointState, PointStatus, Principal, Reaction, RowState, State,
 };
 use crate::element::quad4;
 use crate::forms::Sparse;
@@ -115,7 +115,7 @@ fn of_motions<'a>(
 pub(crate) fn wanted_stresses(
     model: &Model,
     displacements: &[Vec<Vector2<f64>>],
-    contacts: &[ContactState],
+    contacts: &[PointState],
     wanted: bool,
 ) -> (Vec<ElementStress>, Vec<FilmStress>) {
     if wanted {
@@ -129,11 +129,11 @@ pub(crate) fn wanted_stresses(
 fn joints_energy(
     model: &Model,
     system: &System,
-    contacts: &[ContactState],
+    contacts: &[PointState],
     displacements: &[Vec<Vector2<f64>>],
 ) -> f64 {
     let across = system.rows.iter().map(|row| {
-        let ContactState { t_n, t_t, .. } = contacts[row.contact.index()];
+        let PointState { t_n, t_t, .. } = contacts[row.contact.index()];
         let force = if row.direction == Direction::Normal { t_n } else { t_t };
         0.5 * row.compliance * force * force
     });
@@ -149,10 +149,10 @@ fn joints_energy(
 pub fn film_stresses(
     model: &Model,
     displacements: &[Vec<Vector2<f64>>],
-    contacts: &[ContactState],
+    contacts: &[PointState],
 ) -> Vec<FilmStress> {
     let points = model.contacts.iter().zip(contacts).enumerate();
-    let of_point = |(k, (point, state)): (usize, (&ContactPoint, &ContactState))| {
+    let of_point = |(k, (point, state)): (usize, (&ContactPoint, &PointState))| {
         let film = model.joints[point.joint.index()].film?;
         let part = point.film?;
         // Adding zero turns a stress of -0.0 into 0.0.
@@ -209,9 +209,9 @@ fn contact_states(
     system: &System,
     rows: &RowState,
     displacements: &[Vec<Vector2<f64>>],
-) -> Vec<ContactState> {
+) -> Vec<PointState> {
     let points = system.points();
-    let mut states: Vec<ContactState> = model
+    let mut states: Vec<PointState> = model
         .contacts
         .iter()
         .enumerate()
@@ -221,7 +221,7 @@ fn contact_states(
             let y_t =
                 relative_displacement(model, displacements, contact).dot(&tangent) + contact.slip;
             let (t_n, y_n) = (rows.t[k] - system.rows[k].tension, rows.y[k]);
-            ContactState { t_n, t_t: 0.0, y_n, y_t, status: ContactStatus::Open }
+            PointState { t_n, t_t: 0.0, y_n, y_t, status: PointStatus::Open }
         })
         .collect();
     for (k, friction) in system.friction.iter().enumerate() {
@@ -241,13 +241,13 @@ fn contact_states(
 
 /// The state of a contact by what moves: displacements are unique if contact forces are not (forces may circulate between the
 /// points around a corner without any effect).
-fn status(state: &ContactState, zero: f64) -> ContactStatus {
+fn status(state: &PointState, zero: f64) -> PointStatus {
     if state.y_n > zero {
-        ContactStatus::Open
+        PointStatus::Open
     } else if state.y_t.abs() > zero {
-        ContactStatus::Slip
+        PointStatus::Slip
     } else {
-        ContactStatus::Stick
+        PointStatus::Stick
     }
 }
 
@@ -295,10 +295,10 @@ impl Principal {
 }
 
 /// The states of the contact points of blocks at rest under forces \[N\] of all rows of the [`System`].
-pub fn forces_at_rest(model: &Model, rows: &[f64]) -> Vec<ContactState> {
+pub fn forces_at_rest(model: &Model, rows: &[f64]) -> Vec<PointState> {
     let (normals, mut tangents) =
         (&rows[..model.contacts.len()], rows[model.contacts.len()..].iter());
-    let states = model.contacts.iter().zip(normals).map(|(contact, normal)| ContactState {
+    let states = model.contacts.iter().zip(normals).map(|(contact, normal)| PointState {
         t_n: normal - contact.law.tension,
         t_t: if contact.law.resists_sliding() {
             tangents.next().copied().unwrap_or(0.0)
@@ -307,20 +307,20 @@ pub fn forces_at_rest(model: &Model, rows: &[f64]) -> Vec<ContactState> {
         },
         y_n: 0.0,
         y_t: 0.0,
-        status: ContactStatus::Stick,
+        status: PointStatus::Stick,
     });
     states.collect()
 }
 
 /// The force \[N\] that a contact point exerts on the block in front.
-pub fn contact_force(model: &Model, contact: &ContactPoint, state: &ContactState) -> Vector2<f64> {
+pub fn contact_force(model: &Model, contact: &ContactPoint, state: &PointState) -> Vector2<f64> {
     let joint = &model.joints[contact.joint.index()];
     joint.normal * state.t_n + joint.tangent() * state.t_t
 }
 
 /// The resultant of the contact forces of every support on the structure, in the order of the model.
-pub fn reactions(model: &Model, contacts: &[ContactState]) -> Vec<Reaction> {
-    let name = |support: &crate::model::Support| support.name.clone();
+pub fn reactions(model: &Model, contacts: &[PointState]) -> Vec<Reaction> {
+    let name = |support: &crate::model::PlacedSupport| support.name.clone();
     let mut list: Vec<Reaction> = model
         .supports
         .iter()

@@ -133,7 +133,7 @@ pub struct Scene {
     pub stages: Vec<Stage>,
     /// Limit loads: which load grows.
     #[serde(default, deserialize_with = "strict::read", skip_serializing_if = "is_empty")]
-    pub limit: Limit,
+    pub limit: LimitLoad,
     /// Contact: positions of contact points, gaps that close, and mortar films.
     #[serde(default, deserialize_with = "strict::read")]
     pub contact: Contact,
@@ -186,7 +186,7 @@ pub struct Support {
 #[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
-pub struct Limit {
+pub struct LimitLoad {
     /// The load, or the group of loads, whose factor grows; without it the only group, or the only one with a factor.
     pub group: Option<String>,
 }
@@ -206,6 +206,6 @@ impl Default for Output {
     }
 }
 
-fn is_empty(limit: &Limit) -> bool {
-    *limit == Limit::default()
+fn is_empty(limit: &LimitLoad) -> bool {
+    *limit == LimitLoad::default()
 }

@@ -19,7 +19,7 @@ use crate::geometry;
 use crate::ids::{BlockId, ContactId};
 use crate::law::Friction;
 use crate::model::mesh::BlockMesh;
-use crate::model::{Block, Elasticity, Joint, Model};
+use crate::model::{PlacedBlock, Elasticity, PlacedJoint, Model};
 use crate::rounding::cleared;
 use crate::system::rigid::Modes;
 
@@ -51,7 +51,7 @@ pub enum Direction {
 
 impl Direction {
     /// The unit vector of the direction in a joint.
-    pub fn of(self, joint: &Joint) -> Vector2<f64> {
+    pub fn of(self, joint: &PlacedJoint) -> Vector2<f64> {
         match self {
             Self::Normal => joint.normal,
             Self::Tangent => joint.tangent(),
@@ -256,7 +256,7 @@ impl System {
 }
 
 /// The mesh and the elastic constants of a deformable block; `None` for a rigid one.
-fn elastic_part(block: &Block) -> Result<Option<(&BlockMesh, Elasticity)>, SystemError> {
+fn elastic_part(block: &PlacedBlock) -> Result<Option<(&BlockMesh, Elasticity)>, SystemError> {
     match (&block.mesh, block.elasticity) {
         (_, None) => Ok(None),
         (Some(mesh), Some(elasticity)) => Ok(Some((mesh, elasticity))),

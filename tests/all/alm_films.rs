@@ -16,7 +16,7 @@ use common::{
 };
 use lcp::{Contact2d, Status};
 use masonry::analysis::outcome::Reaction;
-use masonry::data::state::ContactStatus;
+use masonry::data::state::PointStatus;
 use masonry::model::joints::PointRule;
 use masonry::model::{Model, Plane};
 use masonry::paper::alm::{AlmError, Answer, MortaredState, MortaredWall, Settings};
@@ -81,7 +81,7 @@ fn panels_with_one_element_per_brick() {
         assert_close(left.fy, right.fy, 1e-6);
 
         let points = || fine.films.iter().flat_map(|film| &film.points);
-        for state in [ContactStatus::Open, ContactStatus::Stick, ContactStatus::Slip] {
+        for state in [PointStatus::Open, PointStatus::Stick, PointStatus::Slip] {
             assert!(points().any(|point| point.contact == state), "{state:?}");
         }
         assert!(points().all(|point| point.stress.y <= 0.0 && point.dissipation >= 0.0));

@@ -17,7 +17,7 @@ use common::state;
 use masonry::analysis::solve::{Run, solve};
 use masonry::forms::reduction::Reduction;
 use masonry::forms::{Form, FormKind, Sparse};
-use masonry::model::{Model, Support};
+use masonry::model::{Model, PlacedSupport};
 use masonry::plan::{Effect, Plan};
 use masonry::scene::{Films, Joint, Material, Movement, Route, Scene};
 use masonry::system::{Direction, System};
@@ -191,7 +191,7 @@ fn one_step_leaves_no_history() {
         assert!(run.checkpoint().is_none());
         let outcome = run.finish();
         assert_eq!(outcome.history, None);
-        let at_rest = |support: &Support| support.movement == Movement::default();
+        let at_rest = |support: &PlacedSupport| support.movement == Movement::default();
         assert!(outcome.model.supports.iter().all(at_rest));
     }
 }

@@ -27,7 +27,7 @@ use std::sync::LazyLock;
 
 use case::{Case, End, Theme};
 use common::{all_displacements, all_reactions, difference};
-use masonry::analysis::outcome::{ContactStatus, Outcome, State};
+use masonry::analysis::outcome::{Outcome, PointStatus, State};
 use masonry::ids::BlockId;
 use masonry::model::{ContactPoint, Model};
 use masonry::verify::checks::Checks;
@@ -177,19 +177,19 @@ fn above_dropped_bricks(course: &Outcome, panel: &Model) -> State {
     let in_course = |block: BlockId| {
         let last = |name: &str| name.rsplit('/').next().unwrap().to_owned();
         let (row, brick) = panel.blocks[block.index()].name.rsplit_once('/').unwrap();
-        let is_brick = |it: &&masonry::model::Block| last(&it.name) == brick;
+        let is_brick = |it: &&masonry::model::PlacedBlock| last(&it.name) == brick;
         let place = course.model.blocks.iter().find(is_brick).filter(|_| row.ends_with("/3"));
         place.map(|it| common::block_named(&course.model, &it.name))
     };
     let blocks = |contact: &ContactPoint| {
         [Some(contact.b), contact.a].map(|it| it.map(|anchor| anchor.block))
     };
-    let none = masonry::analysis::outcome::ContactState {
+    let none = masonry::analysis::outcome::PointState {
         t_n: 0.0,
         t_t: 0.0,
         y_n: 0.0,
         y_t: 0.0,
-        status: ContactStatus::Open,
+        status: PointStatus::Open,
     };
     let of_contact = |contact: &ContactPoint| {
         let between = blocks(contact).map(|it| it.map(in_course));

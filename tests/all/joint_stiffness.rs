@@ -9,7 +9,7 @@ use common::{
 };
 use lcp::Status;
 use masonry::analysis::limit;
-use masonry::analysis::outcome::{ContactStatus, Outcome};
+use masonry::analysis::outcome::{Outcome, PointStatus};
 use masonry::analysis::solve::solve;
 use masonry::data::verdict::{Evidence, Verdict};
 use masonry::model::{Model, Plane};
@@ -71,8 +71,8 @@ fn two_rigid_blocks_sink_by_the_pressure_of_two_joints() {
         }
         let work = 0.5 * P * B * T * 2.0 * P / K_N;
         assert_close(state(&outcome).strain_energy / 1e3, work, 10.0 * rounding(route));
-        let is_closed = |it: &masonry::analysis::outcome::ContactState| {
-            it.status == ContactStatus::Stick && it.y_n.abs() <= rounding(route) * P / K_N
+        let is_closed = |it: &masonry::analysis::outcome::PointState| {
+            it.status == PointStatus::Stick && it.y_n.abs() <= rounding(route) * P / K_N
         };
         assert!(state(&outcome).contacts.iter().all(is_closed), "{route:?}");
         assert_eq!(outcome.judgement.verdict, Verdict::Stands);
@@ -178,7 +178,7 @@ fn a_joint_in_tension_is_a_spring_up_to_its_strength() {
             assert_close(u.y, 0.9 * tension / K_N, 100.0 * rounding(route));
         }
         let it = &state(&outcome).contacts;
-        assert!(it.iter().all(|it| it.status == ContactStatus::Stick && it.t_n < 0.0));
+        assert!(it.iter().all(|it| it.status == PointStatus::Stick && it.t_n < 0.0));
     }
     assert!(!stands(&pulled(1.001 * tension)));
 }

@@ -10,7 +10,7 @@ use common::{
     M_KN, assert_close, block_named, displacements, panels, rectangle, solved, stands, state,
 };
 use lcp::{InteriorPoint, Solver};
-use masonry::analysis::outcome::{ContactStatus, Outcome};
+use masonry::analysis::outcome::{Outcome, PointStatus};
 use masonry::forms::Sparse;
 use masonry::ids::FilmId;
 use masonry::model::joints::PointRule;
@@ -101,7 +101,7 @@ fn a_film_in_shear_is_a_spring_up_to_the_bound_of_friction() {
         for (film, contact) in state(&outcome).films.iter().zip(&state(&outcome).contacts) {
             assert_close(film.tau / 1e3, tau, 1e-11);
             assert_close(film.sigma_y / 1e3, -50.0, 1e-11);
-            assert_eq!((film.film, contact.status), (FilmId(0), ContactStatus::Stick));
+            assert_eq!((film.film, contact.status), (FilmId(0), PointStatus::Stick));
         }
     }
     assert!(!stands(&sheared(1.001)) && !stands(&sheared(-1.001)));

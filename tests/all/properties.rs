@@ -4,7 +4,7 @@ use crate::common;
 
 use common::{GRAVITY, M_KN, applied_load, assert_admissible, assert_sound, state};
 use lcp::Status;
-use masonry::analysis::outcome::{ContactState, Outcome};
+use masonry::analysis::outcome::{Outcome, PointState};
 use masonry::analysis::solve::solve;
 use masonry::data::state::RowState;
 use masonry::forms::reduction::Reduction;
@@ -140,8 +140,8 @@ fn violation(scene: &Scene, rows: &RowState) -> f64 {
 }
 
 /// The rows of an outcome: normal forces and gaps, then those along the tangents.
-fn rows(contacts: &[ContactState], factor: f64, side: f64) -> RowState {
-    let rows = |normal: fn(&ContactState) -> f64, tangent: fn(&ContactState) -> f64| {
+fn rows(contacts: &[PointState], factor: f64, side: f64) -> RowState {
+    let rows = |normal: fn(&PointState) -> f64, tangent: fn(&PointState) -> f64| {
         let normals = contacts.iter().map(|it| factor * normal(it));
         normals.chain(contacts.iter().map(|it| factor * side * tangent(it))).collect()
     };
@@ -167,7 +167,7 @@ fn points(model: &Model, side: f64) -> Vec<([&str; 2], Vector2<f64>)> {
 ///
 /// Beds keep their normals and reverse their tangents; heads and walls keep both but swap their
 /// sides. Either way forces and slips along the tangent change sign.
-fn unmirrored(original: &Outcome, mirrored: &Outcome) -> Vec<ContactState> {
+fn unmirrored(original: &Outcome, mirrored: &Outcome) -> Vec<PointState> {
     let (places, images) = (points(&original.model, 1.0), points(&mirrored.model, -1.0));
     assert_eq!(places.len(), images.len());
     let near = 1e-9 * places.iter().fold(0.0, |m: f64, (_, p)| m.max(p.amax()));

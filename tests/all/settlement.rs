@@ -8,7 +8,7 @@ use common::assert_close;
 use lcp::Status;
 use masonry::analysis::solve::{Run, solve};
 use masonry::data::info::Way;
-use masonry::data::state::ContactState;
+use masonry::data::state::PointState;
 use masonry::data::verdict::Verdict;
 use masonry::scene::{Brick, Joint, Material, Movement, Plane, Route, Scene, Stage, Support, Wall};
 use masonry::units::{ForceUnit, LengthUnit, Units};
@@ -102,10 +102,10 @@ fn small_steps_with_high_friction_are_solved() {
 fn steps_keep_the_law_along_the_way() {
     let scene = on_a_sinking_floor(5, Material::elastic(5e6, 0.15), Some([1, 1]));
     let mut run = Run::new(&scene, &mut |_| ControlFlow::Continue(())).unwrap();
-    let (mut before, mut powers): (Option<Vec<ContactState>>, _) = (None, Vec::new());
+    let (mut before, mut powers): (Option<Vec<PointState>>, _) = (None, Vec::new());
     while run.advance(&mut |_| ControlFlow::Continue(())).unwrap() {
         let contacts = run.frame().unwrap().state.contacts;
-        let slid = |(i, now): (usize, &ContactState)| {
+        let slid = |(i, now): (usize, &PointState)| {
             let was = before.as_ref().map_or(0.0, |it| it[i].y_t);
             (now.t_n, now.t_t, now.y_t - was)
         };

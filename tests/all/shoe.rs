@@ -7,7 +7,7 @@ use crate::common;
 use common::routes::{answer_by, rounding, routes_for, solved_by};
 use common::{assert_close, displacements, rectangle, state};
 use lcp::Status;
-use masonry::analysis::outcome::{ContactState, ContactStatus, Outcome};
+use masonry::analysis::outcome::{Outcome, PointState, PointStatus};
 use masonry::analysis::solve::solve;
 use masonry::model::{Body, Plane};
 use masonry::scene::{Joint, Load, Material, Route, Scene, Support};
@@ -46,7 +46,7 @@ fn shoe(material: Material, push: f64) -> Scene {
 }
 
 /// The points between shoe and plane.
-fn on_plane(outcome: &Outcome) -> Vec<ContactState> {
+fn on_plane(outcome: &Outcome) -> Vec<PointState> {
     let is_on_plane = |joint: usize| match outcome.model.joints[joint].a {
         Body::Support(id) => outcome.model.supports[id.index()].name == "plane",
         Body::Block(_) => false,
@@ -66,7 +66,7 @@ fn a_push_below_friction_does_not_move_it() {
             assert!(u.x.abs() < near * 1e-3 * GAP && (u.y * 1e3 + GAP).abs() < near * GAP, "{u}");
         }
         let points = on_plane(&outcome);
-        assert!(points.iter().all(|it| it.status == ContactStatus::Stick), "{points:?}");
+        assert!(points.iter().all(|it| it.status == PointStatus::Stick), "{points:?}");
         let [normal, tangent] = sums(&points);
         assert_close(normal, NORMAL_FORCE, near);
         assert_close(tangent.abs(), 0.99 * MU * NORMAL_FORCE, near);
@@ -86,7 +86,7 @@ fn a_push_above_friction_loads_the_spring() {
             assert_close(u.y * 1e3, -GAP, near);
         }
         let points = on_plane(&outcome);
-        assert!(points.iter().all(|it| it.status == ContactStatus::Slip), "{points:?}");
+        assert!(points.iter().all(|it| it.status == PointStatus::Slip), "{points:?}");
         let [normal, tangent] = sums(&points);
         assert_close(normal, NORMAL_FORCE, near);
         assert_close(tangent.abs(), MU * NORMAL_FORCE, near);
@@ -107,7 +107,7 @@ fn a_stiff_shoe_slides_like_a_rigid_one() {
         let error = |young: f64| {
             let outcome = solved_by(&shoe(Material::elastic(young, 0.0), 181.8), route);
             let points = on_plane(&outcome);
-            assert!(points.iter().all(|it| it.status == ContactStatus::Slip));
+            assert!(points.iter().all(|it| it.status == PointStatus::Slip));
             let slips = points.iter().map(|it| it.y_t.abs() * 1e3);
             slips.map(|slip| (slip - 9.0).abs()).fold(0.0, f64::max)
         };
@@ -134,6 +134,6 @@ fn a_shoe_far_stiffer_than_the_spring_is_held() {
     assert_ne!(solve(&scene).unwrap().solve.status, Status::NoEquilibrium);
 }
 
-fn sums(points: &[ContactState]) -> [f64; 2] {
+fn sums(points: &[PointState]) -> [f64; 2] {
     points.iter().fold([0.0; 2], |[n, t], it| [n + it.t_n, t + it.t_t])
 }

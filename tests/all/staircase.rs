@@ -6,7 +6,7 @@ use crate::common;
 
 use common::routes::solved_by;
 use common::{panels, state};
-use masonry::analysis::outcome::{ContactState, ContactStatus, Outcome};
+use masonry::analysis::outcome::{Outcome, PointState, PointStatus};
 use masonry::scene::Route;
 use nalgebra::Point2;
 
@@ -38,7 +38,7 @@ const RECTANGULAR: [Panel; 2] = [
 /// A bed joint: its ends from the left, and its points from the left.
 struct Bed {
     ends: [f64; 2],
-    points: Vec<ContactState>,
+    points: Vec<PointState>,
 }
 
 impl Bed {
@@ -47,7 +47,7 @@ impl Bed {
     }
 
     fn is_open(&self, point: usize) -> bool {
-        self.points[point].status == ContactStatus::Open
+        self.points[point].status == PointStatus::Open
     }
 }
 
@@ -86,7 +86,7 @@ impl Panel {
     }
 
     /// The points of the upper half of the head joint at `x` in a course.
-    fn upper_head(&self, outcome: &Outcome, x: f64, course: u8) -> Vec<ContactState> {
+    fn upper_head(&self, outcome: &Outcome, x: f64, course: u8) -> Vec<PointState> {
         let middle = self.foot(course) + 0.5 * HEIGHT;
         let points = outcome.model.contacts.iter().zip(&state(outcome).contacts);
         let is_there = |at: Point2<f64>| {
@@ -174,7 +174,7 @@ fn the_steps_are_open() {
             let head = panel.edge(course) - 0.5 * panel.mortar;
             for x in [head, panel.width - head] {
                 let points = panel.upper_head(&outcome, x, course);
-                let is_open = |it: &ContactState| it.status == ContactStatus::Open;
+                let is_open = |it: &PointState| it.status == PointStatus::Open;
                 assert!(points.len() >= 2 && points.iter().all(is_open), "{x} m, course {course}");
             }
         }

@@ -9,7 +9,7 @@ use common::films::{
 use common::{
     M_KN, all_displacements, all_reactions, all_stresses, assert_close, difference, solved, state,
 };
-use masonry::analysis::outcome::{ContactStatus, Outcome};
+use masonry::analysis::outcome::{Outcome, PointStatus};
 use masonry::model::joints::PointRule;
 use masonry::model::{Body, Model, Plane};
 use masonry::plan::{Effect, Plan};
@@ -66,7 +66,7 @@ fn pressed(mesh: [u32; 2]) -> Scene {
         .load(Load::pressure("right", [width, t], [width, height], 60.0))
 }
 
-fn count(outcome: &Outcome, status: ContactStatus) -> usize {
+fn count(outcome: &Outcome, status: PointStatus) -> usize {
     state(outcome).contacts.iter().filter(|contact| contact.status == status).count()
 }
 
@@ -76,7 +76,7 @@ fn a_pressed_wall_is_the_linear_one() {
     for mesh in [[1, 1], [3, 2]] {
         let outcome = solved(&pressed(mesh));
         let (model, points) = (&outcome.model, outcome.model.contacts.len());
-        assert_eq!(count(&outcome, ContactStatus::Stick), points);
+        assert_eq!(count(&outcome, PointStatus::Stick), points);
         let nodes = Nodes::of(model);
         let mut k = nodes.stiffness(model);
         nodes.parts(model).iter().for_each(|part| part.add_bonded(model, &mut k));
@@ -95,7 +95,7 @@ fn a_pressed_wall_is_the_linear_one() {
 fn the_law_of_strips_holds_where_films_open_and_slide() {
     for t in [0.02, 0.005] {
         let outcome = solved(&pushed(t, Films::Strips));
-        for status in [ContactStatus::Open, ContactStatus::Stick, ContactStatus::Slip] {
+        for status in [PointStatus::Open, PointStatus::Stick, PointStatus::Slip] {
             assert!(count(&outcome, status) > 3, "{status:?}: {}", count(&outcome, status));
         }
         assert_films_balance(&outcome, 1e-8);

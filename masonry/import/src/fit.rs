@@ -9,7 +9,7 @@ use super::stones::{Stone, near_pairs};
 use super::{ImportError, ImportErrorKind, Options, floor};
 use masonry::geometry;
 use masonry::model::heal::heal;
-use masonry::model::{Block, Movement, Support};
+use masonry::model::{Movement, PlacedBlock, PlacedSupport};
 use masonry_drawing::Change;
 
 /// Overlaps below this part of the smaller block are rounding errors, as in the checks of a model.
@@ -40,13 +40,13 @@ impl Fitted {
 
 /// Moves corners onto those and onto edges that are nearer than the tolerance.
 fn move_together(sheet: &mut Sheet) -> Result<(), ImportError> {
-    let mut blocks: Vec<Block> = sheet.stones.iter().map(block).collect();
-    let supports: Vec<Support> = sheet
+    let mut blocks: Vec<PlacedBlock> = sheet.stones.iter().map(block).collect();
+    let supports: Vec<PlacedSupport> = sheet
         .supports
         .iter()
         .map(|it| {
             let [from, to] = it.ends;
-            Support { name: it.name.clone(), from, to, movement: Movement::default() }
+            PlacedSupport { name: it.name.clone(), from, to, movement: Movement::default() }
         })
         .collect();
     let (count, tolerance) = (blocks.len(), sheet.tolerance);
@@ -66,8 +66,8 @@ fn move_together(sheet: &mut Sheet) -> Result<(), ImportError> {
     Ok(())
 }
 
-fn block(stone: &Stone) -> Block {
-    Block {
+fn block(stone: &Stone) -> PlacedBlock {
+    PlacedBlock {
         name: String::new(),
         corners: stone.corners.clone(),
         elasticity: None,

@@ -7,7 +7,7 @@ use nalgebra::Vector2;
 use serde::{Deserialize, Serialize};
 
 use crate::data::info::SolveInfo;
-use crate::data::state::{ContactState, State};
+use crate::data::state::{PointState, State};
 use crate::files::write_atomically;
 use crate::forms::Start;
 use crate::history::StepRecord;
@@ -116,7 +116,7 @@ pub struct Checkpoint {
     /// How the last step was solved, without times: the file does not depend on the machine.
     pub(crate) solve: SolveInfo,
     displacements: Vec<Vec<[f64; 2]>>,
-    contacts: Vec<ContactState>,
+    contacts: Vec<PointState>,
     /// How far every contact point had slid where the slips of the last step are measured from \[m\].
     slips: Vec<f64>,
     strain_energy: f64,
@@ -253,7 +253,7 @@ fn sealed(data: &str) -> String {
     format!("{data}{SEAL}{checksum:016x}\"}}")
 }
 
-fn nodes(block: &crate::model::Block) -> usize {
+fn nodes(block: &crate::model::PlacedBlock) -> usize {
     block.mesh.as_ref().map_or(block.corners.len(), |mesh| mesh.nodes.len())
 }
 

@@ -4,7 +4,7 @@ use nalgebra::Vector2;
 
 pub use crate::data::info::{Attempt, PhaseTime, RouteEnd, SoftReport, SolveInfo};
 pub use crate::data::state::{
-    ContactState, ContactStatus, ElementStress, FilmStress, Principal, Reaction, State,
+    ElementStress, FilmStress, PointState, PointStatus, Principal, Reaction, State,
 };
 use crate::data::verdict::{Judgement, Verdict};
 use crate::history::{History, Step};

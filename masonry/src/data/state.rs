@@ -13,7 +13,7 @@ pub struct State {
     /// corners for a rigid block.
     pub displacements: Vec<Vec<Vector2<f64>>>,
     /// Force, gap and slip at every contact point.
-    pub contacts: Vec<ContactState>,
+    pub contacts: Vec<PointState>,
     /// Stresses at the contact points of the mortar films, in the order of the points; empty without
     /// films, and when no output shows stresses.
     pub films: Vec<FilmStress>,
@@ -34,7 +34,7 @@ pub struct RowState {
 
 /// The state of one contact point.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct ContactState {
+pub struct PointState {
     /// Normal contact force \[N\], compression positive.
     pub t_n: f64,
     /// Tangential contact force \[N\] on side `b` along `t`.
@@ -44,13 +44,13 @@ pub struct ContactState {
     /// Slip \[m\] of side `b` relative to `a` along `t`; across a film, beyond its shear.
     pub y_t: f64,
     /// Open, stick or slip.
-    pub status: ContactStatus,
+    pub status: PointStatus,
 }
 
 /// The three states of a frictional contact point.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
-pub enum ContactStatus {
+pub enum PointStatus {
     /// The gap is positive: no force is carried.
     Open,
     /// Closed without sliding.

@@ -11,7 +11,7 @@
 
 use nalgebra::Vector2;
 
-use crate::data::state::{ContactState, ContactStatus, State};
+use crate::data::state::{PointState, PointStatus, State};
 use crate::model::{Body, Model};
 use crate::recover;
 use crate::system::rigid::Modes;
@@ -92,10 +92,10 @@ pub(crate) struct FrictionWork {
 
 impl FrictionWork {
     /// The friction of one step, in which `y_t` of the contacts is their slip.
-    pub(crate) fn of_step(model: &Model, contacts: &[ContactState]) -> Self {
+    pub(crate) fn of_step(model: &Model, contacts: &[PointState]) -> Self {
         let (mut sum, mut capacity) = (Self::default(), 0.0);
         for (point, contact) in model.contacts.iter().zip(contacts) {
-            if contact.status != ContactStatus::Slip {
+            if contact.status != PointStatus::Slip {
                 continue;
             }
             let taken = -contact.t_t * contact.y_t;
@@ -121,7 +121,7 @@ impl FrictionWork {
 
 /// Energy \[J\] that the tensile strength of open joints holds, `T y_n`: what opening them took, and what they give
 /// back when they close.
-pub(crate) fn held(model: &Model, contacts: &[ContactState]) -> f64 {
+pub(crate) fn held(model: &Model, contacts: &[PointState]) -> f64 {
     let points = model.contacts.iter().zip(contacts);
     points.map(|(point, contact)| point.law.tension * contact.y_n.max(0.0)).sum()
 }

@@ -1,7 +1,7 @@
 //! The classes of joints: of a support, of a wall, of a pair of blocks, or `bed` and `head`.
 
 use super::joints::JointKind;
-use super::{Block, Body, Joint, JointClass, Mortar, Plane};
+use super::{Body, JointClass, Mortar, PlacedBlock, PlacedJoint, Plane};
 use crate::ids::BlockId;
 use crate::law::JointLaw;
 use crate::material::FilmMaterial;
@@ -30,7 +30,11 @@ enum Members {
 }
 
 impl Classes {
-    pub(super) fn of(scene: &Scene, blocks: &[Block], walls: Vec<usize>) -> Result<Self, Fault> {
+    pub(super) fn of(
+        scene: &Scene,
+        blocks: &[PlacedBlock],
+        walls: Vec<usize>,
+    ) -> Result<Self, Fault> {
         let mut list: Vec<JointClass> =
             scene.joints.iter().map(|(name, joint)| joint_class(scene, name, joint)).collect();
         let given = list.len();
@@ -96,8 +100,8 @@ impl Classes {
     /// The classes of a model with these joints.
     pub(super) fn of_joints(
         mut self,
-        blocks: &[Block],
-        joints: &[Joint],
+        blocks: &[PlacedBlock],
+        joints: &[PlacedJoint],
     ) -> Result<Vec<JointClass>, Fault> {
         if let Some(joint) = joints.iter().find(|joint| joint.class >= self.given) {
             return Err(missing_class(blocks, joint, &self.list[joint.class].name));
@@ -108,7 +112,7 @@ impl Classes {
 }
 
 impl Members {
-    fn of(scene: &Scene, blocks: &[Block], name: &str, at: KeyPath) -> Result<Self, Fault> {
+    fn of(scene: &Scene, blocks: &[PlacedBlock], name: &str, at: KeyPath) -> Result<Self, Fault> {
         if let Some(wall) = scene.walls.iter().position(|wall| wall.name == name) {
             return Ok(Self::Wall(wall));
         }
@@ -147,7 +151,7 @@ fn mortar(scene: &Scene, joint: &scene::Joint) -> Option<Mortar> {
 }
 
 /// Supports have classes of their own, which were looked up before.
-fn missing_class(blocks: &[Block], joint: &Joint, class: &str) -> Fault {
+fn missing_class(blocks: &[PlacedBlock], joint: &PlacedJoint, class: &str) -> Fault {
     let name = |body| match body {
         Body::Block(id) => blocks[id.index()].name.clone(),
         Body::Support(_) => String::new(),

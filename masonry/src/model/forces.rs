@@ -2,7 +2,7 @@
 
 use nalgebra::Vector2;
 
-use super::{Block, BlockLoad, Model, PlacedForce};
+use super::{BlockLoad, Model, PlacedBlock, PlacedForce};
 use crate::geometry;
 use crate::ids::LoadId;
 
@@ -24,7 +24,7 @@ impl Model {
 
     /// The resultants of all forces on a block, and their causes: its weight, each acceleration of
     /// its mass, and each load on it.
-    pub fn causes_on(&self, block: &Block) -> Vec<(Cause, PlacedForce)> {
+    pub fn causes_on(&self, block: &PlacedBlock) -> Vec<(Cause, PlacedForce)> {
         let mut forces = Vec::with_capacity(1 + self.accelerations.len() + block.loads.len());
         if let Some(density) = block.density {
             let mass = density * geometry::area(&block.corners) * self.thickness;
@@ -41,7 +41,7 @@ impl Model {
     }
 
     /// The forces of [`causes_on`](Self::causes_on) alone.
-    pub fn forces_on(&self, block: &Block) -> Vec<PlacedForce> {
+    pub fn forces_on(&self, block: &PlacedBlock) -> Vec<PlacedForce> {
         self.causes_on(block).into_iter().map(|(_, force)| force).collect()
     }
 }

@@ -4,11 +4,11 @@ use nalgebra::{Point2, Vector2};
 
 use super::classes::Classes;
 use super::{
-    Block, ContactPoint, Healed, Joint, JointClass, Model, Movement, Plane, Support, heal,
-    place_loads, placement,
+    ContactPoint, Healed, JointClass, Model, Movement, PlacedBlock, PlacedJoint, PlacedSupport,
+    Plane, heal, place_loads, placement,
 };
 use crate::geometry::{self, PolygonError};
-use crate::model::joints::{self, ContactError, Options};
+use crate::model::joints::{self, ContactError, JointSearch};
 use crate::model::mesh::BlockMesh;
 use crate::scene::bond::{self, JointThickness};
 use crate::scene::{self, Fault, KeyPath, Scene, SceneError, SceneErrorKind};
@@ -39,7 +39,8 @@ fn build(scene: &Scene) -> Result<Model, Fault> {
     let units = scene.units;
     let thickness = scene.thickness.unwrap_or(1.0) * units.length_to_si();
     let Laid { mut blocks, keys, walls } = lay_blocks(scene)?;
-    let supports: Vec<Support> = scene.all_supports().iter().map(|s| support(s, units)).collect();
+    let supports: Vec<PlacedSupport> =
+        scene.all_supports().iter().map(|s| support(s, units)).collect();
     let healed = heal_corners(scene, &mut blocks, &keys, &supports)?;
     placement::check_supports(&blocks, &supports, units)?;
     placement::check_movements(scene, &blocks)?;
@@ -76,9 +77,9 @@ fn build(scene: &Scene) -> Result<Model, Fault> {
 /// Puts corners of single blocks onto what they miss by rounding, if a tolerance is given or blocks overlap.
 fn heal_corners(
     scene: &Scene,
-    blocks: &mut [Block],
+    blocks: &mut [PlacedBlock],
     keys: &[KeyPath],
-    supports: &[Support],
+    supports: &[PlacedSupport],
 ) -> Result<Option<Healed>, Fault> {
     let overlaps = placement::check_overlaps(blocks, keys, scene.units);
     let given = scene.contact.tolerance;
@@ -106,7 +107,7 @@ fn heal_corners(
 
 /// Blocks as they are laid.
 struct Laid {
-    blocks: Vec<Block>,
+    blocks: Vec<PlacedBlock>,
     /// The key of the scene that describes each.
     keys: Vec<KeyPath>,
     /// The wall of every brick, and the arch of every voussoir, counted after the walls; single blocks come after all of
@@ -148,20 +149,21 @@ fn block(
     material: &str,
     corners: &[[f64; 2]],
     mesh: Option<[usize; 2]>,
-) -> Block {
+) -> PlacedBlock {
     let units = scene.units;
     let corners: Vec<_> = corners.iter().map(|corner| point(*corner, units)).collect();
     let material = scene.materials.get(material).copied().unwrap_or_default();
     let elasticity = material.elasticity(units);
     let mesh = mesh.filter(|_| elasticity.is_some());
     let density = material.density;
-    let mut block = Block { name, corners, elasticity, density, mesh: None, loads: Vec::new() };
+    let mut block =
+        PlacedBlock { name, corners, elasticity, density, mesh: None, loads: Vec::new() };
     block.mesh = mesh.zip(block.quad()).map(|([nx, ny], quad)| BlockMesh::new(&quad, nx, ny));
     block
 }
 
 /// A brick cut to next to nothing is no block.
-fn check_shapes(blocks: &[Block], keys: &[KeyPath]) -> Result<(), Fault> {
+fn check_shapes(blocks: &[PlacedBlock], keys: &[KeyPath]) -> Result<(), Fault> {
     for (block, key) in blocks.iter().zip(keys) {
         let corner = match geometry::check_convex(&block.corners) {
             Ok(()) => continue,
@@ -174,8 +176,8 @@ fn check_shapes(blocks: &[Block], keys: &[KeyPath]) -> Result<(), Fault> {
     Ok(())
 }
 
-fn support(support: &scene::Support, units: Units) -> Support {
-    Support {
+fn support(support: &scene::Support, units: Units) -> PlacedSupport {
+    PlacedSupport {
         name: support.name.clone(),
         from: point(support.from, units),
         to: point(support.to, units),
@@ -189,20 +191,20 @@ pub(super) fn point([x, y]: [f64; 2], units: Units) -> Point2<f64> {
 
 /// Joints, their contact points and the classes that they refer to.
 struct Meetings {
-    joints: Vec<Joint>,
+    joints: Vec<PlacedJoint>,
     contacts: Vec<ContactPoint>,
     classes: Vec<JointClass>,
 }
 
 fn find_joints(
     scene: &Scene,
-    blocks: &[Block],
-    supports: &[Support],
+    blocks: &[PlacedBlock],
+    supports: &[PlacedSupport],
     classes: Classes,
     thickness: f64,
 ) -> Result<Meetings, Fault> {
     let class_of = |kind, a, b| classes.class_of(kind, a, b);
-    let options = Options {
+    let options = JointSearch {
         points: scene.contact.points,
         gap_limit: scene.contact.gap_limit * scene.units.length_to_si(),
         films: scene.contact.films,

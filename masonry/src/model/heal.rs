@@ -5,7 +5,7 @@ use faer::sparse::{SparseColMat, Triplet};
 use lcp_linalg::{Gram, HALF_DIGITS};
 use nalgebra::{Point2, Vector2};
 
-use super::{Block, Support};
+use super::{PlacedBlock, PlacedSupport};
 use crate::geometry::{self, SAME_PLACE};
 use crate::model::joints::near_pairs;
 
@@ -39,9 +39,9 @@ pub type Unhealed = &'static str;
 /// # Errors
 /// Blocks stay as they were if the tolerance is too large for them, or if not all that is near can meet.
 pub fn heal(
-    blocks: &mut [Block],
+    blocks: &mut [PlacedBlock],
     count: usize,
-    supports: &[Support],
+    supports: &[PlacedSupport],
     tolerance: Option<f64>,
 ) -> Result<Option<Healed>, Unhealed> {
     if count == 0 {
@@ -79,7 +79,7 @@ pub fn heal(
     Ok(Some(Healed { corners: moved.len(), largest, tolerance }))
 }
 
-fn shortest_edge(blocks: &[Block]) -> f64 {
+fn shortest_edge(blocks: &[PlacedBlock]) -> f64 {
     let edges = blocks.iter().flat_map(|block| {
         (0..block.corners.len()).map(|k| {
             let [from, to] = geometry::edge(&block.corners, k);
@@ -145,7 +145,7 @@ fn is_near(point: Point2<f64>, ends: [Point2<f64>; 2], tolerance: f64) -> bool {
 }
 
 impl Drawing {
-    fn of(blocks: &[Block], first: usize) -> Self {
+    fn of(blocks: &[PlacedBlock], first: usize) -> Self {
         let mut starts = vec![0];
         starts.extend(blocks.iter().scan(0, |sum, block| {
             *sum += block.corners.len();
@@ -155,7 +155,12 @@ impl Drawing {
         Self { points, free: starts[first], starts }
     }
 
-    fn meetings(&self, blocks: &[Block], supports: &[Support], tolerance: f64) -> Vec<Touch> {
+    fn meetings(
+        &self,
+        blocks: &[PlacedBlock],
+        supports: &[PlacedSupport],
+        tolerance: f64,
+    ) -> Vec<Touch> {
         let mut list = Vec::new();
         for [a, b] in near_pairs(blocks, tolerance) {
             if self.starts[a.index().max(b.index())] < self.free {
@@ -234,7 +239,7 @@ impl Drawing {
         Some(())
     }
 
-    fn write(&self, blocks: &mut [Block]) {
+    fn write(&self, blocks: &mut [PlacedBlock]) {
         for (block, start) in blocks.iter_mut().zip(&self.starts) {
             let count = block.corners.len();
             block.corners.copy_from_slice(&self.points[*start..*start + count]);

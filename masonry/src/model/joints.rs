@@ -17,7 +17,8 @@ pub(crate) use self::search::near_pairs;
 use crate::geometry::{self, SAME_PLACE, SegmentOverlap};
 use crate::ids::{BlockId, FilmId, JointId, SupportId};
 use crate::model::{
-    Anchor, Block, Body, ContactPoint, Film, FilmPoint, Joint, JointClass, Mortar, Support,
+    Anchor, Body, ContactPoint, Film, FilmPoint, JointClass, Mortar, PlacedBlock, PlacedJoint,
+    PlacedSupport,
 };
 pub use crate::scene::{ContactError, Films, PointRule};
 
@@ -37,7 +38,7 @@ pub enum JointKind {
 
 /// How joints are searched and points placed.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Options {
+pub struct JointSearch {
     /// The places of the contact points.
     pub points: PointRule,
     /// The largest initial gap across which two edges make a joint \[m\], beyond the mortar.
@@ -59,14 +60,14 @@ pub struct Options {
 /// # Panics
 /// If `class_of` returns an index outside `classes`.
 pub fn find(
-    blocks: &[Block],
-    supports: &[Support],
+    blocks: &[PlacedBlock],
+    supports: &[PlacedSupport],
     classes: &[JointClass],
     class_of: impl Fn(JointKind, Body, BlockId) -> usize,
     thickness: f64,
-    options: &Options,
-) -> Result<(Vec<Joint>, Vec<ContactPoint>), ContactError> {
-    let mut joints: Vec<Joint> = Vec::new();
+    options: &JointSearch,
+) -> Result<(Vec<PlacedJoint>, Vec<ContactPoint>), ContactError> {
+    let mut joints: Vec<PlacedJoint> = Vec::new();
     let mut contacts = Vec::new();
     let mut films = 0;
     let name = |body: Body| match body {
@@ -133,7 +134,7 @@ struct Candidate {
 }
 
 /// The pairs of edges of two blocks that could make a joint.
-fn between_blocks(blocks: &[Block], first: BlockId, second: BlockId) -> Vec<Candidate> {
+fn between_blocks(blocks: &[PlacedBlock], first: BlockId, second: BlockId) -> Vec<Candidate> {
     let [p, q] = [first, second].map(|id| &blocks[id.index()].corners);
     let slack = SAME_PLACE * geometry::size(p).min(geometry::size(q));
     let pairs = (0..p.len()).flat_map(|k1| (0..q.len()).map(move |k2| [k1, k2]));
@@ -163,7 +164,12 @@ fn classify(normal: Vector2<f64>) -> (JointKind, bool) {
 }
 
 /// The edges of a block that could rest on a support, which may lie on either side of its line.
-fn on_support(support: &Support, id: SupportId, block: &Block, b: BlockId) -> Vec<Candidate> {
+fn on_support(
+    support: &PlacedSupport,
+    id: SupportId,
+    block: &PlacedBlock,
+    b: BlockId,
+) -> Vec<Candidate> {
     let slack = SAME_PLACE * geometry::size(&block.corners);
     let lines = [[support.from, support.to], [support.to, support.from]];
     let edges = (0..block.corners.len()).flat_map(|k| lines.map(|line| (k, line)));
@@ -203,7 +209,7 @@ impl Candidate {
 
 /// Two sides that meet in a joint of a class.
 struct Meeting<'a> {
-    blocks: &'a [Block],
+    blocks: &'a [PlacedBlock],
     sides: Sides,
     /// Side `a` is the first segment of the overlap.
     overlap: SegmentOverlap,
@@ -215,12 +221,12 @@ struct Meeting<'a> {
 
 impl Meeting<'_> {
     /// The overlap runs along the first segment, which is against the joint's tangent.
-    fn joint(&self, class: usize, film: Option<Film>) -> Joint {
+    fn joint(&self, class: usize, film: Option<Film>) -> PlacedJoint {
         let Sides { a, b, .. } = self.sides;
         let normal = self.overlap.normal;
         let half = normal * (0.5 * film.map_or(0.0, |film| film.mortar.thickness));
         let [to, from] = self.overlap.on_second.map(|at| self.on_b(at) - half);
-        Joint { a, b, class, from, to, normal, film }
+        PlacedJoint { a, b, class, from, to, normal, film }
     }
 
     fn on_b(&self, at: f64) -> Point2<f64> {
@@ -280,6 +286,6 @@ impl Meeting<'_> {
 }
 
 /// Places of the nodes of a block's edge; a rigid block has its corners only.
-fn edge_fractions(block: &Block, edge: usize) -> Vec<f64> {
+fn edge_fractions(block: &PlacedBlock, edge: usize) -> Vec<f64> {
     block.mesh.as_ref().map_or_else(|| vec![0.0, 1.0], |mesh| mesh.edge_fractions(edge))
 }

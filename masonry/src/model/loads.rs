@@ -11,7 +11,7 @@ pub type PlacedForce = (Point2<f64>, Vector2<f64>);
 
 /// A load of the scene: its name and its factor.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Load {
+pub struct LoadCase {
     /// Its name.
     pub name: String,
     /// Its group; if the scene gives none, a group of its own with its own name.

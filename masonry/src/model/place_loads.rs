@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use nalgebra::{Point2, Vector2};
 
 use super::from_scene::point;
-use super::{Acceleration, Block, ContactPoint, EdgeLoad, Joint, Load, PointLoad};
+use super::{Acceleration, ContactPoint, EdgeLoad, LoadCase, PlacedBlock, PlacedJoint, PointLoad};
 use crate::geometry::{self, SAME_PLACE};
 use crate::ids::LoadId;
 use crate::rounding::rounded;
@@ -22,11 +22,11 @@ type EdgePart = [f64; 2];
 /// on all mass.
 pub(super) fn place(
     scene: &Scene,
-    blocks: &mut [Block],
-    joints: &[Joint],
+    blocks: &mut [PlacedBlock],
+    joints: &[PlacedJoint],
     contacts: &[ContactPoint],
     moved: f64,
-) -> Result<(Vec<Load>, Vec<Acceleration>), Fault> {
+) -> Result<(Vec<LoadCase>, Vec<Acceleration>), Fault> {
     let joined = joined_parts(blocks, joints, contacts);
     let places: BTreeMap<String, usize> =
         blocks.iter().enumerate().map(|(k, block)| (block.name.clone(), k)).collect();
@@ -59,7 +59,7 @@ pub(super) fn place(
             None => {}
         }
         let (name, group) = (load.name.clone(), load.group_name().to_owned());
-        loads.push(Load { name, group, factor: load.factor, mass: load.mass });
+        loads.push(LoadCase { name, group, factor: load.factor, mass: load.mass });
     }
     accelerate(scene, blocks, &loads, &accelerations)?;
     Ok((loads, accelerations))
@@ -68,8 +68,8 @@ pub(super) fn place(
 /// Lets accelerations act on the masses whose weights are loads, at the places of these loads.
 fn accelerate(
     scene: &Scene,
-    blocks: &mut [Block],
-    loads: &[Load],
+    blocks: &mut [PlacedBlock],
+    loads: &[LoadCase],
     accelerations: &[Acceleration],
 ) -> Result<(), Fault> {
     let gravity = Vector2::from(scene.gravity.unwrap_or_default());
@@ -97,7 +97,7 @@ fn accelerate(
 }
 
 /// No block has this name: those whose names are nearest.
-fn unknown(blocks: &[Block], name: &str) -> LoadError {
+fn unknown(blocks: &[PlacedBlock], name: &str) -> LoadError {
     let mut near: Vec<&str> = blocks.iter().map(|block| block.name.as_str()).collect();
     // The sort keeps the order of the scene among names that are equally near.
     near.sort_by_cached_key(|other| strsim::levenshtein(name, other));
@@ -108,7 +108,7 @@ fn unknown(blocks: &[Block], name: &str) -> LoadError {
 
 /// A place on a block. One that rounding has put outside is moved to the edge.
 fn place_in(
-    block: &Block,
+    block: &PlacedBlock,
     at: Point2<f64>,
     units: Units,
     moved: f64,
@@ -143,7 +143,7 @@ struct OnEdges<'a> {
 impl OnEdges<'_> {
     /// Puts the load on blocks; tells whether it acts. Parts of edges that make joints are not free and carry no load, so
     /// that a load cannot act inside a joint.
-    fn place(&self, blocks: &mut [Block], joined: &[Vec<Vec<EdgePart>>]) -> bool {
+    fn place(&self, blocks: &mut [PlacedBlock], joined: &[Vec<Vec<EdgePart>>]) -> bool {
         let mut acts = false;
         for (block, joined) in blocks.iter_mut().zip(joined) {
             for (edge, joined) in joined.iter().enumerate() {
@@ -211,8 +211,8 @@ fn free_parts(covered: EdgePart, joined: &[EdgePart]) -> Vec<EdgePart> {
 
 /// The parts of every edge of every block that make joints.
 fn joined_parts(
-    blocks: &[Block],
-    joints: &[Joint],
+    blocks: &[PlacedBlock],
+    joints: &[PlacedJoint],
     contacts: &[ContactPoint],
 ) -> Vec<Vec<Vec<EdgePart>>> {
     let mut joined: Vec<_> =
@@ -234,7 +234,7 @@ fn joined_parts(
 }
 
 /// The part of an edge in front of a joint.
-fn projected(corners: &[Point2<f64>], edge: usize, joint: &Joint) -> EdgePart {
+fn projected(corners: &[Point2<f64>], edge: usize, joint: &PlacedJoint) -> EdgePart {
     let [start, end] = geometry::edge(corners, edge);
     let along = (end - start) / (end - start).norm_squared();
     let [a, b] = [joint.from, joint.to].map(|p| geometry::snap((p - start).dot(&along)));

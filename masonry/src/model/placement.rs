@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use nalgebra::Point2;
 
-use super::{Block, Body, Joint, Support};
+use super::{Body, PlacedBlock, PlacedJoint, PlacedSupport};
 use crate::geometry::{self, Extent, SAME_PLACE};
 use crate::model::joints::near_pairs;
 use crate::rounding::rounded;
@@ -12,7 +12,7 @@ use crate::scene::{Fault, KeyPath, Scene, SceneErrorKind};
 use crate::units::Units;
 
 /// Refuses two blocks of one name: a single block named as a brick of a wall, say.
-pub(super) fn check_names(blocks: &[Block], keys: &[KeyPath]) -> Result<(), Fault> {
+pub(super) fn check_names(blocks: &[PlacedBlock], keys: &[KeyPath]) -> Result<(), Fault> {
     let mut taken = BTreeMap::new();
     for (block, key) in blocks.iter().zip(keys) {
         if let Some(first) = taken.insert(&block.name, key) {
@@ -24,7 +24,7 @@ pub(super) fn check_names(blocks: &[Block], keys: &[KeyPath]) -> Result<(), Faul
 
 /// Refuses blocks that overlap.
 pub(super) fn check_overlaps(
-    blocks: &[Block],
+    blocks: &[PlacedBlock],
     keys: &[KeyPath],
     units: Units,
 ) -> Result<(), Fault> {
@@ -47,7 +47,7 @@ pub(super) fn check_overlaps(
 
 /// Refuses supports that move farther than the blocks reach: displacements are small, and farther away nothing of
 /// the deformation would be left of the digits.
-pub(super) fn check_movements(scene: &Scene, blocks: &[Block]) -> Result<(), Fault> {
+pub(super) fn check_movements(scene: &Scene, blocks: &[PlacedBlock]) -> Result<(), Fault> {
     let extent = Extent::of(blocks.iter().flat_map(|block| &block.corners)).longer_side();
     let extent = extent / scene.units.length_to_si();
     for (k, stage) in scene.stages.iter().enumerate() {
@@ -67,8 +67,8 @@ pub(super) fn check_movements(scene: &Scene, blocks: &[Block]) -> Result<(), Fau
 
 /// Refuses supports that run through the inside of a block.
 pub(super) fn check_supports(
-    blocks: &[Block],
-    supports: &[Support],
+    blocks: &[PlacedBlock],
+    supports: &[PlacedSupport],
     units: Units,
 ) -> Result<(), Fault> {
     for (k, support) in supports.iter().enumerate() {
@@ -110,10 +110,10 @@ fn length_inside(from: Point2<f64>, to: Point2<f64>, corners: &[Point2<f64>]) ->
 
 /// Refuses blocks and supports that meet nothing.
 pub(super) fn check_touching(
-    blocks: &[Block],
+    blocks: &[PlacedBlock],
     keys: &[KeyPath],
-    supports: &[Support],
-    joints: &[Joint],
+    supports: &[PlacedSupport],
+    joints: &[PlacedJoint],
 ) -> Result<(), Fault> {
     let mut block_meets = vec![false; blocks.len()];
     let mut support_meets = vec![false; supports.len()];

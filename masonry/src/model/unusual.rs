@@ -4,7 +4,7 @@ use std::ops::RangeInclusive;
 
 use nalgebra::Vector2;
 
-use super::{Acceleration, Healed, Load, Model};
+use super::{Acceleration, Healed, LoadCase, Model};
 use crate::geometry::Extent;
 
 /// Elastic moduli of stone, brick, and mortar from fresh to hard \[Pa\].
@@ -62,9 +62,10 @@ impl Model {
         }
         // Forces of an acceleration act on masses that are told.
         self.accelerations.iter().for_each(|it| forces[it.load.index()].fill(0.0));
-        let is_massless =
-            |(k, load): &(usize, &Load)| load.mass.is_none() && forces[*k].dot(&self.gravity) > 0.0;
-        let sentence = |(_, load): (usize, &Load)| {
+        let is_massless = |(k, load): &(usize, &LoadCase)| {
+            load.mass.is_none() && forces[*k].dot(&self.gravity) > 0.0
+        };
+        let sentence = |(_, load): (usize, &LoadCase)| {
             format!(
                 "\"{}\" does not act on load \"{}\", which presses down. Set the `mass` of that load: `true` if all of it is the \
                  weight of a mass, 0.3 if three tenths of it are, `false` if none is or if another load is its inertia.",

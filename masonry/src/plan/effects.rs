@@ -3,14 +3,14 @@
 use std::collections::BTreeSet;
 
 use super::sizes::Sizes;
-use super::{Choice, Effect};
+use super::{Effect, PlannedRoute};
 use crate::history::moving_supports;
 use crate::law::JointLaw;
 use crate::model::Model;
 use crate::scene::{Films, LoadKind, Route, Scene};
 
 /// All effects that a scene can call for, for the route that is tried first.
-pub(super) fn of(scene: &Scene, model: &Model, sizes: &Sizes, first: &Choice) -> Vec<Effect> {
+pub(super) fn of(scene: &Scene, model: &Model, sizes: &Sizes, first: &PlannedRoute) -> Vec<Effect> {
     let it = Called { scene, model, sizes, first };
     let history = it.load_history();
     let dissipation = dissipation(&history);
@@ -65,7 +65,7 @@ struct Called<'a> {
     model: &'a Model,
     sizes: &'a Sizes,
     /// The route that is tried first.
-    first: &'a Choice,
+    first: &'a PlannedRoute,
 }
 
 impl Called<'_> {
@@ -322,7 +322,7 @@ impl Called<'_> {
 
     /// Numbers in dense matrices grow with the square of the order and the work of pivots with its cube; both
     /// of sparse factorisations like the memory.
-    fn growth(&self, without: &Choice) -> String {
+    fn growth(&self, without: &PlannedRoute) -> String {
         let (order, before) = (self.first.order, without.order);
         if order <= before {
             return "no unknowns of the linear systems".to_owned();

@@ -1,9 +1,9 @@
 //! How large the problem of a model is on each route, and what it would be without an effect.
 
-use super::Choice;
+use super::PlannedRoute;
 use crate::forms::FormKind;
 use crate::method::auto;
-use crate::model::{Anchor, Block, ContactPoint, Model};
+use crate::model::{Anchor, ContactPoint, Model, PlacedBlock};
 use crate::scene::{Form, Route};
 
 /// Numbers of a model that decide what routes take.
@@ -59,7 +59,7 @@ impl Point {
 
 impl Sizes {
     pub(super) fn of(model: &Model) -> Self {
-        let nodal = |block: &Block| {
+        let nodal = |block: &PlacedBlock| {
             let mesh = block.mesh.as_ref().filter(|_| block.elasticity.is_some())?;
             Some(2 * mesh.nodes.len())
         };
@@ -118,11 +118,11 @@ impl Sizes {
         Self { rigid_blocks: self.blocks, nodal: 0, largest_block: 0, bars: 0, ..self.clone() }
     }
 
-    pub(super) fn choice(&self, route: Route, form: Form) -> Choice {
+    pub(super) fn choice(&self, route: Route, form: Form) -> PlannedRoute {
         let points = self.count(|it| it.presses);
         let (coulomb, cohesive) = (self.count(|it| it.coulomb), self.count(|it| it.cohesive));
         let displacements = self.displacements();
-        let of_order = |order: usize, memory_bytes: usize| Choice {
+        let of_order = |order: usize, memory_bytes: usize| PlannedRoute {
             route,
             because: String::new(),
             order,
@@ -159,7 +159,7 @@ impl Sizes {
         self.nodal + 3 * self.rigid_blocks
     }
 
-    fn lemke(&self, form: Form) -> Choice {
+    fn lemke(&self, form: Form) -> PlannedRoute {
         let points = self.count(|it| it.presses);
         let order_of = |kind: &FormKind| {
             points
@@ -174,7 +174,7 @@ impl Sizes {
         let square = |n: usize| n.saturating_mul(n);
         let matrices = square(largest_order).saturating_mul(9);
         let dense_numbers = matrices.saturating_add(square(self.largest_block).saturating_mul(3));
-        Choice {
+        PlannedRoute {
             route: Route::Lemke,
             because: String::new(),
             order: orders[0],

@@ -2,9 +2,9 @@
 
 use nalgebra::{Point2, Vector2};
 
-use crate::data::state::ContactState;
+use crate::data::state::PointState;
 use crate::ids::{JointId, SupportId};
-use crate::model::{Body, Joint, Model};
+use crate::model::{Body, PlacedJoint, Model};
 use crate::recover;
 use crate::rounding::largest;
 
@@ -37,7 +37,7 @@ pub struct JointForce {
 }
 
 /// The resultants of all joints that press or pull, in the order of the joints.
-pub fn forces(model: &Model, contacts: &[ContactState]) -> Vec<JointForce> {
+pub fn forces(model: &Model, contacts: &[PointState]) -> Vec<JointForce> {
     /// Force, normal and tangential part, moment about the start, and resistance to sliding.
     type Sum = (Vector2<f64>, [f64; 4]);
     let mut sums: Vec<Sum> = vec![(Vector2::zeros(), [0.0; 4]); model.joints.len()];
@@ -52,7 +52,7 @@ pub fn forces(model: &Model, contacts: &[ContactState]) -> Vec<JointForce> {
         }
     }
     let largest = largest(sums.iter().map(|(force, _)| force.norm()));
-    let placed = |(index, (joint, (force, parts))): (usize, (&Joint, Sum))| {
+    let placed = |(index, (joint, (force, parts))): (usize, (&PlacedJoint, Sum))| {
         let [normal, tangential, moment, bound] = parts;
         if normal == 0.0 || normal.abs() <= NO_FORCE * largest {
             return None;
@@ -116,7 +116,7 @@ pub struct Opening {
 }
 
 /// All joints that are open or have slid somewhere.
-pub fn openings(model: &Model, contacts: &[ContactState]) -> Vec<Opening> {
+pub fn openings(model: &Model, contacts: &[PointState]) -> Vec<Opening> {
     let none = NO_WIDTH * size(model);
     let mut openings: Vec<Opening> = (0..model.joints.len())
         .map(|index| Opening {

@@ -14,7 +14,7 @@ use super::svg::pictures::Pictures;
 use super::svg::{self, Collapse, Growth};
 use super::{OutputError, files, write_files};
 use crate::analysis::limit::{Limit, Path, Thickness};
-use crate::data::state::{ContactState, Reaction};
+use crate::data::state::{PointState, Reaction};
 use crate::model::Model;
 
 /// Writes `forces.svg` and `mechanism.svg`, if there are forces and a mechanism, the same of the path with its curve, and
@@ -45,7 +45,7 @@ pub(super) struct ByLaw<'a> {
     files: [&'static str; 2],
     pub(super) model: &'a Model,
     load_factor: Option<f64>,
-    pub(super) forces: Option<&'a [ContactState]>,
+    pub(super) forces: Option<&'a [PointState]>,
     pub(super) mechanism: Option<&'a [Vec<Vector2<f64>>]>,
     pub(super) reactions: &'a [Reaction],
     pub(super) path: Option<&'a Path>,

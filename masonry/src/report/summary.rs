@@ -8,7 +8,7 @@ use crate::data::verdict::Evidence;
 use crate::geometry;
 use crate::history::Step;
 use crate::ids::BlockId;
-use crate::model::{Block, Body, Cause, EdgeLoad, Load, Model};
+use crate::model::{Body, Cause, EdgeLoad, LoadCase, Model, PlacedBlock};
 
 /// The displacement component of largest size, with its sign and place.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -51,7 +51,7 @@ impl Resultant {
 }
 
 /// The nodes of a block: those of its mesh, or the corners of a rigid block.
-pub fn nodes(block: &Block) -> &[Point2<f64>] {
+pub fn nodes(block: &PlacedBlock) -> &[Point2<f64>] {
     block.mesh.as_ref().map_or(&block.corners, |mesh| &mesh.nodes)
 }
 
@@ -151,7 +151,7 @@ pub struct LoadGroup<'a> {
     /// Name of the group.
     pub name: &'a str,
     /// Its loads, in the order of the scene, each with its resultant.
-    pub loads: Vec<(&'a Load, Resultant)>,
+    pub loads: Vec<(&'a LoadCase, Resultant)>,
     /// The resultant of all of them.
     pub sum: Resultant,
 }
@@ -240,7 +240,7 @@ fn groups_at_corners(model: &Model) -> Vec<Vec<usize>> {
 }
 
 /// Start and end of the loaded part of an edge \[m\].
-pub fn loaded_part(block: &Block, load: &EdgeLoad) -> (Point2<f64>, Point2<f64>) {
+pub fn loaded_part(block: &PlacedBlock, load: &EdgeLoad) -> (Point2<f64>, Point2<f64>) {
     let place = |at| geometry::on_edge(&block.corners, load.edge, at);
     (place(load.from), place(load.to))
 }

@@ -14,7 +14,7 @@ use crate::analysis::outcome::Outcome;
 use crate::data::info::SoftReport;
 use crate::data::verdict::Evidence;
 use crate::model::Model;
-use crate::plan::{Choice, Effect, Plan};
+use crate::plan::{Effect, Plan, PlannedRoute};
 use crate::scene::Route;
 use crate::units::Units;
 
@@ -121,8 +121,9 @@ fn residuals(it: &lcp::Residuals) -> String {
 
 /// Memory of the first route, and of the one that needs most if it is run, in units of 10^6 bytes, which are few for
 /// the smallest scenes.
-fn memory(routes: &[Choice]) -> String {
-    let megabytes = |it: &Choice| format!("{} MB", significant(it.memory_bytes as f64 / 1e6, 2));
+fn memory(routes: &[PlannedRoute]) -> String {
+    let megabytes =
+        |it: &PlannedRoute| format!("{} MB", significant(it.memory_bytes as f64 / 1e6, 2));
     let most = routes.iter().max_by_key(|it| it.memory_bytes);
     let first = routes.first().map_or_else(String::new, megabytes);
     match most.filter(|most| routes[0].memory_bytes < most.memory_bytes) {

@@ -5,8 +5,8 @@ use std::collections::BTreeMap;
 use super::setters::setters;
 use super::source::Source;
 use super::{
-    Arch, Between, Block, Bond, Brick, Contact, Courses, Films, Form, Joint, Limit, Load, Material,
-    Opening, Output, Plane, PointRule, RouteSetting, Scene, Solver, Stage, Support, Wall,
+    Arch, Between, Block, Bond, Brick, Contact, Courses, Films, Form, Joint, LimitLoad, Load,
+    Material, Opening, Output, Plane, PointRule, RouteSetting, Scene, Solver, Stage, Support, Wall,
     WallJoints,
 };
 use crate::units::Units;
@@ -37,7 +37,7 @@ impl Scene {
             supports: Vec::new(),
             loads: Vec::new(),
             stages: Vec::new(),
-            limit: Limit::default(),
+            limit: LimitLoad::default(),
             contact: Contact::default(),
             solver: Solver::default(),
             output: Output::default(),

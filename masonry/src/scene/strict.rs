@@ -11,8 +11,8 @@ use serde::de::value::MapAccessDeserializer;
 use serde::de::{Deserialize, Deserializer, Error, IgnoredAny, MapAccess, SeqAccess, Visitor};
 
 use super::{
-    Arch, Between, Block, Brick, Contact, Joint, Limit, Load, Material, Movement, Opening, Output,
-    Piers, Solver, Stage, Support, Units, Wall, WallJoints,
+    Arch, Between, Block, Brick, Contact, Joint, LimitLoad, Load, Material, Movement, Opening,
+    Output, Piers, Solver, Stage, Support, Units, Wall, WallJoints,
 };
 
 /// Reads pairs of exactly two items, and tables from nothing but tables, however deep they are.
@@ -73,7 +73,7 @@ macro_rules! tables {
 }
 
 values!(f64, u32, String);
-tables!(Arch, Between, Block, Brick, Contact, Joint, Limit, Load, Material, Movement, Opening);
+tables!(Arch, Between, Block, Brick, Contact, Joint, LimitLoad, Load, Material, Movement, Opening);
 tables!(Output, Piers, Solver, Stage, Support, Units, Wall, WallJoints);
 
 struct TableVisitor<T>(PhantomData<T>);

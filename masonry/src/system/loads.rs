@@ -2,12 +2,12 @@
 
 use crate::element::quad4;
 use crate::model::mesh::BlockMesh;
-use crate::model::{Block, Model};
+use crate::model::{Model, PlacedBlock};
 use crate::rounding::{cleared, largest};
 use crate::system::rigid::Modes;
 
 /// Consistent nodal loads \[N\] of everything that acts on a block but its contacts, two per node.
-pub fn nodal_loads(model: &Model, block: &Block, mesh: &BlockMesh) -> Vec<f64> {
+pub fn nodal_loads(model: &Model, block: &PlacedBlock, mesh: &BlockMesh) -> Vec<f64> {
     let mut load = vec![0.0; 2 * mesh.nodes.len()];
     let acceleration = model.acceleration();
     if let Some(density) = block.density
@@ -36,7 +36,7 @@ pub fn nodal_loads(model: &Model, block: &Block, mesh: &BlockMesh) -> Vec<f64> {
 ///
 /// Rounding errors of loads that cancel, or of the arm of a load through the centroid, are set to zero:
 /// contacts may be unable to balance them.
-pub fn resultant(model: &Model, block: &Block) -> [f64; 3] {
+pub fn resultant(model: &Model, block: &PlacedBlock) -> [f64; 3] {
     let modes = Modes::of(&block.corners);
     let (mut sum, mut size) = ([0.0; 3], 0.0);
     for (place, force) in model.forces_on(block) {

@@ -3,7 +3,7 @@
 use super::System;
 use crate::element::quad4;
 use crate::geometry;
-use crate::model::{Block, Model};
+use crate::model::{Model, PlacedBlock};
 use crate::system::rigid::Modes;
 use nalgebra::Vector2;
 
@@ -51,7 +51,7 @@ pub(crate) fn lumped(model: &Model, system: &System) -> Vec<f64> {
 }
 
 /// The masses of the motions of a rigid block with a mass \[kg/m^2\] of its face.
-fn rigid(block: &Block, density: f64) -> [f64; 3] {
+fn rigid(block: &PlacedBlock, density: f64) -> [f64; 3] {
     let modes = Modes::of(&block.corners);
     let mass = density * geometry::area(&block.corners);
     let inertia = density * geometry::polar_moment(&block.corners);

@@ -9,7 +9,7 @@ use super::error::SystemError;
 use crate::element::quad4;
 use crate::material::constitutive;
 use crate::model::mesh::BlockMesh;
-use crate::model::{Block, Elasticity, Model};
+use crate::model::{Elasticity, Model, PlacedBlock};
 use crate::rounding::cleared;
 use crate::system::rigid::Modes;
 
@@ -37,7 +37,7 @@ pub(super) enum Built {
 
 impl Stiffness {
     fn new(
-        block: &Block,
+        block: &PlacedBlock,
         mesh: &BlockMesh,
         e: Elasticity,
         model: &Model,
@@ -98,7 +98,7 @@ impl Element {
 }
 
 fn element_stiffnesses(
-    block: &Block,
+    block: &PlacedBlock,
     mesh: &BlockMesh,
     e: Elasticity,
     model: &Model,
@@ -116,7 +116,7 @@ fn element_stiffnesses(
 /// The factor of `K` with springs of the block's own mean stiffness on the rigid motions only: the
 /// inverse of the sum is a generalised inverse of `K`, because `K` and the springs act on different motions.
 fn factor(
-    block: &Block,
+    block: &PlacedBlock,
     mesh: &BlockMesh,
     e: Elasticity,
     entries: &[Triplet<usize, usize, f64>],
@@ -137,7 +137,7 @@ fn factor(
 }
 
 /// The rigid motions of the nodes as orthonormal columns.
-fn orthonormal_modes(block: &Block, mesh: &BlockMesh) -> Mat<f64> {
+fn orthonormal_modes(block: &PlacedBlock, mesh: &BlockMesh) -> Mat<f64> {
     let modes = Modes::of(&block.corners);
     let motions: Vec<[Vector2<f64>; 3]> = mesh.nodes.iter().map(|p| modes.at(*p)).collect();
     let raw = Mat::from_fn(2 * mesh.nodes.len(), 3, |i, k| motions[i / 2][k][i % 2]);
@@ -167,7 +167,7 @@ impl Shared {
     pub(super) fn index_of(
         &mut self,
         model: &Model,
-        block: &Block,
+        block: &PlacedBlock,
         mesh: &BlockMesh,
         elasticity: Elasticity,
     ) -> Result<usize, SystemError> {

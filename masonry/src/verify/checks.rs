@@ -29,7 +29,7 @@
 
 use serde::Serialize;
 
-use crate::data::state::{ContactStatus, State};
+use crate::data::state::{PointStatus, State};
 use crate::model::Model;
 
 mod bodies;
@@ -161,9 +161,9 @@ impl Checks {
             deformation: energy::deformation(model, state),
             backward: backward.fold(larger(force_balance, moment_balance), larger),
             spread: bodies.spread(),
-            open: count(ContactStatus::Open),
-            stick: count(ContactStatus::Stick),
-            slip: count(ContactStatus::Slip),
+            open: count(PointStatus::Open),
+            stick: count(PointStatus::Stick),
+            slip: count(PointStatus::Slip),
         }
     }
 }

@@ -6,7 +6,7 @@ use crate::common;
 use common::{block, model, model_with, panel, rectangle, support};
 use masonry::geometry::{self, PolygonError};
 use masonry::law::JointLaw;
-use masonry::model::joints::{ContactError, Options, PointRule};
+use masonry::model::joints::{ContactError, JointSearch, PointRule};
 use masonry::model::mesh::BlockMesh;
 use masonry::model::{Body, Model};
 use nalgebra::{Point2, Rotation2, Vector2};
@@ -126,7 +126,7 @@ fn nodal_pairs_and_vertices_agree_on_matching_meshes() {
     let blocks = common::running_bond(3, 4, 2, 0.1);
     let floor = vec![support("floor", [0.0, 0.0], [0.6, 0.0])];
     let rule = |points| {
-        let options = Options { points, ..Options::default() };
+        let options = JointSearch { points, ..JointSearch::default() };
         model_with(blocks.clone(), floor.clone(), [0.5; 3], &options).contacts
     };
     let (vertices, pairs) = (rule(PointRule::Vertices), rule(PointRule::NodalPairs));
@@ -143,7 +143,7 @@ fn nodal_pairs_need_matching_nodes() {
         rectangle("lower", [0.0, 1.0], [0.0, 1.0], Some([1, 1])),
         rectangle("upper", [0.5, 1.5], [1.0, 2.0], Some([1, 1])),
     ];
-    let options = Options { points: PointRule::NodalPairs, ..Options::default() };
+    let options = JointSearch { points: PointRule::NodalPairs, ..JointSearch::default() };
     let classes = [masonry::model::JointClass {
         name: "bed".into(),
         law: JointLaw::friction(0.5),
@@ -199,7 +199,7 @@ fn gaps_are_seen_within_the_limit_and_kept() {
         ]
     };
     assert!(model(blocks(), vec![], 0.5).joints.is_empty());
-    let options = Options { gap_limit: 0.03, ..Options::default() };
+    let options = JointSearch { gap_limit: 0.03, ..JointSearch::default() };
     let model = model_with(blocks(), vec![], [0.5; 3], &options);
     assert_eq!(model.joints.len(), 1);
     for contact in &model.contacts {
@@ -242,7 +242,7 @@ proptest! {
             make("upper", [shift, shift + width], [1.0, 1.5], meshes[1]),
         ];
         let length = 1.0_f64.min(shift + width) - 0.0_f64.max(shift);
-        let options = Options { points: rule, ..Options::default() };
+        let options = JointSearch { points: rule, ..JointSearch::default() };
         let model = model_with(blocks, vec![], [0.5; 3], &options);
         if length > 1e-6 {
             prop_assert_eq!(model.joints.len(), 1);

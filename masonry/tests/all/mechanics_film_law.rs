@@ -1,7 +1,7 @@
 //! The pointwise law of films, and the part in contact with its printed updating.
 
 use crate::common::updating::{Settling, UpdateHistory, Updating};
-use masonry::data::state::ContactStatus;
+use masonry::data::state::PointStatus;
 use masonry::model::{Elasticity, Plane};
 use masonry::paper::film::law::{FilmLaw, FilmState};
 use masonry::paper::film::pointwise::PointwiseFilm;
@@ -37,7 +37,7 @@ fn an_open_film_is_a_bar_along_the_joint() {
     for (plane, modulus) in [(Plane::Stress, 2.4), (Plane::Strain, 2.4 / 0.96)] {
         let law = FilmLaw::new(&FilmMaterial { plane, ..MORTAR }, 0.1, 0.5).unwrap();
         let open = law.respond(Vector3::new(1e-3, 1.0, 0.7), FilmState::default());
-        assert_eq!(open.contact, ContactStatus::Open);
+        assert_eq!(open.contact, PointStatus::Open);
         assert!((open.stress - Vector3::new(modulus * 1e-3, 0.0, 0.0)).amax() < 1e-15);
         // The upper face is above where the mortar, free to contract, would be; it has slid with the face.
         let contraction = -1e-3 * if plane == Plane::Stress { 0.2 } else { 0.25 };
@@ -52,7 +52,7 @@ fn a_film_that_opened_and_moved_closes_without_shear() {
     let law = FilmLaw::new(&MORTAR, 0.1, 0.5).unwrap();
     let open = law.respond(Vector3::new(0.0, 0.2, 0.3), FilmState::default());
     let closed = law.respond(Vector3::new(0.0, -0.2, 0.3), open.state);
-    assert_eq!(closed.contact, ContactStatus::Stick);
+    assert_eq!(closed.contact, PointStatus::Stick);
     assert!(closed.stress.z.abs() < 1e-15 && closed.stress.y < 0.0);
 }
 
@@ -61,7 +61,7 @@ fn without_friction_the_film_always_slides() {
     let law = FilmLaw::new(&MORTAR, 0.1, 0.0).unwrap();
     for gamma in [-0.3, 0.0, 0.3] {
         let answer = law.respond(Vector3::new(0.0, -0.2, gamma), FilmState::default());
-        assert_eq!(answer.contact, ContactStatus::Slip);
+        assert_eq!(answer.contact, PointStatus::Slip);
         assert!(answer.stress.z.abs() < 1e-15 && answer.dissipation.abs() < 1e-15);
         assert!(answer.tangent.row(2).amax() < 1e-15);
         assert!((answer.state.slip - 0.1 * gamma).abs() < 1e-15);
@@ -168,7 +168,7 @@ proptest! {
         let part = Updating::Pointwise.contact_part(film.strip(), &u).unwrap_or([2.0, 2.0]);
         for (x, point) in film.places().zip(&answer.points) {
             let inside = part[0] <= x && x <= part[1];
-            prop_assert_eq!(inside, point.contact != ContactStatus::Open);
+            prop_assert_eq!(inside, point.contact != PointStatus::Open);
         }
     }
 
@@ -183,7 +183,7 @@ proptest! {
         let k = strip.stiffness(strip.ends());
         let film = PointwiseFilm::new(strip, 1.0, parts).unwrap();
         let answer = film.respond(&u, &film.initial());
-        prop_assert!(answer.points.iter().all(|p| p.contact == ContactStatus::Stick));
+        prop_assert!(answer.points.iter().all(|p| p.contact == PointStatus::Stick));
         let tangent = film.tangent(answer.points.iter().map(|point| point.tangent));
         prop_assert!((tangent - k).amax() < 1e-13 * k.amax());
         prop_assert!((answer.force - k * u).amax() < 1e-13 * (k * u).amax());
@@ -273,7 +273,7 @@ fn the_law_settles_where_the_printed_updating_cycles() {
     }
     let (rest, answer) = unbalanced(&block);
     assert!(rest.amax() < 1e-14, "{rest}");
-    assert!(answer.points.iter().all(|point| point.contact == ContactStatus::Slip));
+    assert!(answer.points.iter().all(|point| point.contact == PointStatus::Slip));
     assert_eq!(history.record(&in_contact(&block)), Settling::Settled);
     assert!(answer.dissipation > 0.0);
 }

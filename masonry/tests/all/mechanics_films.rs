@@ -2,7 +2,7 @@
 
 use crate::common::nodal_change::{NodalChange, local_axes};
 use crate::common::updating::Updating;
-use masonry::data::state::ContactStatus;
+use masonry::data::state::PointStatus;
 use masonry::element::quad4;
 use masonry::material::constitutive;
 use masonry::model::{Elasticity, Plane};
@@ -79,9 +79,9 @@ fn eccentric_force_by_the_law_in_many_parts() {
         assert!((pressure - largest).abs() < 2e-5 * largest, "{pressure} against {largest}");
         assert!((x_i - from).abs() < 1e-5 * WIDTH, "{x_i} against {from}");
         assert!((x_f - 0.5 * WIDTH).abs() < 1e-15);
-        let open = answer.points.iter().any(|point| point.contact == ContactStatus::Open);
+        let open = answer.points.iter().any(|point| point.contact == PointStatus::Open);
         assert_eq!(open, e > 0.17);
-        assert!(answer.points.iter().all(|point| point.contact != ContactStatus::Slip));
+        assert!(answer.points.iter().all(|point| point.contact != PointStatus::Slip));
     }
 }
 
@@ -129,10 +129,10 @@ fn a_film_in_shear_is_a_spring_up_to_the_bound_of_friction() {
     let (area, shear_modulus, pressure) = (WIDTH * WALL, 0.5 * YOUNG, 2e5);
     let bound = 0.6 * pressure;
     for (share, contact) in [
-        (0.5, ContactStatus::Stick),
-        (-0.999, ContactStatus::Stick),
-        (1.001, ContactStatus::Slip),
-        (-3.0, ContactStatus::Slip),
+        (0.5, PointStatus::Stick),
+        (-0.999, PointStatus::Stick),
+        (1.001, PointStatus::Slip),
+        (-3.0, PointStatus::Slip),
     ] {
         // The faces stay parallel: a guide takes the moment of the shear over the film.
         let u = share * bound * BED / shear_modulus;

@@ -4,11 +4,11 @@ use crate::common;
 
 use common::enumerate::{solutions, violation};
 use common::{model, model_with, rectangle, support, traction};
-use masonry::analysis::outcome::{ContactStatus, State};
+use masonry::analysis::outcome::{PointStatus, State};
 use masonry::forms::reduction::Reduction;
 use masonry::forms::{Form, FormKind};
-use masonry::model::joints::Options;
-use masonry::model::{Block, Model};
+use masonry::model::joints::JointSearch;
+use masonry::model::{Model, PlacedBlock};
 use masonry::recover::{reactions, recover};
 use masonry::system::System;
 use masonry::verify::checks::Checks;
@@ -56,7 +56,7 @@ fn orders_are_as_documented() {
     blocks.push(rectangle("second", [1.0, 2.0], [0.0, 1.0], None));
     let supports =
         vec![support("floor", [0.0, 0.0], [3.0, 0.0]), support("wall", [2.0, 0.0], [2.0, 1.0])];
-    let frictionless_heads = model_with(blocks, supports, [0.5, 0.0, 0.5], &Options::default());
+    let frictionless_heads = model_with(blocks, supports, [0.5, 0.0, 0.5], &JointSearch::default());
     let wall = Solved::new(frictionless_heads);
     let (m, m_f) = (3 + 2 + 2 + 2, 3 + 2 + 2);
     let orders = FORMS.map(|kind| wall.form(kind).order());
@@ -157,7 +157,7 @@ fn feet_slide_against_friction() {
                 assert!((s.t_n - 500.0).abs() < 1e-7);
                 assert!((s.t_t + 25.0 * outwards).abs() < 1e-7);
                 assert!(s.y_t * outwards > -1e-18);
-                assert_eq!(s.status == ContactStatus::Slip, s.y_t * outwards > 1e-15);
+                assert_eq!(s.status == PointStatus::Slip, s.y_t * outwards > 1e-15);
                 spread += s.y_t * outwards;
             }
             spreads.push(spread);
@@ -170,7 +170,7 @@ fn feet_slide_against_friction() {
 /// The documented start bases are nonsingular here, with tangential isostatic rows too.
 #[test]
 fn start_bases_are_nonsingular() {
-    let stack = |mesh: Option<[usize; 2]>| -> Vec<Block> {
+    let stack = |mesh: Option<[usize; 2]>| -> Vec<PlacedBlock> {
         let mut blocks = vec![
             rectangle("lower", [0.0, 1.0], [0.0, 0.5], mesh),
             rectangle("upper", [0.2, 1.2], [0.5, 1.0], Some([1, 1])),

@@ -8,7 +8,7 @@ use faer::Side;
 use masonry::analysis::outcome::State;
 use masonry::forms::reduction::Reduction;
 use masonry::ids::BlockId;
-use masonry::model::joints::{Options, PointRule};
+use masonry::model::joints::{JointSearch, PointRule};
 use masonry::model::{ContactPoint, Model};
 use masonry::recover::{reactions, recover};
 use masonry::system::System;
@@ -309,7 +309,7 @@ fn contact_patch_test() {
         blocks[1].loads.push(traction(2, 0.0, -1e5));
         let supports =
             vec![support("floor", [0.0, 0.0], [1.5, 0.0]), support("left", [0.0, 0.0], [0.0, 2.0])];
-        let options = Options { points, ..Options::default() };
+        let options = JointSearch { points, ..JointSearch::default() };
         let model = model_with(blocks, supports, [0.0; 3], &options);
         let told = vec![Told::Stick; model.contacts.len()];
         let state = state_told(&model, &told, None);
@@ -333,7 +333,7 @@ fn free_motions_are_named() {
             rectangle("upper", [0.0, 1.0], [1.0, 2.0], Some([1, 1])),
         ];
         let floor = vec![support("floor", [0.0, 0.0], [1.0, 0.0])];
-        model_with(blocks, floor, [mu, 0.0, 0.5], &Options::default())
+        model_with(blocks, floor, [mu, 0.0, 0.5], &JointSearch::default())
     };
     let system = System::new(&column(0.5)).unwrap();
     assert_eq!(Reduction::new(&system, None).unwrap().isostatic.len(), 6);

@@ -2,7 +2,7 @@
 
 use crate::output::synthetic;
 
-use masonry::analysis::outcome::ContactStatus;
+use masonry::analysis::outcome::PointStatus;
 use masonry::model::Body;
 use masonry::report::{csv, joints, json, summary, table, vtu};
 use masonry::units::{ForceUnit, LengthUnit, Units};
@@ -101,9 +101,9 @@ fn contacts_read_back_exactly() {
             assert_eq!(number.to_bits(), (expected + 0.0).to_bits(), "{number} {expected}");
         }
         let status = match force.status {
-            ContactStatus::Open => "open",
-            ContactStatus::Stick => "stick",
-            ContactStatus::Slip => "slip",
+            PointStatus::Open => "open",
+            PointStatus::Stick => "stick",
+            PointStatus::Slip => "slip",
         };
         assert_eq!(record[15], status);
     }

@@ -7,11 +7,11 @@ use crate::output::synthetic;
 use std::fs;
 use std::path::PathBuf;
 
-use masonry::analysis::outcome::{ContactStatus, Outcome};
+use masonry::analysis::outcome::{Outcome, PointStatus};
 use masonry::ids::LoadId;
-use masonry::model::{Block, EdgeLoad, Model, Movement, Support};
+use masonry::model::{EdgeLoad, Model, Movement, PlacedBlock, PlacedSupport};
 use masonry::report::svg::{self, ReferenceLines};
-use masonry::scene::{Brick, Scene, Support as SceneSupport, Wall as SceneWall};
+use masonry::scene::{Brick, Scene, Support, Wall as SceneWall};
 use masonry::units::{ForceUnit, LengthUnit, Units};
 use nalgebra::{Point2, Vector2};
 use roxmltree::{Document, Node};
@@ -124,8 +124,8 @@ fn every_element_has_two_strokes_and_every_open_or_sliding_point_a_mark() {
     assert_eq!(marks(&document, "tension"), stretched);
     assert_eq!(marks(&document, "compression"), values.len() - stretched);
     let count = |status| state.contacts.iter().filter(|contact| contact.status == status).count();
-    assert_eq!(marks(&document, "open"), count(ContactStatus::Open));
-    assert_eq!(marks(&document, "slip"), count(ContactStatus::Slip));
+    assert_eq!(marks(&document, "open"), count(PointStatus::Open));
+    assert_eq!(marks(&document, "slip"), count(PointStatus::Slip));
     assert_eq!(marks(&document, "bricks"), outcome.model.blocks.len());
     assert_eq!(marks(&document, "reference"), 2);
     let texts = texts(&document);
@@ -282,8 +282,8 @@ fn the_lines_of_the_bond_stay_in_the_wall() {
     let scene = |courses: Vec<Vec<f64>>| {
         Scene::new("", Units::SI)
             .wall(SceneWall::from_courses("wall", "brick", brick, courses))
-            .support(SceneSupport::new("left", [0.0, 0.0], [0.5, 0.0], "bed"))
-            .support(SceneSupport::new("right", [1.0, 0.0], [1.5, 0.0], "bed"))
+            .support(Support::new("left", [0.0, 0.0], [0.5, 0.0], "bed"))
+            .support(Support::new("right", [1.0, 0.0], [1.5, 0.0], "bed"))
     };
     let whole = |k: usize| {
         if k.is_multiple_of(2) { vec![1.0; 6] } else { vec![0.5, 1.0, 1.0, 1.0, 1.0, 1.0, 0.5] }
@@ -356,7 +356,7 @@ fn arch() -> Model {
         Point2::new(radius * angle.cos(), radius * angle.sin())
     };
     model.blocks = (0..9)
-        .map(|k| Block {
+        .map(|k| PlacedBlock {
             name: format!("V{}", k + 1),
             corners: vec![at(1.0, k + 1), at(1.25, k + 1), at(1.25, k), at(1.0, k)],
             elasticity: None,
@@ -376,7 +376,7 @@ fn arch() -> Model {
     load(4, 3, 4e3, 0.0);
     load(2, 1, 2e3, 2e3);
     model.supports = [("left", -1.3, -0.95), ("right", 0.95, 1.3)]
-        .map(|(name, from, to)| Support {
+        .map(|(name, from, to)| PlacedSupport {
             name: name.to_owned(),
             from: Point2::new(from, 0.0),
             to: Point2::new(to, 0.0),

@@ -1,7 +1,7 @@
 //! Bonds, units and arbitrary input: what holds for every wall and every text.
 
 use masonry::geometry;
-use masonry::model::{Block, BlockLoad, Model, Plane};
+use masonry::model::{BlockLoad, Model, PlacedBlock, Plane};
 use masonry::scene::bond::{self, PlacedBrick};
 use masonry::scene::{Brick, Joint, Load, Material, Scene, SceneErrorKind, Support, Wall};
 use masonry::units::{ForceUnit, LengthUnit, Units};
@@ -25,7 +25,7 @@ fn on_floor(wall: Wall, width: f64) -> Scene {
         .support(Support::new("floor", [x, y], [x + width, y], "bed"))
 }
 
-fn block_area(block: &Block) -> f64 {
+fn block_area(block: &PlacedBlock) -> f64 {
     geometry::area(&block.corners)
 }
 
@@ -145,7 +145,7 @@ fn units_do_not_change_the_model() {
         assert!(near(a.weight, b.weight) && near(a.gap, b.gap) && a.law == b.law);
     }
     // The load reaches five bricks of the top course, the first in part.
-    let loads = || a.blocks.iter().flat_map(Block::edge_loads);
+    let loads = || a.blocks.iter().flat_map(PlacedBlock::edge_loads);
     let on_top: Vec<_> = loads().filter(|load| load.edge == 2).collect();
     assert!(on_top.len() == 5 && on_top.iter().all(|load| near(load.traction.y, -12e3)));
     let floor = a.contacts.iter().filter(|point| point.a.is_none());

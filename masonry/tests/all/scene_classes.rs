@@ -31,7 +31,7 @@ fn walls() -> Scene {
 /// For every joint between blocks, the names of its sides and of its class.
 fn classes(scene: &Scene) -> Vec<[String; 3]> {
     let model = Model::from_scene(scene).unwrap();
-    let of_joint = |joint: &masonry::model::Joint| {
+    let of_joint = |joint: &masonry::model::PlacedJoint| {
         let Body::Block(a) = joint.a else { return None };
         let name = |id: masonry::ids::BlockId| model.blocks[id.index()].name.clone();
         Some([name(a), name(joint.b), model.joint_classes[joint.class].name.clone()])

@@ -7,7 +7,7 @@ use super::{assert_close, state};
 use masonry::analysis::outcome::Outcome;
 use masonry::element::quad4;
 use masonry::material::constitutive;
-use masonry::model::{Body, Joint, Model};
+use masonry::model::{Body, PlacedJoint, Model};
 use masonry::paper::film::law::FilmState;
 use masonry::paper::film::pointwise::{FilmResponse, PointwiseFilm};
 use masonry::paper::film::strip::Strip;
@@ -58,7 +58,7 @@ impl Nodes {
     /// Consistent loads of all blocks.
     pub fn loads(&self, model: &Model) -> DVector<f64> {
         let of_block =
-            |block: &masonry::model::Block| nodal_loads(model, block, block.mesh.as_ref().unwrap());
+            |block: &masonry::model::PlacedBlock| nodal_loads(model, block, block.mesh.as_ref().unwrap());
         DVector::from_iterator(self.count, model.blocks.iter().flat_map(of_block))
     }
 
@@ -83,7 +83,7 @@ impl Nodes {
         filled.flat_map(|(k, joint)| self.parts_of(model, k, joint)).collect()
     }
 
-    fn parts_of(&self, model: &Model, k: usize, joint: &Joint) -> Vec<Part> {
+    fn parts_of(&self, model: &Model, k: usize, joint: &PlacedJoint) -> Vec<Part> {
         let (tangent, length) = (joint.tangent(), joint.length());
         let [face_a, face_b] = joint.faces();
         let b = Some(self.on_line(model, joint.b.index(), face_b[0], joint));
@@ -128,7 +128,7 @@ impl Nodes {
         model: &Model,
         block: usize,
         origin: Point2<f64>,
-        joint: &Joint,
+        joint: &PlacedJoint,
     ) -> Vec<(f64, usize)> {
         let nodes = &model.blocks[block].mesh.as_ref().unwrap().nodes;
         let near = nodes

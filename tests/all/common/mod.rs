@@ -85,7 +85,7 @@ pub fn displacements<'a>(outcome: &'a Outcome, name: &str) -> &'a [Vector2<f64>]
 /// The resultant \[N\] of a joint on its block in front, from one body to another.
 pub fn joint_resultant(outcome: &Outcome, a: Body, b: BlockId) -> Vector2<f64> {
     let model = &outcome.model;
-    let between = |joint: &masonry::model::Joint| joint.a == a && joint.b == b;
+    let between = |joint: &masonry::model::PlacedJoint| joint.a == a && joint.b == b;
     model
         .contacts
         .iter()
@@ -128,7 +128,7 @@ pub fn assert_admissible(outcome: &Outcome) {
 }
 
 /// The power of the loads of a block whose corners move at these rates.
-fn power(model: &Model, block: &masonry::model::Block, corners: &[Vector2<f64>]) -> f64 {
+fn power(model: &Model, block: &masonry::model::PlacedBlock, corners: &[Vector2<f64>]) -> f64 {
     let edges: f64 = block
         .edge_loads()
         .map(|load| {

@@ -2,7 +2,7 @@
 
 use masonry::data::state::State;
 use masonry::geometry;
-use masonry::model::{Block, Model};
+use masonry::model::{Model, PlacedBlock};
 use nalgebra::Vector2;
 
 use super::double::Double;
@@ -28,7 +28,7 @@ pub fn left_over(model: &Model, state: &State) -> f64 {
             resultant.size += contact.law.tension;
         }
     }
-    let of_block = |(it, block): (&Resultant, &Block)| {
+    let of_block = |(it, block): (&Resultant, &PlacedBlock)| {
         let [x, y] = it.force.map(Double::rounded);
         let moment = it.moment.rounded().abs() / geometry::size(&block.corners);
         let left = x.hypot(y).max(moment);
@@ -46,7 +46,7 @@ struct Resultant {
 }
 
 impl Resultant {
-    fn of_loads(model: &Model, block: &Block) -> Self {
+    fn of_loads(model: &Model, block: &PlacedBlock) -> Self {
         let zero = Double::from(0.0);
         let centroid = geometry::centroid(&block.corners);
         let about = [centroid.x, centroid.y].map(Double::from);
@@ -65,7 +65,7 @@ impl Resultant {
     }
 }
 
-fn on_edge(block: &Block, edge: usize, at: f64) -> [Double; 2] {
+fn on_edge(block: &PlacedBlock, edge: usize, at: f64) -> [Double; 2] {
     let [start, end] = geometry::edge(&block.corners, edge);
     let between = |a: f64, b: f64| {
         let [a, b, at] = [a, b, at].map(Double::from);

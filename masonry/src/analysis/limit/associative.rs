@@ -5,7 +5,7 @@ use serde::Serialize;
 
 use super::watch::Watch;
 use super::{LimitError, LoadedStructure, NOTHING};
-use crate::data::state::{ContactState, Reaction};
+use crate::data::state::{PointState, Reaction};
 use crate::data::statics::Statics;
 use crate::method::statics;
 use crate::method::statics::limit::Growing;
@@ -44,7 +44,7 @@ pub struct Associative {
     /// between their factors.
     pub proved: bool,
     /// The forces under [`load_factor`](Self::load_factor), point by point; gaps and slips are zero.
-    pub forces: Option<Vec<ContactState>>,
+    pub forces: Option<Vec<PointState>>,
     /// The reactions to these forces.
     pub reactions: Vec<Reaction>,
     /// The factor \[-\] under which growing loads equal the others, or the largest factor, if that is larger.
@@ -85,7 +85,7 @@ impl Associative {
         self.proved && self.bound.is_some_and(|bound| bound <= NOTHING * self.size)
     }
 
-    fn with_forces(self, model: &Model, forces: Option<Vec<ContactState>>) -> Self {
+    fn with_forces(self, model: &Model, forces: Option<Vec<PointState>>) -> Self {
         let reactions =
             forces.as_ref().map_or_else(Vec::new, |forces| recover::reactions(model, forces));
         Self { forces, reactions, ..self }

@@ -11,7 +11,7 @@ use steps::{AtRest, StepEnd, Steps};
 
 use super::watch::{Bracket, Watch};
 use super::{Answer, Associative, LimitError, LoadedStructure, NOTHING};
-use crate::data::state::{ContactState, Reaction};
+use crate::data::state::{PointState, Reaction};
 use crate::forms::Sparse;
 use crate::method::loading;
 use crate::model::Model;
@@ -51,7 +51,7 @@ pub struct Path {
     /// The structure under [`load_factor`](Self::load_factor), with the springs.
     pub model: Model,
     /// The last state at rest, point by point; slips are those of its step.
-    pub contacts: Option<Vec<ContactState>>,
+    pub contacts: Option<Vec<PointState>>,
     /// The reactions of the last state at rest.
     pub reactions: Vec<Reaction>,
     /// The motion of the blocks above that factor: displacement rates of their corners, scaled to a largest component

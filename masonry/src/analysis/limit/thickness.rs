@@ -6,7 +6,7 @@ use nalgebra::Vector2;
 
 use super::watch::{Observer, Watch};
 use super::{LimitError, rigid};
-use crate::data::state::ContactState;
+use crate::data::state::PointState;
 use crate::data::statics::Statics;
 use crate::method::statics;
 use crate::model::Model;
@@ -42,7 +42,7 @@ pub struct Thickness {
     /// The structure that stands, or that of the scene where none does.
     pub model: Model,
     /// The forces of the structure that stands, point by point; gaps and slips are zero.
-    pub forces: Option<Vec<ContactState>>,
+    pub forces: Option<Vec<PointState>>,
     /// The motion in which the thicker of those that fall does so: rates of the corners of every block.
     pub mechanism: Option<Vec<Vec<Vector2<f64>>>>,
     /// The answer in the words of an engineer.
@@ -87,7 +87,7 @@ struct Bisection<'a> {
     place: usize,
     watch: Watch<'a>,
     falls: Option<(f64, Vec<Vec<Vector2<f64>>>)>,
-    stands: Option<(f64, Model, Vec<ContactState>)>,
+    stands: Option<(f64, Model, Vec<PointState>)>,
 }
 
 impl Bisection<'_> {

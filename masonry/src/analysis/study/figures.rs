@@ -5,7 +5,7 @@ use serde::Serialize;
 
 use crate::data::state::State;
 use crate::geometry;
-use crate::model::{Anchor, Block, Model};
+use crate::model::{Anchor, Model, PlacedBlock};
 use crate::recover;
 use crate::rounding::largest;
 
@@ -77,7 +77,7 @@ impl Figures {
 
 /// `C^T t` for elastic blocks, and `N^T C^T t` for rigid ones.
 fn forces_on_blocks(model: &Model, state: &State) -> Vec<Vec<f64>> {
-    let numbers = |block: &Block| elastic_nodes(block).map_or(3, |nodes| 2 * nodes);
+    let numbers = |block: &PlacedBlock| elastic_nodes(block).map_or(3, |nodes| 2 * nodes);
     let mut forces: Vec<Vec<f64>> =
         model.blocks.iter().map(|block| vec![0.0; numbers(block)]).collect();
     for (contact, found) in model.contacts.iter().zip(&state.contacts) {
@@ -92,7 +92,7 @@ fn forces_on_blocks(model: &Model, state: &State) -> Vec<Vec<f64>> {
     forces
 }
 
-fn add(forces: &mut [f64], block: &Block, anchor: Anchor, force: Vector2<f64>) {
+fn add(forces: &mut [f64], block: &PlacedBlock, anchor: Anchor, force: Vector2<f64>) {
     let Anchor { edge, at, .. } = anchor;
     if let (Some(_), Some(mesh)) = (block.elasticity, &block.mesh) {
         for (node, share) in mesh.interpolate(edge, at) {
@@ -108,7 +108,7 @@ fn add(forces: &mut [f64], block: &Block, anchor: Anchor, force: Vector2<f64>) {
     }
 }
 
-fn elastic_nodes(block: &Block) -> Option<usize> {
+fn elastic_nodes(block: &PlacedBlock) -> Option<usize> {
     block.mesh.as_ref().filter(|_| block.elasticity.is_some()).map(|mesh| mesh.nodes.len())
 }
 

@@ -7,7 +7,7 @@ use super::figures::{Figures, relative};
 use super::reference::{self, FoundReference, Reference};
 use super::runs::Runner;
 use crate::data::state::State;
-use crate::model::{Block, Body, Model};
+use crate::model::{Body, Model, PlacedBlock};
 use crate::recover;
 use crate::scene::Scene;
 
@@ -175,7 +175,7 @@ fn thrust(model: &Model, state: &State) -> f64 {
 }
 
 fn corners(model: &Model, state: &State, figures: &Figures) -> Vec<Option<Vec<Vector2<f64>>>> {
-    let of_block = |(block, moves): (&Block, &Vec<Vector2<f64>>)| match &block.mesh {
+    let of_block = |(block, moves): (&PlacedBlock, &Vec<Vector2<f64>>)| match &block.mesh {
         Some(mesh) => (0..4).map(|edge| moves[mesh.edge_nodes(edge)[0]]).collect(),
         None => moves.clone(),
     };

@@ -2,12 +2,12 @@
 
 use crate::geometry::{self, Extent, SAME_PLACE};
 use crate::ids::BlockId;
-use crate::model::Block;
+use crate::model::PlacedBlock;
 
 /// Pairs of blocks whose bounding boxes come within `reach` \[m\], in increasing order.
 ///
 /// Boxes are swept along the longer side of the whole structure, so that only neighbours in that direction are compared.
-pub(crate) fn near_pairs(blocks: &[Block], reach: f64) -> Vec<[BlockId; 2]> {
+pub(crate) fn near_pairs(blocks: &[PlacedBlock], reach: f64) -> Vec<[BlockId; 2]> {
     let boxes: Vec<Extent> = blocks
         .iter()
         .map(|b| {

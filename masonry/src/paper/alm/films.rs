@@ -4,9 +4,9 @@ use faer::sparse::Triplet;
 use nalgebra::{Matrix2, Point2, RowVector3, Vector2, Vector3};
 
 use super::AlmError;
-use crate::data::state::ContactStatus;
+use crate::data::state::PointStatus;
 use crate::law::JointLaw;
-use crate::model::{Anchor, ContactPoint, Joint, Model};
+use crate::model::{Anchor, ContactPoint, PlacedJoint, Model};
 use crate::paper::film::law::FilmState;
 use crate::paper::film::pointwise::{FilmResponse, PointwiseFilm};
 use crate::paper::film::strip::Strip;
@@ -147,7 +147,7 @@ impl Segment {
     pub(super) fn matrix(&self, response: &FilmResponse) -> Matrix8 {
         self.film.tangent(response.points.iter().map(|point| {
             let mut tangent = point.tangent;
-            if point.contact == ContactStatus::Slip {
+            if point.contact == PointStatus::Slip {
                 tangent.set_row(2, &RowVector3::zeros());
             }
             tangent
@@ -188,7 +188,7 @@ impl Segment {
     /// Places and forces, in global axes, of what holds the ends of the lower face.
     pub(super) fn lower_forces(
         &self,
-        joint: &Joint,
+        joint: &PlacedJoint,
         response: &FilmResponse,
     ) -> [(Point2<f64>, Vector2<f64>); 2] {
         let (tangent, strip) = (joint.tangent(), self.film.strip());

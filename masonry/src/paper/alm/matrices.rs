@@ -8,14 +8,14 @@ use lcp::ContactState;
 
 use super::AlmError;
 use super::structure::Structure;
-use crate::data::state::ContactStatus;
+use crate::data::state::PointStatus;
 use crate::law::Cone;
 use crate::paper::film::pointwise::FilmResponse;
 
 /// The states of all contacts and films.
 #[derive(Clone, Copy)]
 pub(super) struct States<'a> {
-    pub(super) contacts: &'a [ContactStatus],
+    pub(super) contacts: &'a [PointStatus],
     pub(super) films: &'a [FilmResponse],
 }
 
@@ -38,7 +38,7 @@ impl<'a> Matrices<'a> {
             rows.iter().map(|row| penalty * structure.seen(row)).collect()
         };
         let (rho_n, rho_t) = (rho(&structure.normal), rho(&structure.tangent));
-        let all = vec![ContactStatus::Stick; rho_n.len()];
+        let all = vec![PointStatus::Stick; rho_n.len()];
         let rest = structure.taken(&vec![0.0; structure.diagonal.len()]);
         let states = States { contacts: &all, films: &rest.films };
         let matrix = assembled(structure, states, &rho_n, &rho_t, proximal)?;
@@ -65,12 +65,12 @@ impl<'a> Matrices<'a> {
         let (f, delta) = (problem.loads(), self.proximal);
         let mut u = Mat::from_fn(n, 1, |j, _| f[j] + delta * diagonal[j] * at.u[j]);
         for (i, contact) in contacts.iter().enumerate() {
-            if *contact == ContactStatus::Open {
+            if *contact == PointStatus::Open {
                 continue;
             }
             let t_n = at.t_n[i] - self.rho_n[i] * problem.initial_gaps()[i];
             normal[i].iter().for_each(|&(j, v)| u[(j, 0)] += v * t_n);
-            let held = if *contact == ContactStatus::Stick { self.rho_t[i] } else { 0.0 };
+            let held = if *contact == PointStatus::Stick { self.rho_t[i] } else { 0.0 };
             let t_t = at.t_t[i] - held * problem.initial_slips()[i];
             tangent[i].iter().for_each(|&(j, v)| u[(j, 0)] += v * t_t);
         }
@@ -101,18 +101,18 @@ impl<'a> Matrices<'a> {
     }
 
     /// The projection of the forces on the friction cones, and the states that belong to it.
-    pub(super) fn projected(&self, at: &ContactState) -> (Vec<f64>, Vec<f64>, Vec<ContactStatus>) {
+    pub(super) fn projected(&self, at: &ContactState) -> (Vec<f64>, Vec<f64>, Vec<PointStatus>) {
         let all = self.structure.problem.mu().iter().enumerate().map(|(i, mu)| {
             let t_n = (at.t_n[i] - self.rho_n[i] * at.gap[i]).max(0.0);
             if t_n <= 0.0 {
-                return (0.0, 0.0, ContactStatus::Open);
+                return (0.0, 0.0, PointStatus::Open);
             }
             let (t_t, bound) =
                 (at.t_t[i] - self.rho_t[i] * at.slip[i], Cone::friction(*mu).bound(t_n));
             match *mu {
-                0.0 => (t_n, 0.0, ContactStatus::Stick),
-                _ if t_t.abs() <= bound => (t_n, t_t, ContactStatus::Stick),
-                _ => (t_n, bound.copysign(t_t), ContactStatus::Slip),
+                0.0 => (t_n, 0.0, PointStatus::Stick),
+                _ if t_t.abs() <= bound => (t_n, t_t, PointStatus::Stick),
+                _ => (t_n, bound.copysign(t_t), PointStatus::Slip),
             }
         });
         let (mut normal, mut tangential, mut contacts) = (Vec::new(), Vec::new(), Vec::new());
@@ -138,8 +138,8 @@ fn assembled(
     let held = diagonal.iter().enumerate();
     entries.extend(held.map(|(j, k)| Triplet::new(j, j, proximal * k)));
     for (i, contact) in contacts.iter().enumerate() {
-        let closed = if *contact == ContactStatus::Open { 0.0 } else { rho_n[i] };
-        let sticking = if *contact == ContactStatus::Stick { rho_t[i] } else { 0.0 };
+        let closed = if *contact == PointStatus::Open { 0.0 } else { rho_n[i] };
+        let sticking = if *contact == PointStatus::Stick { rho_t[i] } else { 0.0 };
         for (row, rho) in [(&normal[i], closed), (&tangent[i], sticking)] {
             // Zeros too: the pattern must not depend on the states.
             for &(j, v) in row {

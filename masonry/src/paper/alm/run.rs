@@ -8,7 +8,7 @@ use super::contraction::Contraction;
 use super::matrices::{Matrices, States};
 use super::structure::{Structure, Taken};
 use super::{AlmError, Answer, Iteration, Settings};
-use crate::data::state::ContactStatus;
+use crate::data::state::PointStatus;
 
 /// Penalty of a contact, relative to the stiffness that it sees.
 const PENALTY: f64 = 0.3;
@@ -90,7 +90,7 @@ impl Iterations<'_> {
         let problem = structure.problem;
         let mut at = self.start(matrices)?;
         let mut taken = structure.taken(&at.u);
-        let mut contacts = vec![ContactStatus::Stick; problem.points()];
+        let mut contacts = vec![PointStatus::Stick; problem.points()];
         let mut factors = None;
         // The least measure, and the least distance that is left.
         let (mut least, mut since) = ([f64::INFINITY; 2], 0);
@@ -157,7 +157,7 @@ impl Iterations<'_> {
         if offsets.all(|offset| offset.abs() <= 0.0) {
             return Ok(at);
         }
-        let all = vec![ContactStatus::Stick; problem.points()];
+        let all = vec![PointStatus::Stick; problem.points()];
         for _ in 0..BROUGHT {
             let taken = self.structure.taken(&at.u);
             let states = States { contacts: &all, films: &taken.films };
@@ -194,7 +194,7 @@ impl Iterations<'_> {
 
 /// Points of films that are in other states.
 fn changed_points(one: &Taken, other: &Taken) -> usize {
-    let states = |taken: &Taken| -> Vec<ContactStatus> {
+    let states = |taken: &Taken| -> Vec<PointStatus> {
         taken.films.iter().flat_map(|film| &film.points).map(|point| point.contact).collect()
     };
     states(one).iter().zip(states(other)).filter(|(a, b)| **a != *b).count()

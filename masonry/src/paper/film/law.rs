@@ -17,7 +17,7 @@
 use nalgebra::{Matrix3, Vector3};
 
 use super::{FilmError, FilmMaterial, positive};
-use crate::data::state::ContactStatus;
+use crate::data::state::PointStatus;
 use crate::law::Cone;
 
 /// The memory of one point of a film.
@@ -35,7 +35,7 @@ pub struct PointResponse {
     /// Derivative of the stress by the strain \[Pa\]; not symmetric where the point slips.
     pub tangent: Matrix3<f64>,
     /// The state of the point.
-    pub contact: ContactStatus,
+    pub contact: PointStatus,
     /// The state after this step.
     pub state: FilmState,
     /// Opening of the interface \[m\]; zero unless it is open.
@@ -59,7 +59,7 @@ impl FilmLaw {
     /// [`FilmError`] if the thickness is not positive, the material not elastic, or `mu` negative.
     ///
     /// ```
-    /// use masonry::data::state::ContactStatus;
+    /// use masonry::data::state::PointStatus;
     /// use masonry::paper::film::{FilmMaterial, law::{FilmLaw, FilmState}};
     /// use masonry::model::{Elasticity, Plane};
     /// use nalgebra::Vector3;
@@ -67,7 +67,7 @@ impl FilmLaw {
     /// let elasticity = Elasticity { young: 2e9, poisson: 0.0 };
     /// let law = FilmLaw::new(&FilmMaterial { elasticity, plane: Plane::Stress }, 0.01, 0.5)?;
     /// let answer = law.respond(Vector3::new(0.0, -1e-4, 3e-4), FilmState::default());
-    /// assert_eq!(answer.contact, ContactStatus::Slip);
+    /// assert_eq!(answer.contact, PointStatus::Slip);
     /// assert!((answer.stress.z - 0.5 * 2e5).abs() < 1e-6);
     /// assert!((answer.state.slip - 2e-6).abs() < 1e-15);
     /// # Ok::<(), masonry::paper::film::FilmError>(())
@@ -90,7 +90,7 @@ impl FilmLaw {
             PointResponse {
                 stress: trial,
                 tangent: self.matrix,
-                contact: ContactStatus::Stick,
+                contact: PointStatus::Stick,
                 state: before,
                 opening: 0.0,
                 dissipation: 0.0,
@@ -109,7 +109,7 @@ impl FilmLaw {
         PointResponse {
             stress: Vector3::new(along * strain.x, 0.0, 0.0),
             tangent,
-            contact: ContactStatus::Open,
+            contact: PointStatus::Open,
             state: FilmState { slip: self.thickness * strain.z },
             opening: self.thickness * trial.y / c[(1, 1)],
             dissipation: 0.0,
@@ -125,7 +125,7 @@ impl FilmLaw {
         PointResponse {
             stress: Vector3::new(trial.x, trial.y, tau),
             tangent,
-            contact: ContactStatus::Slip,
+            contact: PointStatus::Slip,
             state: FilmState { slip: before.slip + advance },
             opening: 0.0,
             dissipation: tau * advance,

@@ -4,8 +4,8 @@ use nalgebra::Vector2;
 
 use super::Digits::{Aligned, Power, Significant};
 use super::{Columns, Table, Value, members};
-use crate::data::state::{ContactState, ContactStatus, FilmStress, Reaction, State};
-use crate::model::{Body, ContactPoint, Joint, Model};
+use crate::data::state::{PointState, PointStatus, FilmStress, Reaction, State};
+use crate::model::{Body, ContactPoint, PlacedJoint, Model};
 use crate::report::format::Quantity::{
     Area, Energy, Force, Length, Millimetres, Percent, Pure, Stress,
 };
@@ -71,24 +71,24 @@ pub(crate) fn rates_by_name(model: &Model, rates: &[Vec<Vector2<f64>>]) -> Value
 }
 
 /// The bodies on both sides of a joint.
-pub(crate) fn sides<'a>(model: &'a Model, joint: &Joint) -> [&'a str; 2] {
+pub(crate) fn sides<'a>(model: &'a Model, joint: &PlacedJoint) -> [&'a str; 2] {
     [joint.a, Body::Block(joint.b)].map(|body| body_name(model, body))
 }
 
-fn class<'a>(model: &'a Model, joint: &Joint) -> &'a str {
+fn class<'a>(model: &'a Model, joint: &PlacedJoint) -> &'a str {
     model.joint_classes.get(joint.class).map_or("", |class| &class.name)
 }
 
 /// A joint that carries something or has opened.
 struct JointRow<'a> {
     index: usize,
-    joint: &'a Joint,
+    joint: &'a PlacedJoint,
     carried: Option<&'a JointForce>,
     opened: Option<&'a Opening>,
 }
 
 /// The forces and openings of all joints.
-pub(crate) fn joints(model: &Model, contacts: &[ContactState]) -> Table {
+pub(crate) fn joints(model: &Model, contacts: &[PointState]) -> Table {
     let (forces, openings) = (joints::forces(model, contacts), joints::openings(model, contacts));
     let rows = model.joints.iter().enumerate().map(|(index, joint)| JointRow {
         index,
@@ -132,8 +132,8 @@ pub(crate) fn hinges(model: &Model, rates: &[Vec<Vector2<f64>>]) -> Table {
 struct PointRow<'a> {
     index: usize,
     contact: &'a ContactPoint,
-    joint: &'a Joint,
-    state: &'a ContactState,
+    joint: &'a PlacedJoint,
+    state: &'a PointState,
     film: Option<&'a FilmStress>,
 }
 
@@ -174,9 +174,9 @@ pub(crate) fn contacts(model: &Model, state: &State) -> Table {
         .number("slip", Length, Power, |it| it.state.y_t)
         .number("mu", Pure, Power, |it| it.contact.law.mu)
         .words("status", |it| match it.state.status {
-            ContactStatus::Open => "open",
-            ContactStatus::Stick => "stick",
-            ContactStatus::Slip => "slip",
+            PointStatus::Open => "open",
+            PointStatus::Stick => "stick",
+            PointStatus::Slip => "slip",
         })
         .number("film_sigma_x", Stress, Power, |it| it.film?.sigma_x)
         .number("film_sigma_y", Stress, Power, |it| Some(it.film?.sigma_y))

@@ -1,6 +1,6 @@
 //! Tables that a click on a column sorts.
 
-use crate::data::state::{ContactState, Reaction};
+use crate::data::state::{PointState, Reaction};
 use nalgebra::Vector2;
 
 use crate::model::Model;
@@ -58,7 +58,7 @@ pub(super) fn reactions(title: &str, model: &Model, list: &[Reaction]) -> String
 }
 
 /// The forces and openings of all joints.
-pub(super) fn joints(title: &str, model: &Model, contacts: &[ContactState]) -> String {
+pub(super) fn joints(title: &str, model: &Model, contacts: &[PointState]) -> String {
     let note = "N presses where it is positive; e / l is the eccentricity of the resultant in lengths of the joint, \
                 outside the middle third above 0.167.";
     section(title, note, &tables::joints(model, contacts))

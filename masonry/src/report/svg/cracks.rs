@@ -6,9 +6,9 @@ use super::legend;
 use super::names;
 use super::sheet::{Frame, Sheet, Sides};
 use super::structure::{self, counted};
-use crate::data::state::ContactState;
+use crate::data::state::PointState;
 use crate::ids::JointId;
-use crate::model::{Joint, Model};
+use crate::model::{PlacedJoint, Model};
 use crate::report::format::{round_down, significant};
 use crate::report::joints::{self, Opening};
 use crate::rounding::largest;
@@ -22,7 +22,7 @@ const LEAST_SLIP: f64 = 0.01;
 
 /// The structure with its open joints, wider ones darker; the legend is in millimetres. Joints that are closed and have
 /// slid have a line of their own colour. `None` if no joint has opened or slid.
-pub fn cracks(title: &str, model: &Model, contacts: &[ContactState]) -> Option<String> {
+pub fn cracks(title: &str, model: &Model, contacts: &[PointState]) -> Option<String> {
     let openings = joints::openings(model, contacts);
     let by = widest(&openings);
     (!openings.is_empty()).then(|| compared(&Loaded { title, model, contacts }, by))
@@ -113,7 +113,7 @@ fn explain_widths(sheet: &mut Sheet, round: f64, widest: f64, widest_of_all: f64
 /// Pieces of a joint: between its points the width changes evenly, beyond them it is that of the next.
 fn pieces<'a>(
     opening: &'a Opening,
-    joint: &'a Joint,
+    joint: &'a PlacedJoint,
     frame: &'a Frame,
 ) -> impl Iterator<Item = Piece> + 'a {
     let count = if opening.widths.len() > 1 { PIECES } else { 1 };

@@ -9,7 +9,7 @@ use super::names;
 use super::sheet::{Bounds, Frame, Sheet, Shown, Sides};
 use super::structure;
 use crate::data::state::State;
-use crate::model::{Block, Model};
+use crate::model::{PlacedBlock, Model};
 use crate::report::format::{InUnits, significant};
 use crate::report::summary::{largest_displacement, nodes};
 use crate::rounding;
@@ -91,7 +91,7 @@ pub(in crate::report) fn compared(shown: &Shown<'_>, by: &Magnified) -> String {
 /// Nodes of a block, by their positions in its list.
 fn pixels(
     frame: &Frame,
-    block: &Block,
+    block: &PlacedBlock,
     moves: &[Vector2<f64>],
     positions: &[usize],
     factor: f64,
@@ -101,7 +101,7 @@ fn pixels(
 }
 
 /// The lines between the elements of one block, as positions in the list of its nodes.
-fn mesh_lines(block: &Block, nodes: usize) -> Vec<Vec<usize>> {
+fn mesh_lines(block: &PlacedBlock, nodes: usize) -> Vec<Vec<usize>> {
     let Some(mesh) = block.mesh.as_ref().filter(|it| nodes >= (it.nx + 1) * (it.ny + 1)) else {
         return Vec::new();
     };

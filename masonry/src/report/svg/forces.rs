@@ -10,7 +10,7 @@ use super::names;
 use super::sheet::{Bounds, Sheet, Shown, Sides};
 use super::structure::{self, counted};
 use super::style::{LARGEST_BRICK, PLACE};
-use crate::data::state::ContactState;
+use crate::data::state::PointState;
 use crate::model::{Body, Model};
 use crate::report::format::InUnits;
 use crate::report::joints::{self, JointForce};
@@ -63,7 +63,7 @@ impl Shared {
 pub(in crate::report) struct Loaded<'a> {
     pub(in crate::report) title: &'a str,
     pub(in crate::report) model: &'a Model,
-    pub(in crate::report) contacts: &'a [ContactState],
+    pub(in crate::report) contacts: &'a [PointState],
 }
 
 impl<'a> From<&Shown<'a>> for Loaded<'a> {
@@ -78,7 +78,7 @@ impl<'a> From<&Shown<'a>> for Loaded<'a> {
 /// Behind them are the paths of the forces: lines from joint to joint, as wide as the force is large; in an arch the
 /// line of thrust. Dots are hollow if the resultant has left the middle third. Joints in colour use much of their
 /// friction. Supports have their reactions. Loads are those of the model.
-pub fn forces(title: &str, model: &Model, contacts: &[ContactState]) -> String {
+pub fn forces(title: &str, model: &Model, contacts: &[PointState]) -> String {
     let loaded = Loaded { title, model, contacts };
     compared(&loaded, &Shared::of(&[loaded]))
 }

@@ -8,9 +8,9 @@ use super::motion::Motion;
 use super::names;
 use super::sheet::{Bounds, Frame, Sheet};
 use super::style::{LARGEST_BRICK, STATUS};
-use crate::data::state::{ContactState, ContactStatus};
+use crate::data::state::{PointState, PointStatus};
 use crate::ids::{JointId, SupportId};
-use crate::model::{Block, Body, ContactPoint, Model, Support};
+use crate::model::{PlacedBlock, Body, ContactPoint, Model, PlacedSupport};
 
 /// Length of the strokes of a hatch, and most that is between them.
 const TICK: f64 = 7.0;
@@ -39,7 +39,7 @@ pub(super) fn draw(sheet: &mut Sheet, model: &Model) {
 pub(super) fn outlines<'a>(
     sheet: &mut Sheet,
     class: &str,
-    blocks: impl IntoIterator<Item = &'a Block>,
+    blocks: impl IntoIterator<Item = &'a PlacedBlock>,
 ) {
     sheet.layer(class, |canvas, frame| {
         for block in blocks {
@@ -102,7 +102,7 @@ pub(super) fn avoid_supports(frame: &Frame, model: &Model, labels: &mut Labels) 
 }
 
 /// A vector, y up, from the support to the structure.
-fn side_of_structure(model: &Model, id: SupportId, support: &Support) -> Vector2<f64> {
+fn side_of_structure(model: &Model, id: SupportId, support: &PlacedSupport) -> Vector2<f64> {
     match model.joints.iter().find(|joint| joint.a == Body::Support(id)) {
         Some(joint) => joint.normal,
         None => blocks(model).middle() - nalgebra::center(&support.from, &support.to),
@@ -122,7 +122,7 @@ fn hatch([from, to]: [Pixel; 2], ticks: u32, inward: Vector2<f64>) -> String {
 }
 
 /// The nodes around a block, as positions in the list of its nodes.
-pub(super) fn rim(block: &Block) -> Vec<usize> {
+pub(super) fn rim(block: &PlacedBlock) -> Vec<usize> {
     let Some(mesh) = &block.mesh else { return (0..block.corners.len()).collect() };
     let row = mesh.nx + 1;
     let bottom = 0..mesh.nx;
@@ -136,10 +136,10 @@ pub(super) fn rim(block: &Block) -> Vec<usize> {
 ///
 /// Each mark is moved along its joint by nearly two radii towards the joint's middle, so that the marks
 /// of joints which meet in one place stay apart.
-pub(super) fn contact_marks(sheet: &mut Sheet, model: &Model, states: &[ContactState]) {
+pub(super) fn contact_marks(sheet: &mut Sheet, model: &Model, states: &[PointState]) {
     let radius = STATUS * sheet.marks();
     for (status, name, class) in
-        [(ContactStatus::Open, "open", "open"), (ContactStatus::Slip, "sliding", "slip")]
+        [(PointStatus::Open, "open", "open"), (PointStatus::Slip, "sliding", "slip")]
     {
         let all = model.contacts.iter().zip(states);
         let found: Vec<_> = all.filter(|(_, state)| state.status == status).collect();
@@ -158,8 +158,8 @@ pub(super) fn contact_marks(sheet: &mut Sheet, model: &Model, states: &[ContactS
     }
 }
 
-fn draw_mark(canvas: &mut Canvas, status: ContactStatus, at: Pixel, radius: f64) {
-    if status == ContactStatus::Open {
+fn draw_mark(canvas: &mut Canvas, status: PointStatus, at: Pixel, radius: f64) {
+    if status == PointStatus::Open {
         return canvas.circle(at, radius, "");
     }
     let tip = 1.35 * radius;

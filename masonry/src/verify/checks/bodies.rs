@@ -6,7 +6,7 @@ use super::elements::NodeForces;
 use super::{LARGEST_ERROR, known, larger, relative};
 use crate::data::state::State;
 use crate::geometry;
-use crate::model::{Anchor, Block, Model};
+use crate::model::{Anchor, Model, PlacedBlock};
 use crate::recover;
 
 /// The forces on all blocks.
@@ -28,7 +28,7 @@ struct BodyForces {
 }
 
 impl BodyForces {
-    fn of_loads(model: &Model, block: &Block) -> Self {
+    fn of_loads(model: &Model, block: &PlacedBlock) -> Self {
         let mut body = Self {
             force: Vector2::zeros(),
             moment: 0.0,
@@ -44,7 +44,7 @@ impl BodyForces {
         body
     }
 
-    fn add(&mut self, block: &Block, place: Point2<f64>, force: Vector2<f64>) {
+    fn add(&mut self, block: &PlacedBlock, place: Point2<f64>, force: Vector2<f64>) {
         let arm = (place - geometry::centroid(&block.corners)) / geometry::size(&block.corners);
         self.force += force;
         self.moment += geometry::cross(arm, force);

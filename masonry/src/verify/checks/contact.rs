@@ -2,7 +2,7 @@
 
 use super::bodies::Bodies;
 use super::{Lengths, larger};
-use crate::data::state::{ContactState, State};
+use crate::data::state::{PointState, State};
 use crate::law::PointLaw;
 use crate::model::{ContactPoint, Model};
 use crate::recover;
@@ -27,7 +27,7 @@ impl Pair {
         model: &Model,
         state: &State,
         contact: &ContactPoint,
-        it: &ContactState,
+        it: &PointState,
     ) -> Self {
         // Faces that are pressed come nearer than they were, which is no gap below zero.
         let [c_n, c_t] = contact.gives();

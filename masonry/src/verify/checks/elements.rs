@@ -6,7 +6,7 @@ use super::{known, larger, relative};
 use crate::data::state::State;
 use crate::element::quad4;
 use crate::material::constitutive;
-use crate::model::{Anchor, Block, Model};
+use crate::model::{Anchor, PlacedBlock, Model};
 use crate::recover;
 use crate::system::kinematics::{shares, stretched, terms};
 use crate::system::nodal_loads;
@@ -64,7 +64,7 @@ impl NodeForces {
 pub(super) fn nodes(model: &Model, state: &State) -> Vec<Option<NodeForces>> {
     let outside = outside(model, state);
     let blocks = model.blocks.iter().zip(&state.displacements).zip(&outside);
-    let of_block = |((block, u), outside): ((&Block, &Vec<Vector2<f64>>), &Vec<Nodal>)| {
+    let of_block = |((block, u), outside): ((&PlacedBlock, &Vec<Vector2<f64>>), &Vec<Nodal>)| {
         let inside = inside(model, block, u)?;
         let rest = inside.iter().zip(outside).map(|(a, b)| (a.force - b.force).norm());
         let largest = |list: &[Nodal]| list.iter().map(|it| it.size).fold(0.0, larger);
@@ -80,7 +80,7 @@ pub(super) fn nodes(model: &Model, state: &State) -> Vec<Option<NodeForces>> {
 
 /// Loads and contact forces at the nodes, and the bars of strips of mortar; empty of rigid blocks.
 fn outside(model: &Model, state: &State) -> Vec<Vec<Nodal>> {
-    let loads = |block: &Block| -> Vec<Nodal> {
+    let loads = |block: &PlacedBlock| -> Vec<Nodal> {
         let mesh = block.mesh.as_ref();
         let loads = mesh.map_or_else(Vec::new, |mesh| nodal_loads(model, block, mesh));
         loads.chunks(2).map(|f| Nodal::of(Vector2::new(f[0], f[1]))).collect()
@@ -109,7 +109,7 @@ fn outside(model: &Model, state: &State) -> Vec<Vec<Nodal>> {
 }
 
 /// The forces of the elements on the nodes of a block.
-fn inside(model: &Model, block: &Block, u: &[Vector2<f64>]) -> Option<Vec<Nodal>> {
+fn inside(model: &Model, block: &PlacedBlock, u: &[Vector2<f64>]) -> Option<Vec<Nodal>> {
     let (mesh, elasticity) = (block.mesh.as_ref()?, block.elasticity?);
     let d = constitutive(elasticity, model.plane);
     let mut list = vec![Nodal::of(Vector2::zeros()); u.len()];

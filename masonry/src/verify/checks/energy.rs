@@ -5,7 +5,7 @@ use nalgebra::Vector2;
 use super::contact::Pair;
 use super::{larger, relative};
 use crate::data::state::State;
-use crate::model::{Block, Model};
+use crate::model::{PlacedBlock, Model};
 use crate::recover;
 use crate::system::nodal_loads;
 use crate::system::rigid::Modes;
@@ -39,7 +39,7 @@ pub(super) fn error(model: &Model, state: &State, pairs: &[Pair]) -> f64 {
 }
 
 /// The loads of a block with their displacements, at its nodes or, on a rigid block, in their places.
-fn loads(model: &Model, block: &Block, u: &[Vector2<f64>]) -> Vec<[Vector2<f64>; 2]> {
+fn loads(model: &Model, block: &PlacedBlock, u: &[Vector2<f64>]) -> Vec<[Vector2<f64>; 2]> {
     if let Some(mesh) = &block.mesh {
         let loads = nodal_loads(model, block, mesh);
         return loads.chunks(2).zip(u).map(|(f, u)| [Vector2::new(f[0], f[1]), *u]).collect();
@@ -54,7 +54,7 @@ fn loads(model: &Model, block: &Block, u: &[Vector2<f64>]) -> Vec<[Vector2<f64>;
 pub(super) fn deformation(model: &Model, state: &State) -> f64 {
     let blocks = model.blocks.iter().zip(&state.displacements);
     let rigid = blocks.filter(|(block, _)| block.mesh.is_none());
-    let of_block = |(block, u): (&Block, &Vec<Vector2<f64>>)| {
+    let of_block = |(block, u): (&PlacedBlock, &Vec<Vector2<f64>>)| {
         let (_, off) = Modes::of(&block.corners).nearest(&block.corners, u);
         relative(off, u.iter().map(Vector2::norm).fold(0.0, larger))
     };

@@ -6,7 +6,7 @@ use lcp::Contact2d;
 use lcp_linalg::Gram;
 
 use crate::columns::{ColumnMatrix, column};
-use crate::data::state::{ContactState, State};
+use crate::data::state::{PointState, State};
 use crate::model::{ContactPoint, Model};
 
 /// Normal forces below this part of the largest are none, and forces this near to an edge of the cone are on it.
@@ -41,14 +41,14 @@ struct Changes {
 fn changes(model: &Model, problem: &Contact2d, state: &State) -> Option<Changes> {
     let contacts = || model.contacts.iter().zip(&state.contacts);
     // How far a force is from opening the joint.
-    let pressed = |(point, force): (&ContactPoint, &ContactState)| force.t_n + point.law.tension;
+    let pressed = |(point, force): (&ContactPoint, &PointState)| force.t_n + point.law.tension;
     let largest = contacts().map(pressed).fold(0.0, f64::max);
     let normals = problem.normal().as_ref().transpose().to_col_major().ok()?;
     let tangents = problem.tangent().as_ref().transpose().to_col_major().ok()?;
     let [normals, tangents] = [normals.as_ref(), tangents.as_ref()];
     let (mut points, mut effects) = (Vec::new(), ColumnMatrix::default());
     for (point, (contact, force)) in contacts().enumerate() {
-        let ContactState { t_n, t_t, .. } = *force;
+        let PointState { t_n, t_t, .. } = *force;
         let law = contact.law;
         if pressed((contact, force)) <= NONE * largest {
             continue;

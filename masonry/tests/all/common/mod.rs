@@ -11,10 +11,10 @@ pub mod walls;
 
 use masonry::ids::LoadId;
 use masonry::law::JointLaw;
-use masonry::model::joints::{self, JointKind, Options};
+use masonry::model::joints::{self, JointKind, JointSearch};
 use masonry::model::mesh::BlockMesh;
 use masonry::model::{
-    Block, BlockLoad, EdgeLoad, Elasticity, JointClass, Model, Movement, Plane, Support,
+    BlockLoad, EdgeLoad, Elasticity, JointClass, Model, Movement, PlacedBlock, PlacedSupport, Plane,
 };
 use masonry::units::Units;
 use nalgebra::{Point2, Vector2};
@@ -23,7 +23,7 @@ use nalgebra::{Point2, Vector2};
 pub const YOUNG: f64 = 1e8;
 
 /// An axis-parallel block; `mesh` `None` makes it rigid.
-pub fn rectangle(name: &str, x: [f64; 2], y: [f64; 2], mesh: Option<[usize; 2]>) -> Block {
+pub fn rectangle(name: &str, x: [f64; 2], y: [f64; 2], mesh: Option<[usize; 2]>) -> PlacedBlock {
     let corners = [
         Point2::new(x[0], y[0]),
         Point2::new(x[1], y[0]),
@@ -34,8 +34,8 @@ pub fn rectangle(name: &str, x: [f64; 2], y: [f64; 2], mesh: Option<[usize; 2]>)
 }
 
 /// A block of any shape; `mesh` `None` makes it rigid.
-pub fn block(name: &str, corners: [Point2<f64>; 4], mesh: Option<[usize; 2]>) -> Block {
-    Block {
+pub fn block(name: &str, corners: [Point2<f64>; 4], mesh: Option<[usize; 2]>) -> PlacedBlock {
+    PlacedBlock {
         name: name.into(),
         corners: corners.into(),
         elasticity: mesh.map(|_| Elasticity { young: YOUNG, poisson: 0.15 }),
@@ -56,21 +56,26 @@ pub fn traction_on(edge: usize, [from, to]: [f64; 2], [x, y]: [f64; 2]) -> Block
 }
 
 /// A straight support.
-pub fn support(name: &str, from: [f64; 2], to: [f64; 2]) -> Support {
-    Support { name: name.into(), from: from.into(), to: to.into(), movement: Movement::default() }
+pub fn support(name: &str, from: [f64; 2], to: [f64; 2]) -> PlacedSupport {
+    PlacedSupport {
+        name: name.into(),
+        from: from.into(),
+        to: to.into(),
+        movement: Movement::default(),
+    }
 }
 
 /// A model with one friction coefficient for beds, heads and supports.
-pub fn model(blocks: Vec<Block>, supports: Vec<Support>, mu: f64) -> Model {
-    model_with(blocks, supports, [mu; 3], &Options::default())
+pub fn model(blocks: Vec<PlacedBlock>, supports: Vec<PlacedSupport>, mu: f64) -> Model {
+    model_with(blocks, supports, [mu; 3], &JointSearch::default())
 }
 
 /// A model with friction coefficients for beds, heads and supports.
 pub fn model_with(
-    blocks: Vec<Block>,
-    supports: Vec<Support>,
+    blocks: Vec<PlacedBlock>,
+    supports: Vec<PlacedSupport>,
     mu: [f64; 3],
-    options: &Options,
+    options: &JointSearch,
 ) -> Model {
     let joint_classes: Vec<JointClass> = ["bed", "head", "support"]
         .iter()
@@ -108,7 +113,12 @@ pub fn model_with(
 
 /// A running bond wall of bricks `aspect * height` by `height`, `per_course` bricks wide; every other
 /// course begins and ends with half bricks. The mesh size is `height / 2`.
-pub fn running_bond(per_course: usize, courses: usize, aspect: usize, height: f64) -> Vec<Block> {
+pub fn running_bond(
+    per_course: usize,
+    courses: usize,
+    aspect: usize,
+    height: f64,
+) -> Vec<PlacedBlock> {
     let length = aspect as f64 * height;
     let mut blocks = Vec::new();
     for course in 0..courses {

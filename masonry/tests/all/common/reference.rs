@@ -10,7 +10,7 @@ use masonry::forms::reduction::Reduction;
 use masonry::forms::{Form, FormKind};
 use masonry::geometry;
 use masonry::material::constitutive;
-use masonry::model::{Block, Model};
+use masonry::model::{Model, PlacedBlock};
 use masonry::system::System;
 use masonry::system::rigid::Modes;
 use nalgebra::{DMatrix, DVector, Point2, Vector2};
@@ -111,7 +111,7 @@ pub fn by_displacements(model: &Model, told: &[Told]) -> (Displacements, RowStat
 
 fn stiffness_and_loads(
     model: &Model,
-    block: &Block,
+    block: &PlacedBlock,
     first: usize,
     force: f64,
     matrix: &mut DMatrix<f64>,
@@ -149,7 +149,7 @@ fn stiffness_and_loads(
 }
 
 /// The displacement at a place on the boundary in terms of the block's unknowns.
-fn motion_at(block: &Block, place: Point2<f64>) -> Vec<(usize, Vector2<f64>)> {
+fn motion_at(block: &PlacedBlock, place: Point2<f64>) -> Vec<(usize, Vector2<f64>)> {
     let Some(mesh) = &block.mesh else {
         return Modes::of(&block.corners).at(place).into_iter().enumerate().collect();
     };
@@ -166,7 +166,7 @@ fn motion_at(block: &Block, place: Point2<f64>) -> Vec<(usize, Vector2<f64>)> {
         .collect()
 }
 
-fn unpack(block: &Block, x: &[f64]) -> Vec<Vector2<f64>> {
+fn unpack(block: &PlacedBlock, x: &[f64]) -> Vec<Vector2<f64>> {
     if block.mesh.is_some() {
         return x.chunks(2).map(|u| Vector2::new(u[0], u[1])).collect();
     }

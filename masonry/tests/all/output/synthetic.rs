@@ -1,8 +1,7 @@
 //! A running-bond wall with an invented state: reports are tested whatever solvers find.
 
 use masonry::analysis::outcome::{
-    Attempt, ContactState, ContactStatus, ElementStress, Outcome, PhaseTime, Principal, Reaction,
-    State,
+    Attempt, ElementStress, Outcome, PhaseTime, PointState, PointStatus, Principal, Reaction, State,
 };
 use masonry::analysis::solve::solve;
 use masonry::data::verdict::{Evidence, Verdict};
@@ -10,10 +9,10 @@ use masonry::ids::{BlockId, JointId, LoadId, SupportId};
 use masonry::law::JointLaw;
 use masonry::model::mesh::BlockMesh;
 use masonry::model::{
-    Anchor, Block, Body, ContactPoint, EdgeLoad, Elasticity, Joint, JointClass, Load, Model,
-    Movement, Plane, Support,
+    Anchor, Body, ContactPoint, EdgeLoad, Elasticity, JointClass, LoadCase, Model, Movement,
+    PlacedBlock, PlacedJoint, PlacedSupport, Plane,
 };
-use masonry::plan::{Choice, Effect, Plan};
+use masonry::plan::{Effect, Plan, PlannedRoute};
 use masonry::scene::{self, Material, Route, Scene};
 use masonry::units::{ForceUnit, LengthUnit, Units};
 use nalgebra::{Point2, Vector2};
@@ -52,9 +51,9 @@ pub(crate) fn solved(wall: Wall) -> Outcome {
     (checks.complementarity, checks.backward) = (1.0e-15, 8.0e-15);
     (checks.uncarried, checks.cone_violation) = (0.0, 0.0);
     (checks.energy, checks.deformation, checks.spread) = (0.0, 0.0, 1.0);
-    checks.open = count(ContactStatus::Open);
-    checks.stick = count(ContactStatus::Stick);
-    checks.slip = count(ContactStatus::Slip);
+    checks.open = count(PointStatus::Open);
+    checks.stick = count(PointStatus::Stick);
+    checks.slip = count(PointStatus::Slip);
     outcome.reactions =
         [("floor, left", 0.0, 4.0e3, 0.4e3), ("floor \"right\"", 0.0, 4.0e3, 3.6e3)]
             .into_iter()
@@ -145,7 +144,7 @@ pub(crate) fn model(wall: Wall) -> Model {
             blocks.push(block);
         }
     }
-    let support = |name: &str, from: [f64; 2], to: [f64; 2]| Support {
+    let support = |name: &str, from: [f64; 2], to: [f64; 2]| PlacedSupport {
         name: name.to_owned(),
         from: from.into(),
         to: to.into(),
@@ -175,7 +174,7 @@ pub(crate) fn model(wall: Wall) -> Model {
         thickness: 1.0,
         gravity: Vector2::new(0.0, -9.81),
         accelerations: Vec::new(),
-        loads: vec![Load {
+        loads: vec![LoadCase {
             name: "top".to_owned(),
             group: "top".to_owned(),
             factor: 1.0,
@@ -197,7 +196,7 @@ fn cuts(wall: Wall, course: usize) -> Vec<f64> {
     std::iter::once(0.0).chain(halves).chain([wall.width()]).collect()
 }
 
-fn brick(x: [f64; 2], y: [f64; 2], wall: Wall) -> Block {
+fn brick(x: [f64; 2], y: [f64; 2], wall: Wall) -> PlacedBlock {
     let (nx, ny) = wall.elements;
     let mut nodes = Vec::new();
     for j in 0..=ny {
@@ -211,7 +210,7 @@ fn brick(x: [f64; 2], y: [f64; 2], wall: Wall) -> Block {
         .flat_map(|j| (0..nx).map(move |i| (i, j)))
         .map(|(i, j)| [at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)])
         .collect();
-    Block {
+    PlacedBlock {
         name: String::new(),
         corners: [[x[0], y[0]], [x[1], y[0]], [x[1], y[1]], [x[0], y[1]]].map(Point2::from).into(),
         elasticity: (!wall.rigid).then_some(Elasticity { young: 1e8, poisson: 0.15 }),
@@ -265,7 +264,7 @@ fn add_joint(model: &mut Model, (a, b, class): (Body, BlockId, usize), ends: [[f
     let along = (to - from).normalize();
     let normal = (inward - along * inward.dot(&along)).normalize();
     let joint = JointId::new(model.joints.len());
-    model.joints.push(Joint { a, b, class, from, to, normal, film: None });
+    model.joints.push(PlacedJoint { a, b, class, from, to, normal, film: None });
     for position in [from, to] {
         let anchor = |block| Anchor { block, edge: 0, at: 0.0 };
         model.contacts.push(ContactPoint {
@@ -316,18 +315,18 @@ fn state(model: &Model, wall: Wall) -> State {
     }
 }
 
-fn contact_state(contact: &ContactPoint, wall: Wall) -> ContactState {
+fn contact_state(contact: &ContactPoint, wall: Wall) -> PointState {
     let p = contact.position;
     if hangs(p, wall) {
-        let status = ContactStatus::Open;
-        return ContactState { t_n: 0.0, t_t: 0.0, y_n: 1.0e-4 / 3.0, y_t: -2e-6, status };
+        let status = PointStatus::Open;
+        return PointState { t_n: 0.0, t_t: 0.0, y_n: 1.0e-4 / 3.0, y_t: -2e-6, status };
     }
     let t_n = 1e4 * contact.weight * (1.0 + p.y);
     let outer = (p.x - 0.5 * wall.width()).abs() > 0.49 * wall.width();
     if outer && p.y > 0.3 {
-        return ContactState { t_n, t_t: -t_n, y_n: 0.0, y_t: 3e-6, status: ContactStatus::Slip };
+        return PointState { t_n, t_t: -t_n, y_n: 0.0, y_t: 3e-6, status: PointStatus::Slip };
     }
-    ContactState { t_n, t_t: 0.3 * t_n, y_n: 0.0, y_t: 0.0, status: ContactStatus::Stick }
+    PointState { t_n, t_t: 0.3 * t_n, y_n: 0.0, y_t: 0.0, status: PointStatus::Stick }
 }
 
 fn stresses(model: &Model, wall: Wall) -> Vec<ElementStress> {
@@ -393,7 +392,7 @@ fn plan(model: &Model) -> Plan {
         steps: 1,
         solver: "lemke".to_owned(),
         because: "friction makes the matrix nonsymmetric, and the order is below 3000".to_owned(),
-        routes: vec![Choice {
+        routes: vec![PlannedRoute {
             route: Route::Lemke,
             because: "the order is below 3000".to_owned(),
             order: 3 * m,

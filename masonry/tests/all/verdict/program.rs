@@ -4,7 +4,7 @@ use clarabel::algebra::CscMatrix;
 use clarabel::solver::{
     DefaultSettings, DefaultSolver, IPSolver, NonnegativeConeT, SolverStatus, ZeroConeT,
 };
-use masonry::model::{Anchor, Block, Model};
+use masonry::model::{Anchor, Model, PlacedBlock};
 use nalgebra::{Point2, Vector2};
 
 use super::walls::GRAVITY;
@@ -103,13 +103,13 @@ pub(crate) fn largest_tilt(model: &Model) -> Limit {
     }
 }
 
-fn mass(model: &Model, block: &Block) -> f64 {
+fn mass(model: &Model, block: &PlacedBlock) -> f64 {
     let area: f64 = triangles(block).map(|(area, _)| area).sum();
     block.density.unwrap_or(0.0) * model.thickness * area
 }
 
 /// The mean of the centroids of triangles, by their areas.
-fn centroid(block: &Block) -> Point2<f64> {
+fn centroid(block: &PlacedBlock) -> Point2<f64> {
     let (mut moment, mut whole) = (Vector2::zeros(), 0.0);
     for (area, centroid) in triangles(block) {
         moment += (centroid - block.corners[0]) * area;
@@ -119,7 +119,7 @@ fn centroid(block: &Block) -> Point2<f64> {
 }
 
 /// Areas and centroids of the triangles into which the diagonals from the first corner cut a block.
-fn triangles(block: &Block) -> impl Iterator<Item = (f64, Point2<f64>)> {
+fn triangles(block: &PlacedBlock) -> impl Iterator<Item = (f64, Point2<f64>)> {
     let p = block.corners[0];
     block.corners[1..].windows(2).map(move |pair| {
         let (a, b) = (pair[0] - p, pair[1] - p);
@@ -127,7 +127,7 @@ fn triangles(block: &Block) -> impl Iterator<Item = (f64, Point2<f64>)> {
     })
 }
 
-fn on_edge(block: &Block, edge: usize, at: f64) -> Point2<f64> {
+fn on_edge(block: &PlacedBlock, edge: usize, at: f64) -> Point2<f64> {
     let (from, to) = (block.corners[edge], block.corners[(edge + 1) % block.corners.len()]);
     from + (to - from) * at
 }

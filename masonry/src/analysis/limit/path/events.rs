@@ -6,7 +6,7 @@ use super::Stand;
 use super::steps::{AtRest, StepEnd, Steps};
 use crate::analysis::limit::LimitError;
 use crate::analysis::limit::watch::Watch;
-use crate::data::state::ContactStatus;
+use crate::data::state::PointStatus;
 use crate::forms::Sparse;
 use crate::ids::JointId;
 use crate::model::Model;
@@ -105,7 +105,7 @@ impl EventSearch<'_> {
         Ok((events, curve))
     }
 
-    fn changes(&self, statuses: &[ContactStatus]) -> Vec<Option<Change>> {
+    fn changes(&self, statuses: &[PointStatus]) -> Vec<Option<Change>> {
         (0..self.model.joints.len()).map(|joint| change(self.model, joint, statuses)).collect()
     }
 
@@ -113,7 +113,7 @@ impl EventSearch<'_> {
         &self,
         load_factor: f64,
         rest: &AtRest,
-        statuses: &[ContactStatus],
+        statuses: &[PointStatus],
         at_zero: &[f64],
     ) -> Stand {
         let blocks = self.steps.sparse.starts().last().copied().unwrap_or(0);
@@ -122,19 +122,19 @@ impl EventSearch<'_> {
         Stand {
             load_factor,
             displacement: moved.fold(0.0, f64::max),
-            contacts: [ContactStatus::Open, ContactStatus::Stick, ContactStatus::Slip].map(count),
+            contacts: [PointStatus::Open, PointStatus::Stick, PointStatus::Slip].map(count),
         }
     }
 }
 
-fn change(model: &Model, joint: usize, statuses: &[ContactStatus]) -> Option<Change> {
+fn change(model: &Model, joint: usize, statuses: &[PointStatus]) -> Option<Change> {
     let of_joint = model.contacts.iter().zip(statuses);
     let of_joint = of_joint.filter(|(contact, _)| contact.joint.index() == joint);
     let (mut open, mut slides, mut all) = (0, 0, 0);
     for (_, status) in of_joint {
         all += 1;
-        open += usize::from(*status == ContactStatus::Open);
-        slides += usize::from(*status == ContactStatus::Slip);
+        open += usize::from(*status == PointStatus::Open);
+        slides += usize::from(*status == PointStatus::Slip);
     }
     match (open, slides) {
         _ if all > 0 && open == all => Some(Change::Opens),
@@ -144,24 +144,24 @@ fn change(model: &Model, joint: usize, statuses: &[ContactStatus]) -> Option<Cha
     }
 }
 
-fn statuses(system: &System, sparse: &Sparse, rest: &AtRest) -> Vec<ContactStatus> {
+fn statuses(system: &System, sparse: &Sparse, rest: &AtRest) -> Vec<PointStatus> {
     let rows = sparse.rows(&rest.state);
     let points = system.points();
     let force = largest(&rows.t[..points]);
     let length = largest(&rest.u);
-    let mut statuses: Vec<ContactStatus> = rows.y[..points]
+    let mut statuses: Vec<PointStatus> = rows.y[..points]
         .iter()
         .zip(&rows.t)
         .map(|(gap, t_n)| {
             let is_open = *gap > ZERO * length || *t_n <= ZERO * force;
-            if is_open { ContactStatus::Open } else { ContactStatus::Stick }
+            if is_open { PointStatus::Open } else { PointStatus::Stick }
         })
         .collect();
     for (friction, t_t) in system.friction.iter().zip(&rows.t[points..]) {
         let point = friction.contact.index();
         let bound = friction.cone.bound(rows.t[point]);
-        if statuses[point] == ContactStatus::Stick && t_t.abs() >= bound - ZERO * force {
-            statuses[point] = ContactStatus::Slip;
+        if statuses[point] == PointStatus::Stick && t_t.abs() >= bound - ZERO * force {
+            statuses[point] = PointStatus::Slip;
         }
     }
     statuses
