@@ -19,7 +19,7 @@ use crate::geometry;
 use crate::ids::{BlockId, ContactId};
 use crate::law::Friction;
 use crate::model::mesh::BlockMesh;
-use crate::model::{PlacedBlock, Elasticity, PlacedJoint, Model};
+use crate::model::{Elasticity, Model, PlacedBlock, PlacedJoint};
 use crate::rounding::cleared;
 use crate::system::rigid::Modes;
 

@@ -6,7 +6,7 @@ use super::STILL;
 use crate::data::motion::Motion;
 use crate::forms::Sparse;
 use crate::ids::BlockId;
-use crate::model::{Block, ContactPoint, Model};
+use crate::model::{ContactPoint, Model, PlacedBlock};
 use crate::system::rigid::Modes;
 use crate::system::{System, displaced_nodes};
 
@@ -53,7 +53,7 @@ pub(crate) fn flow(
 
 /// The rates of the corners of every block in a motion of rigid blocks, three amplitudes each.
 pub(crate) fn of_corners(model: &Model, amplitudes: &[f64]) -> Vec<Vec<Vector2<f64>>> {
-    let of_block = |(block, alpha): (&Block, &[f64])| {
+    let of_block = |(block, alpha): (&PlacedBlock, &[f64])| {
         let modes = Modes::of(&block.corners);
         block.corners.iter().map(|p| modes.displacement(*p, alpha)).collect()
     };

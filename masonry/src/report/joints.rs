@@ -4,7 +4,7 @@ use nalgebra::{Point2, Vector2};
 
 use crate::data::state::PointState;
 use crate::ids::{JointId, SupportId};
-use crate::model::{Body, PlacedJoint, Model};
+use crate::model::{Body, Model, PlacedJoint};
 use crate::recover;
 use crate::rounding::largest;
 

@@ -4,7 +4,7 @@
 use nalgebra::Vector2;
 
 use super::Direction;
-use crate::model::{Anchor, Block, ContactPoint, Model};
+use crate::model::{Anchor, ContactPoint, Model, PlacedBlock};
 
 /// The part of a place in the gap and in the slip of a contact point.
 pub(crate) struct Term {
@@ -58,7 +58,7 @@ pub(crate) fn stretched(model: &Model, contact: &ContactPoint) -> Vec<(Anchor, V
 }
 
 /// The displacement of a place on an edge as a sum over nodes, or over the corners of a rigid block.
-pub(crate) fn shares(block: &Block, Anchor { edge, at, .. }: Anchor) -> [(usize, f64); 2] {
+pub(crate) fn shares(block: &PlacedBlock, Anchor { edge, at, .. }: Anchor) -> [(usize, f64); 2] {
     match (&block.mesh, block.elasticity) {
         (Some(mesh), Some(_)) => mesh.interpolate(edge, at),
         _ => [(edge, 1.0 - at), ((edge + 1) % block.corners.len(), at)],

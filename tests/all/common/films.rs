@@ -7,7 +7,7 @@ use super::{assert_close, state};
 use masonry::analysis::outcome::Outcome;
 use masonry::element::quad4;
 use masonry::material::constitutive;
-use masonry::model::{Body, PlacedJoint, Model};
+use masonry::model::{Body, Model, PlacedJoint};
 use masonry::paper::film::law::FilmState;
 use masonry::paper::film::pointwise::{FilmResponse, PointwiseFilm};
 use masonry::paper::film::strip::Strip;
@@ -57,8 +57,9 @@ impl Nodes {
 
     /// Consistent loads of all blocks.
     pub fn loads(&self, model: &Model) -> DVector<f64> {
-        let of_block =
-            |block: &masonry::model::PlacedBlock| nodal_loads(model, block, block.mesh.as_ref().unwrap());
+        let of_block = |block: &masonry::model::PlacedBlock| {
+            nodal_loads(model, block, block.mesh.as_ref().unwrap())
+        };
         DVector::from_iterator(self.count, model.blocks.iter().flat_map(of_block))
     }
 

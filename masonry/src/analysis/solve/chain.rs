@@ -23,7 +23,7 @@ use crate::method::{Answer, Observer, Request, pgs, qp};
 use crate::model::Model;
 #[cfg(feature = "paper")]
 use crate::paper::alm;
-use crate::plan::Choice;
+use crate::plan::PlannedRoute;
 use crate::recover;
 use crate::scene::Route;
 use crate::system::{System, mass};
@@ -82,13 +82,15 @@ impl<'a> Chain<'a> {
     /// The route that says most, with the attempts of all of them; and the sparse problem, if it was built.
     pub(super) fn run(
         mut self,
-        routes: &[Choice],
+        routes: &[PlannedRoute],
     ) -> Result<(StepResult, Option<Sparse>), SolveError> {
         let has_friction = !self.system.friction.is_empty();
         let (mut ends, mut attempts, mut pivots) = (Vec::new(), Vec::new(), 0);
         let mut best: Option<StepResult> = None;
         let mut refusal = None;
-        for (position, Choice { route, because, largest_order, .. }) in routes.iter().enumerate() {
+        for (position, PlannedRoute { route, because, largest_order, .. }) in
+            routes.iter().enumerate()
+        {
             if best.as_ref().is_some_and(|best| !auto::is_asked(*route, best.rank())) {
                 continue;
             }

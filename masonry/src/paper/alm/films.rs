@@ -6,7 +6,7 @@ use nalgebra::{Matrix2, Point2, RowVector3, Vector2, Vector3};
 use super::AlmError;
 use crate::data::state::PointStatus;
 use crate::law::JointLaw;
-use crate::model::{Anchor, ContactPoint, PlacedJoint, Model};
+use crate::model::{Anchor, ContactPoint, Model, PlacedJoint};
 use crate::paper::film::law::FilmState;
 use crate::paper::film::pointwise::{FilmResponse, PointwiseFilm};
 use crate::paper::film::strip::Strip;

@@ -4,8 +4,8 @@ use nalgebra::Vector2;
 
 use super::Digits::{Aligned, Power, Significant};
 use super::{Columns, Table, Value, members};
-use crate::data::state::{PointState, PointStatus, FilmStress, Reaction, State};
-use crate::model::{Body, ContactPoint, PlacedJoint, Model};
+use crate::data::state::{FilmStress, PointState, PointStatus, Reaction, State};
+use crate::model::{Body, ContactPoint, Model, PlacedJoint};
 use crate::report::format::Quantity::{
     Area, Energy, Force, Length, Millimetres, Percent, Pure, Stress,
 };

@@ -370,7 +370,7 @@ fn forces(model: &Model, labelled: &dyn Fn(LoadId, String) -> String) -> Vec<Pus
     let units = InUnits(model.units);
     let blocks = model.blocks.iter().enumerate();
     let all = blocks.flat_map(|(k, block)| block.point_loads().map(move |load| (k, block, load)));
-    let push = |(index, block, load): (usize, &crate::model::Block, &PointLoad)| {
+    let push = |(index, block, load): (usize, &crate::model::PlacedBlock, &PointLoad)| {
         let near = 1e-9 * geometry::size(&block.corners);
         let pulls = (0..block.corners.len()).any(|k| {
             let normal = geometry::outward_normal(&block.corners, k);

@@ -8,7 +8,7 @@ use super::sheet::{Frame, Sheet, Sides};
 use super::structure::{self, counted};
 use crate::data::state::PointState;
 use crate::ids::JointId;
-use crate::model::{PlacedJoint, Model};
+use crate::model::{Model, PlacedJoint};
 use crate::report::format::{round_down, significant};
 use crate::report::joints::{self, Opening};
 use crate::rounding::largest;

@@ -9,7 +9,7 @@ use super::names;
 use super::sheet::{Bounds, Frame, Sheet, Shown, Sides};
 use super::structure;
 use crate::data::state::State;
-use crate::model::{PlacedBlock, Model};
+use crate::model::{Model, PlacedBlock};
 use crate::report::format::{InUnits, significant};
 use crate::report::summary::{largest_displacement, nodes};
 use crate::rounding;

@@ -3,16 +3,16 @@
 
 use super::canvas::escape;
 use crate::ids::{JointId, LoadId};
-use crate::model::{Block, Body, Model, Support};
+use crate::model::{Body, Model, PlacedBlock, PlacedSupport};
 use crate::report::format::body_name;
 
 /// `data-block`: the name of a block.
-pub(super) fn block(block: &Block) -> String {
+pub(super) fn block(block: &PlacedBlock) -> String {
     format!("data-block=\"{}\"", escape(&block.name))
 }
 
 /// `data-support`: the name of a support.
-pub(super) fn support(support: &Support) -> String {
+pub(super) fn support(support: &PlacedSupport) -> String {
     format!("data-support=\"{}\"", escape(&support.name))
 }
 

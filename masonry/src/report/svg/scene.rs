@@ -15,7 +15,7 @@ use super::style::{COLOURS, CONTACT, LARGEST_BRICK, MATERIALS};
 use crate::geometry;
 use crate::ids::JointId;
 use crate::law::JointLaw;
-use crate::model::{Block, Elasticity, Model};
+use crate::model::{Elasticity, Model, PlacedBlock};
 use crate::report::format::{InUnits, acceleration_text, significant, stress_text};
 
 /// More names would hide the blocks.
@@ -51,7 +51,7 @@ struct Constants {
 }
 
 impl Constants {
-    fn of(block: &Block) -> Self {
+    fn of(block: &PlacedBlock) -> Self {
         Self { elasticity: block.elasticity, density: block.density }
     }
 
@@ -133,7 +133,7 @@ fn law(law: &JointLaw) -> String {
 
 /// Names in the middle of the blocks, in one size that fits all, or not at all.
 fn draw_names(sheet: &mut Sheet, model: &Model) {
-    let fitting = |block: &Block| {
+    let fitting = |block: &PlacedBlock| {
         let [wide, high] = room(&block.corners).map(|it| it * sheet.frame.scale);
         let width = text_width(&block.name, 1.0).max(f64::MIN_POSITIVE);
         (0.8 * wide / width).min(0.6 * high)

@@ -10,7 +10,7 @@ use super::sheet::{Bounds, Frame, Sheet};
 use super::style::{LARGEST_BRICK, STATUS};
 use crate::data::state::{PointState, PointStatus};
 use crate::ids::{JointId, SupportId};
-use crate::model::{PlacedBlock, Body, ContactPoint, Model, PlacedSupport};
+use crate::model::{Body, ContactPoint, Model, PlacedBlock, PlacedSupport};
 
 /// Length of the strokes of a hatch, and most that is between them.
 const TICK: f64 = 7.0;

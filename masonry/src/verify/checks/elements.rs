@@ -6,7 +6,7 @@ use super::{known, larger, relative};
 use crate::data::state::State;
 use crate::element::quad4;
 use crate::material::constitutive;
-use crate::model::{Anchor, PlacedBlock, Model};
+use crate::model::{Anchor, Model, PlacedBlock};
 use crate::recover;
 use crate::system::kinematics::{shares, stretched, terms};
 use crate::system::nodal_loads;

@@ -5,7 +5,7 @@ use nalgebra::Vector2;
 use super::contact::Pair;
 use super::{larger, relative};
 use crate::data::state::State;
-use crate::model::{PlacedBlock, Model};
+use crate::model::{Model, PlacedBlock};
 use crate::recover;
 use crate::system::nodal_loads;
 use crate::system::rigid::Modes;
