@@ -35,6 +35,7 @@ mod stretch;
 use body::entries;
 pub use body::{BodyRow, BodyStretch, BodySystem};
 pub use error::SystemError;
+use kinematics::Term;
 pub use loads::{nodal_loads, resultant};
 use stiffness::Built;
 pub use stiffness::Stiffness;
@@ -55,6 +56,13 @@ impl Direction {
         match self {
             Self::Normal => joint.normal,
             Self::Tangent => joint.tangent(),
+        }
+    }
+
+    fn part(self, term: &Term) -> Vector2<f64> {
+        match self {
+            Self::Normal => term.normal,
+            Self::Tangent => term.tangent,
         }
     }
 }
@@ -281,7 +289,7 @@ fn add_row(model: &Model, bodies: &mut [BodySystem], k: usize, row: &Row) {
         let entries = match (&block.mesh, body.stiffness) {
             (Some(mesh), Some(_)) => {
                 let of_block = terms.iter().filter(|term| term.anchor.block == anchor.block);
-                of_block.flat_map(|it| entries(mesh, it.anchor, it.along(row.direction))).collect()
+                of_block.flat_map(|it| entries(mesh, it.anchor, row.direction.part(it))).collect()
             }
             _ => Vec::new(),
         };

@@ -236,7 +236,7 @@ fn films_updated_as_printed_do_not_settle() {
 
 #[test]
 fn misuse_is_said() {
-    let mut rigid = stiff(5e7);
+    let mut rigid = stiff(5e7).films(Films::Strips);
     rigid.materials.insert("brick".to_owned(), Material::rigid());
     let error = MortaredWall::new(&Model::from_scene(&rigid).unwrap()).unwrap_err();
     assert!(matches!(error, AlmError::Rigid { .. }), "{error}");

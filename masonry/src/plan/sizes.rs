@@ -52,7 +52,7 @@ impl Point {
         }
     }
 
-    fn gives_way(&self) -> bool {
+    fn gives_way(self) -> bool {
         self.film || self.stiff
     }
 }
@@ -77,7 +77,7 @@ impl Sizes {
 
     /// Whether no block is elastic and no joint gives way.
     pub(super) fn is_rigid(&self) -> bool {
-        self.rigid_blocks == self.blocks && !self.points.iter().any(Point::gives_way)
+        self.rigid_blocks == self.blocks && !self.points.iter().any(|it| it.gives_way())
     }
 
     pub(super) fn rigid_modes(&self) -> usize {

@@ -87,7 +87,7 @@ impl Scene {
         pub fn gap_limit(mut self, gap_limit: f64) { self.contact.gap_limit = gap_limit }
         /// Puts corners of single blocks that are nearer than this to others onto them \[length\].
         pub fn contact_tolerance(mut self, tolerance: f64) {
-            self.contact.tolerance = Some(tolerance)
+            self.contact.tolerance = Some(tolerance);
         }
         /// Sets the requested residual of the solver \[-\].
         pub fn tolerance(mut self, tolerance: f64) { self.solver.tolerance = tolerance }

@@ -3,7 +3,6 @@
 
 use nalgebra::Vector2;
 
-use super::Direction;
 use crate::model::{Anchor, ContactPoint, Model, PlacedBlock};
 
 /// The part of a place in the gap and in the slip of a contact point.
@@ -11,15 +10,6 @@ pub(crate) struct Term {
     pub(crate) anchor: Anchor,
     pub(crate) normal: Vector2<f64>,
     pub(crate) tangent: Vector2<f64>,
-}
-
-impl Term {
-    pub(super) fn along(&self, direction: Direction) -> Vector2<f64> {
-        match direction {
-            Direction::Normal => self.normal,
-            Direction::Tangent => self.tangent,
-        }
-    }
 }
 
 /// All places that move a contact point.
