@@ -14,7 +14,7 @@ const NAMES = {
 };
 
 export class Answers {
-  // `show(answer)` has the parts of the page show what the text has that can be changed.
+  // `show(answer, text)` has the parts of the page show what the text has that can be changed.
   constructor({ engine, editor, picture, handles, show }) {
     Object.assign(this, { engine, editor, picture, handles, parts: show });
     // What is seen, and the answer to the last text that could be solved.
@@ -76,7 +76,7 @@ export class Answers {
 
   show(answer, text) {
     this.isMistaken = answer.error != null;
-    if (answer.numbers) this.parts(answer);
+    if (answer.numbers) this.parts(answer, text);
     this.showFault(answer.error, text === this.editor.text);
     if (this.isMistaken) return;
     this.last = { ...answer, text };
@@ -89,7 +89,7 @@ export class Answers {
     one("#picture").hidden = report !== null;
     if (report !== null) one("#report").textContent = report;
     else this.picture.show(picture);
-    this.handles.show(answer.handles, report === null ? this.picture.svg : null);
+    this.handles.show(answer.handles, report === null ? this.picture.svg : null, text);
   }
 
   showFault(error, isCurrent) {

@@ -145,8 +145,11 @@ export class Editor {
 
   numberOf(span) {
     const [from, written] = [Number(span.dataset.from), span.textContent];
-    const rule = this.rules.get(from) ?? { whole: false, least: null };
-    return { from, written, value: Number(written.replaceAll("_", "")), ...rule, to: from + written.length };
+    const value = Number(written.replaceAll("_", ""));
+    // What is known of another number, before this text is answered, counts for nothing.
+    const known = this.rules.get(from);
+    const { whole, least } = known?.value === value ? known : { whole: /^[+-]?\d+$/.test(written), least: null };
+    return { from, to: from + written.length, written, value, whole, least };
   }
 
   // Holds a number with the pointer. Without a movement it was a click, which sets the cursor.

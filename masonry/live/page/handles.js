@@ -16,8 +16,9 @@ export class Handles {
     this.shapes = new Map();
   }
 
-  // Puts the handles of a scene over its picture, if the picture has a scale.
-  show(handles, picture) {
+  // Puts the handles of a text over its picture, if the picture has a scale.
+  show(handles, picture, text) {
+    this.text = text;
     const frame = picture?.dataset.frame?.split(" ").map(Number);
     const seen = new Map(frame ? handles.map((it) => [it.label, it]) : []);
     for (const [label, shape] of this.shapes) {
@@ -54,6 +55,7 @@ export class Handles {
       const way = ways[event.key];
       if (!way) return;
       event.preventDefault();
+      if (this.isOld) return;
       this.editor.remember();
       this.move(shape.handle, way.map((steps) => steps * this.step()), event);
     });
@@ -66,8 +68,14 @@ export class Handles {
     return 10 ** Math.floor(Math.log10(2 / this.scale));
   }
 
+  // Whether they are those of an older text, which has its numbers in other places.
+  get isOld() {
+    return this.text !== this.editor.text;
+  }
+
   hold(shape, event) {
     event.preventDefault();
+    if (this.isOld) return;
     shape.focus();
     shape.setPointerCapture(event.pointerId);
     shape.classList.add("held");

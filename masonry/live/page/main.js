@@ -40,9 +40,9 @@ const answers = new Answers({
   editor,
   picture,
   handles,
-  show({ numbers, controls, places }) {
+  show({ numbers, controls, places }, text) {
     editor.setRules(numbers);
-    sliders.show(controls);
+    sliders.show(controls, text);
     work.offer(controls);
     picture.places = places;
   },

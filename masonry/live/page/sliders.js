@@ -9,8 +9,9 @@ export class Sliders {
     this.box = one("#controls");
   }
 
-  // A slider that is held stays as it is.
-  show(controls) {
+  // Shows the sliders of a text. One that has made the text that is there now stays where it is.
+  show(controls, text) {
+    this.text = text;
     const old = new Map([...this.box.children].map((it) => [it.offer.label, it]));
     const labels = controls.map((control) => old.get(control.label) ?? this.made(control));
     // An element that is taken out and put in again loses hold and focus.
@@ -19,7 +20,7 @@ export class Sliders {
     labels.forEach((label, index) => {
       const control = (label.offer = controls[index]);
       const input = one("input", label);
-      if (!label.held) {
+      if (label.held?.text !== this.editor.text) {
         input.max = Math.max(control.most, control.value);
         input.value = control.value;
       }
@@ -32,13 +33,17 @@ export class Sliders {
     const text = made("span", { textContent: control.label, title: control.label });
     const label = made("label", { offer: control }, text, input, made("output"));
     input.addEventListener("input", (event) => this.move(label, input, event));
-    input.addEventListener("change", () => (label.held = null));
+    input.addEventListener("change", () => label.held && (label.held.isOver = true));
     return label;
   }
 
-  // From its first movement on a slider changes the text as it was then.
+  // From its first movement on a slider changes the text as it was then. It goes on from its own text, also after it was let go,
+  // until an answer says where the numbers of this text are.
   move(label, input, event) {
-    if (!label.held) {
+    const isOwn = label.held?.text === this.editor.text;
+    const isKnown = this.text === this.editor.text;
+    if (!isOwn && !isKnown) return;
+    if (!isOwn || (label.held.isOver && isKnown)) {
       label.held = { edits: label.offer.edits, base: this.editor.text };
       this.editor.remember();
     }
@@ -49,5 +54,6 @@ export class Sliders {
       return { from, to, text: before + writtenAs(value * part, base.slice(from, to), step, false) };
     });
     this.editor.change(changes, event, base);
+    label.held.text = this.editor.text;
   }
 }
