@@ -17,10 +17,10 @@ use masonry::method::lemke::Pivots;
 use masonry::model::Model;
 use masonry::plan::Plan;
 use masonry::recover::recover;
-use masonry::report::svg;
 use masonry::scene::{self, Scene};
 use masonry::system::System;
 use masonry::verify::checks::Checks;
+use masonry_report::svg;
 
 fn panel(c: &mut Criterion) {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes/panel_square.toml");

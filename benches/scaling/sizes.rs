@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use masonry::report::svg::diagram::{Diagram, Look, Series, picture};
+use masonry_report::svg::diagram::{Diagram, Look, Series, picture};
 
 use crate::machine::machine_and_date;
 use crate::row::Row;

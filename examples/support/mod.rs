@@ -6,9 +6,9 @@ use std::path::Path;
 
 use lcp::Status;
 use masonry::analysis::solve::{Event, solve_observed};
-use masonry::report::svg::ReferenceLines;
-use masonry::report::{self, Options, table};
 use masonry::scene::Scene;
+use masonry_report::svg::ReferenceLines;
+use masonry_report::{self as report, Options, table};
 
 /// Solves `scenes/NAME.toml`, prints the report and writes all files into `target/NAME/`.
 pub(crate) fn run(name: &str) -> Result<(), Box<dyn Error>> {

@@ -31,9 +31,9 @@ use std::time::Duration;
 
 use digits::Refining;
 use masonry::analysis::study::{Exact, MeshErrors, Settings, Study, refined, study};
-use masonry::report;
 use masonry::scene::{Brick, Joint, Load, Material, Plane, Scene, Support, Wall};
 use masonry::units::Units;
+use masonry_report as report;
 use springs::Springs;
 
 /// Elements of a square in each direction; the first are those of the scenes.

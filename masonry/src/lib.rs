@@ -6,7 +6,7 @@
 //!
 //! ```
 //! use masonry::scene::{Brick, Joint, Load, Material, Scene, Support, Wall};
-//! use masonry::{Units, report, solve};
+//! use masonry::{Units, Verdict, solve};
 //!
 //! let brick = Brick { length: 0.2, height: 0.1 };
 //! let scene = Scene::new("Three courses", Units::SI)
@@ -19,7 +19,7 @@
 //!     .load(Load::pressure("top", [0.0, 0.3], [0.4, 0.3], 1e4));
 //! let outcome = solve(&scene)?;
 //! assert!((outcome.reactions[0].fy - 400.0).abs() < 1e-9);
-//! assert!(report::table::report(&outcome).starts_with("The wall stands"));
+//! assert_eq!(outcome.verdict(), Verdict::Stands);
 //! # Ok::<(), masonry::SolveError>(())
 //! ```
 //!
@@ -43,7 +43,6 @@
 //! | [`verify`] | checks of a state: balances and contact law; the verdict: stands, falls or undecided |
 //! | [`plan`] | the effects that the scene uses, and why |
 //! | [`analysis`] | one solution, load histories, studies of accuracy |
-//! | [`report`] | text, pictures, tables, meshes |
 //!
 //! Numbers in brackets are equations of N.M. Auciello and A. Ercolano, *Numerical simulation of
 //! masonry panels* (1997). Signs and directions are those of [`model`].
@@ -72,8 +71,8 @@ pub mod paper;
 pub mod plan;
 #[doc(hidden)]
 pub mod recover;
-pub mod report;
-mod rounding;
+#[doc(hidden)]
+pub mod rounding;
 pub mod scene;
 #[doc(hidden)]
 pub mod system;
@@ -93,7 +92,6 @@ pub use data::verdict::{Evidence, Judgement, Verdict};
 pub use history::History;
 pub use model::Model;
 pub use plan::Plan;
-pub use report::{Format, Options, write_all};
 pub use scene::{Scene, SceneError};
 pub use units::Units;
 pub use verify::checks::Checks;

@@ -6,24 +6,24 @@ use std::borrow::Borrow;
 const ROUNDING: f64 = 1.0 / (1_u64 << 48) as f64;
 
 /// The value, or zero if it is a rounding error beside numbers of this size.
-pub(crate) fn cleared(value: f64, size: f64) -> f64 {
+pub fn cleared(value: f64, size: f64) -> f64 {
     if value.abs() <= ROUNDING * size { 0.0 } else { value }
 }
 
 /// The largest size of some numbers.
-pub(crate) fn largest(values: impl IntoIterator<Item = impl Borrow<f64>>) -> f64 {
+pub fn largest(values: impl IntoIterator<Item = impl Borrow<f64>>) -> f64 {
     values.into_iter().fold(0.0, |largest, v| largest.max(v.borrow().abs()))
 }
 
 /// The side of a number on which its text is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Side {
+pub enum Side {
     Below,
     Above,
 }
 
 /// The text of a bound, which lies on its own side when it is rounded: the nearest one that does.
-pub(crate) fn outwards(bound: f64, side: Side, text: impl Fn(f64) -> String) -> String {
+pub fn outwards(bound: f64, side: Side, text: impl Fn(f64) -> String) -> String {
     let is_outside = |text: &str| {
         text.parse().is_ok_and(|read: f64| match side {
             Side::Below => read <= bound,
@@ -42,7 +42,7 @@ pub(crate) fn outwards(bound: f64, side: Side, text: impl Fn(f64) -> String) -> 
 }
 
 /// A number to six digits: messages tell sizes of mistakes, not their rounding errors.
-pub(crate) fn rounded(number: f64) -> f64 {
+pub fn rounded(number: f64) -> f64 {
     format!("{number:.5e}").parse().unwrap_or(number)
 }
 

@@ -16,10 +16,10 @@ use masonry::analysis::solve::{Event, SolveError, solve, solve_observed};
 use masonry::model::Plane;
 use masonry::model::joints::PointRule;
 use masonry::plan::Plan;
-use masonry::report::{json, table};
 use masonry::scene::{
     Brick, Films, Joint, Load, Material, Movement, Route, Scene, Stage, Support, Wall,
 };
+use masonry_report::{json, table};
 use serde_json::Value;
 
 const TOLERANCE: f64 = 1e-8;

@@ -250,7 +250,7 @@ fn a_step_that_fails_keeps_the_one_before() {
         assert_close(outcome.reactions[0].fx, thrust, 1e-9);
         let carried: f64 = outcome.reactions.iter().map(|it| it.fy).sum();
         assert_close(carried, 0.9 * 1.01 * thrust, 1e-9);
-        let report = masonry::report::table::report(&outcome);
+        let report = masonry_report::table::report(&outcome);
         assert!(report.contains("Step 10 of 10 of stage \"load\" could not be solved"), "{report}");
     }
 }

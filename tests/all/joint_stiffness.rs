@@ -13,12 +13,12 @@ use masonry::analysis::outcome::{Outcome, PointStatus};
 use masonry::analysis::solve::solve;
 use masonry::data::verdict::{Evidence, Verdict};
 use masonry::model::{Model, Plane};
-use masonry::report::{csv, json, table};
 use masonry::scene::{
     Brick, Films, Form, Joint, Load, Material, Movement, PointRule, Route, RouteSetting, Scene,
     Stage, Support, Wall,
 };
 use masonry::units::{ForceUnit, LengthUnit, Units};
+use masonry_report::{csv, json, table};
 
 /// Width, height and thickness of a block \[m\], its weight \[kN\], and friction.
 const B: f64 = 0.8;

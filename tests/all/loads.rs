@@ -14,8 +14,8 @@ use masonry::analysis::outcome::Outcome;
 use masonry::analysis::solve::solve;
 use masonry::data::verdict::Verdict;
 use masonry::model::{Model, Plane};
-use masonry::report::summary;
 use masonry::scene::{Brick, Joint, Load, Material, Route, RouteSetting, Scene, Support, Wall};
+use masonry_report::summary;
 
 /// Weight of the stone, kN/m3.
 const WEIGHT: f64 = 2.0 * GRAVITY;

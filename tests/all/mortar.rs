@@ -18,9 +18,9 @@ use masonry::model::{Body, Model, Plane};
 use masonry::paper::alm::{self, AlmError, Settings};
 use masonry::plan::Plan;
 use masonry::recover;
-use masonry::report::summary;
 use masonry::scene::{Brick, Joint, Load, Material, Route, Scene, Support, Wall};
 use masonry::system::System;
+use masonry_report::summary;
 use nalgebra::Vector2;
 
 const BRICK: f64 = 5e6;
@@ -324,9 +324,9 @@ fn the_plan_and_the_files_tell_of_films() {
     let films = effect(&SQUARE);
     assert!(films.on);
     assert!(films.because.contains("bed, head: 335 films"), "{}", films.because);
-    let text = masonry::report::table::report(&SQUARE);
+    let text = masonry_report::table::report(&SQUARE);
     assert!(text.contains("film compression") && text.contains("film shear"), "{text}");
-    let csv = |outcome: &Outcome| masonry::report::csv::contacts(&outcome.model, state(outcome));
+    let csv = |outcome: &Outcome| masonry_report::csv::contacts(&outcome.model, state(outcome));
     let head = "mu,status,film_sigma_y_kN/m2,film_tau_kN/m2";
     assert!(csv(&SQUARE).lines().next().is_some_and(|line| line.ends_with(head)));
 
@@ -342,7 +342,7 @@ fn the_plan_and_the_files_tell_of_films() {
     let films = effect(&dry);
     assert!(!films.on && films.because.contains("dry"), "{}", films.because);
     assert!(!csv(&dry).contains("film"));
-    assert!(!masonry::report::table::report(&dry).contains("film compression"));
+    assert!(!masonry_report::table::report(&dry).contains("film compression"));
     let system = System::new(&dry.model).unwrap();
     assert!(system.rows.iter().all(|row| row.compliance <= 0.0));
     let unknowns: usize = system.bodies.iter().map(|body| body.load.len()).sum();

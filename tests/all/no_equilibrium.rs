@@ -14,10 +14,10 @@ use masonry::data::verdict::{Evidence, Verdict};
 use masonry::forms::reduction::Reduction;
 use masonry::forms::{Form, FormKind};
 use masonry::model::{Model, Plane};
-use masonry::report::{summary, table};
 use masonry::scene::{self, Block, Brick, Joint, Load, Material, Route, Scene, Support, Wall};
 use masonry::system::{Direction, System};
 use masonry::units::Units;
+use masonry_report::{summary, table};
 
 const BRICK: Brick = Brick { length: 0.1, height: 0.1 };
 

@@ -20,10 +20,10 @@ use masonry::analysis::outcome::Outcome;
 use masonry::analysis::solve::{Event, SolveError, solve, solve_observed};
 use masonry::ids::{BlockId, SupportId};
 use masonry::model::{Body, Plane};
-use masonry::report::{json, summary, table};
 use masonry::scene::{
     Block, Brick, Form, Joint, Load, Material, Route, Scene, SceneErrorKind, Support, Wall,
 };
+use masonry_report::{json, summary, table};
 use nalgebra::Vector2;
 use serde_json::Value;
 

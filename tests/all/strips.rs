@@ -229,10 +229,10 @@ fn nothing_is_built_of_strips_unless_asked_for() {
 fn reports_show_the_stress_along_strips() {
     let text = |films| {
         let outcome = solved(&pushed(0.02, films));
-        let csv = masonry::report::csv::contacts(&outcome.model, state(&outcome));
-        let json = masonry::report::json::result(&outcome, &[]).unwrap();
+        let csv = masonry_report::csv::contacts(&outcome.model, state(&outcome));
+        let json = masonry_report::json::result(&outcome, &[]).unwrap();
         let head = csv.lines().next().unwrap().to_owned();
-        (head, masonry::report::table::report(&outcome), json, outcome)
+        (head, masonry_report::table::report(&outcome), json, outcome)
     };
     let (head, table, json, outcome) = text(Films::Strips);
     let columns = "status,film_sigma_x_kN/m2,film_sigma_y_kN/m2,film_tau_kN/m2";

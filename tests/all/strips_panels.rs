@@ -10,8 +10,8 @@ use lcp::Status;
 use masonry::analysis::outcome::Outcome;
 use masonry::analysis::solve::solve;
 use masonry::model::Model;
-use masonry::report::summary;
 use masonry::scene::{Films, Route};
+use masonry_report::summary;
 
 const SQUARE: &str = "panel_square_mortar_open";
 const RECTANGULAR: &str = "panel_rectangular_mortar_open";

@@ -11,8 +11,8 @@ use masonry::analysis::outcome::Outcome;
 use masonry::analysis::solve::solve;
 use masonry::data::verdict::{Evidence, Verdict};
 use masonry::model::Plane;
-use masonry::report::{json, summary, table};
 use masonry::scene::{Joint, Load, Material, Movement, Route, RouteSetting, Scene, Stage, Support};
+use masonry_report::{json, summary, table};
 use serde_json::Value;
 
 fn verdict(scene: &Scene) -> (Verdict, Evidence) {

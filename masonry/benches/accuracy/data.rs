@@ -1,7 +1,7 @@
 //! The same numbers as comma-separated values; what is not known is empty, and numbers read back exactly.
 
 use lcp::refine::Refinement;
-use masonry::report::study;
+use masonry_report::study;
 
 use super::digits::Refining;
 use super::springs::Springs;

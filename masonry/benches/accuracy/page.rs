@@ -5,8 +5,8 @@ use std::path::Path;
 
 use lcp::Status;
 use masonry::analysis::study::{End, Mesh, MeshErrors, Record, Study};
-use masonry::report::study;
 use masonry::scene::Route;
+use masonry_report::study;
 
 use super::tables::{self, seconds};
 use super::{Panel, TOLERANCES, common, data, machine, pictures, sentences, springs};

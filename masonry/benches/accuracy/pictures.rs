@@ -1,9 +1,9 @@
 //! The pictures that a study alone does not have: mesh against time, the last digits, soft springs, size against time.
 
 use masonry::analysis::study::{Mesh, Record, Study};
-use masonry::report::study::style;
-use masonry::report::svg::diagram::{Diagram, Look, Series, picture};
 use masonry::scene::Route;
+use masonry_report::study::style;
+use masonry_report::svg::diagram::{Diagram, Look, Series, picture};
 
 use super::Panel;
 use super::springs::{self, Springs};

@@ -4,9 +4,9 @@ use std::fmt::{self, Write};
 use std::path::Path;
 
 use lcp::Status;
-use masonry::report::study::style;
-use masonry::report::svg::diagram::{Diagram, Look, Series, picture};
 use masonry::scene::Route;
+use masonry_report::study::style;
+use masonry_report::svg::diagram::{Diagram, Look, Series, picture};
 
 use super::common::routes::ROUTES;
 use super::problems::{self, Method};

@@ -13,8 +13,8 @@ use crate::progress::Progress;
 use masonry::analysis::limit::{
     Bracket, Directions, Laws, Limit, least_thickness_observed, limit_observed, ranges,
 };
-use masonry::report::{self, limit as output};
 use masonry::scene::Scene;
+use masonry_report::{self as report, limit as output};
 
 /// The law of friction of a limit load.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]

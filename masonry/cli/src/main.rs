@@ -27,8 +27,8 @@ use crate::route::RouteValue;
 use masonry::files::write_atomically;
 use masonry::model::Model;
 use masonry::plan::Plan;
-use masonry::report::{svg, table};
 use masonry::scene::Scene;
+use masonry_report::{svg, table};
 
 /// How a wall or an arch of blocks carries its load.
 #[derive(Debug, Parser)]

@@ -7,7 +7,7 @@ use std::io::{self, ErrorKind, Read, Seek, Write};
 use std::path::{Component, Path, PathBuf};
 
 use crate::end::{Failure, names};
-use masonry::report;
+use masonry_report as report;
 
 /// The file that is locked. It lists what the last run of every command has written.
 pub(super) const RECORD: &str = ".masonry.json";

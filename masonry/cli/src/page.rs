@@ -6,8 +6,8 @@ use std::path::{Path, PathBuf};
 use crate::end::{Failure, is_same, keep_scene};
 use crate::out_dir::RECORD;
 use masonry::files::write_atomically;
-use masonry::report;
 use masonry::scene::Scene;
+use masonry_report as report;
 
 /// Says before the work whether a page of a scene can be written at all, beside the files of a run into `out`.
 pub(super) fn check(path: Option<&Path>, scene: &Scene, out: Option<&Path>) -> Result<(), Failure> {

@@ -15,9 +15,9 @@ use masonry::Verdict;
 use masonry::analysis::checkpoint::{Checkpoint, CheckpointError};
 use masonry::analysis::outcome::{Frame, Outcome};
 use masonry::analysis::solve::Run;
-use masonry::report::svg::ReferenceLines;
-use masonry::report::{self, Options, json, table};
 use masonry::scene::Scene;
+use masonry_report::svg::ReferenceLines;
+use masonry_report::{self as report, Options, json, table};
 
 /// The state after the last step, in the directory of a load history.
 const CHECKPOINT: &str = "checkpoint.json";

@@ -11,8 +11,8 @@ use crate::out_dir::OutDir;
 use crate::progress::Progress;
 use crate::route::OneRoute;
 use masonry::analysis::study::{Settings, machine, study};
-use masonry::report::study as output;
 use masonry::scene::Scene;
+use masonry_report::study as output;
 
 #[derive(Debug, Args)]
 pub(super) struct StudyArgs {

@@ -3,7 +3,7 @@
 
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-use lcp::refine::PointStatus;
+use lcp::refine::ContactStatus;
 use lcp::{Contact2d, Error, Matrix, Method, WarmStart};
 use numpy::PyReadonlyArray2;
 use pyo3::prelude::*;
@@ -51,7 +51,7 @@ pub(crate) struct Contact {
 struct Held {
     problem: Contact2d,
     /// Of the first points; those that were added since are open.
-    statuses: Option<Vec<PointStatus>>,
+    statuses: Option<Vec<ContactStatus>>,
 }
 
 impl Held {
@@ -60,7 +60,7 @@ impl Held {
         let problem = self.problem.with_loads(f)?;
         let start = self.statuses.as_ref().map_or(WarmStart::None, |known| {
             let mut statuses = known.clone();
-            statuses.resize(problem.points(), PointStatus::Open);
+            statuses.resize(problem.points(), ContactStatus::Open);
             problem.start_of(&statuses)
         });
         Ok((problem, start))

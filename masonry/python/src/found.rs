@@ -2,8 +2,8 @@
 
 use masonry::analysis::limit::Directions;
 use masonry::analysis::study::Study;
-use masonry::report::{self, page};
 use masonry::{Plan, Range, Thickness};
+use masonry_report::{self as report, page};
 use pyo3::prelude::*;
 
 use crate::scene::failed;

@@ -3,7 +3,7 @@
 
 use std::path::PathBuf;
 
-use masonry::report::{self, csv, json, page, svg};
+use masonry_report::{self as report, csv, json, page, svg};
 use numpy::{PyArray1, PyArray2};
 use pyo3::exceptions::{PyOSError, PyValueError};
 use pyo3::prelude::*;
@@ -178,7 +178,7 @@ impl Outcome {
 
     /// Writes all files into a directory, and gives their paths.
     fn save(&self, directory: PathBuf) -> PyResult<Vec<PathBuf>> {
-        masonry::write_all(&self.outcome, &directory, &masonry::Options::default())
+        masonry_report::write_all(&self.outcome, &directory, &masonry_report::Options::default())
             .map_err(|error| PyOSError::new_err(error.to_string()))
     }
 }

@@ -7,7 +7,6 @@
 //! ```
 //! use masonry::scene::{Brick, Joint, Load, Material, Route, Scene, Support, Wall};
 //! use masonry::model::Plane;
-//! use masonry::report;
 //! use masonry::analysis::study::{Settings, study};
 //! use masonry::units::Units;
 //!
@@ -31,7 +30,6 @@
 //! assert_eq!(study.records.len(), 8);
 //! let [exact, iterated] = [&study.records[1], &study.records[3]];
 //! assert!(exact.errors.unwrap().worst() < iterated.errors.unwrap().worst());
-//! println!("{}", report::study::table(&study));
 //! # Ok::<(), masonry::analysis::study::StudyError>(())
 //! ```
 

@@ -92,7 +92,6 @@ impl SolveInfo {
 /// One attempt to find a state; reports write it as a sentence.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
-#[non_exhaustive]
 pub enum Attempt {
     /// A path of pivots.
     Pivots {

@@ -12,7 +12,6 @@ const UNIQUE: f64 = 0.05;
 /// The outcome of another loading of the same history.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[serde(rename_all = "snake_case")]
-#[non_exhaustive]
 pub enum SecondLoading {
     /// The end, this far from that of the first.
     Ended(Spread),

@@ -103,7 +103,7 @@ fn the_plan_says_what_is_built_and_why() {
     assert!(deformation.on && deformation.unknowns == 0, "pivots eliminate displacements");
     assert!(deformation.cost.contains("1830 displacements"), "{}", deformation.cost);
     assert!(!effect("self weight").on && effect("edge loads").on && effect("stresses").on);
-    let text = masonry::report::table::plan(&plan);
+    let text = masonry_report::table::plan(&plan);
     // Columns are narrow: the words of a cell may stand in several lines.
     for words in ["mu > 0 in", "E given for brick", "expected cost", "1422", "2133", "869 MB"] {
         assert!(text.contains(words), "no `{words}` in\n{text}");
@@ -121,7 +121,7 @@ fn without_friction_the_order_is_the_number_of_points() {
     assert_eq!((plan.order, plan.contact_points, plan.frictional_points), (4, 4, 0));
     assert_eq!((plan.nodes, plan.blocks), (0, 1));
     assert!(plan.effects.iter().all(|effect| effect.name != "friction" || !effect.on));
-    assert!(masonry::report::table::plan(&plan).contains("symmetric"));
+    assert!(masonry_report::table::plan(&plan).contains("symmetric"));
 }
 
 #[test]

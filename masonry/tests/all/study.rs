@@ -12,9 +12,9 @@ use std::time::Duration;
 use lcp::Status;
 use masonry::analysis::study::{End, Record, Settings, Study, StudyError, study};
 use masonry::model::Plane;
-use masonry::report::study as output;
 use masonry::scene::{Block, Brick, Joint, Material, Movement, Route, Scene, Stage, Support, Wall};
 use masonry::units::Units;
+use masonry_report::study as output;
 
 use crate::common::walls::leaning_wall;
 

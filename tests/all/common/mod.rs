@@ -104,7 +104,7 @@ pub fn assert_close(found: f64, expected: f64, tolerance: f64) {
 
 /// The resultant of self weights and edge loads \[N\].
 pub fn applied_load(model: &Model) -> Vector2<f64> {
-    masonry::report::summary::applied_load(model).force
+    masonry_report::summary::applied_load(model).force
 }
 
 /// The mechanism closes no joint beyond contact, and the loads do work on it.

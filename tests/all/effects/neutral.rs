@@ -7,8 +7,8 @@ use super::common::{
 use super::scenes::{boxed, column, elastic, in_mortar, piers, stack};
 use super::{built, effect};
 use masonry::analysis::outcome::Outcome;
-use masonry::report::summary::total_reaction;
 use masonry::scene::{Films, Joint, Load, Material, Movement, Route, Scene, Stage};
+use masonry_report::summary::total_reaction;
 
 /// What is unique: of a corner between two supports any part of the force may be shifted from one to the other.
 fn figures(outcome: &Outcome) -> [Vec<f64>; 4] {

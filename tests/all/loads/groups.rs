@@ -3,8 +3,8 @@
 use masonry::analysis::outcome::Outcome;
 use masonry::analysis::solve::solve;
 use masonry::model::Model;
-use masonry::report::{json, summary, svg, table};
 use masonry::scene::{Load, Scene, Stage};
+use masonry_report::{json, summary, svg, table};
 use serde_json::Value;
 
 use super::common::{GRAVITY, all_displacements, assert_close, difference, solved};

@@ -167,7 +167,7 @@ fn nothing_of_the_user_is_overwritten() {
         let output = masonry(&[command, &scene, "--out", out]);
         assert_eq!(output.status.code(), Some(0), "{command}: {}", errors(&output));
     }
-    let known = |name: &String| masonry::report::FILES.contains(&name.as_str());
+    let known = |name: &String| masonry_report::FILES.contains(&name.as_str());
     assert!(files(Path::new(out)).iter().all(known), "{:?}", files(Path::new(out)));
 }
 

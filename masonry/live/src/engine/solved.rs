@@ -3,9 +3,9 @@
 use masonry::analysis::outcome::Frame;
 use masonry::analysis::solve::Event;
 use masonry::model::Model;
-use masonry::report::svg::{self, ReferenceLines};
-use masonry::report::{json, page, table};
 use masonry::{Outcome, Run, Scene, SolveError, State, Verdict};
+use masonry_report::svg::{self, ReferenceLines};
+use masonry_report::{json, page, table};
 use serde::{Deserialize, Serialize};
 
 use super::{Fault, Format, Watch, dxf};

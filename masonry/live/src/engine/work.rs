@@ -4,8 +4,8 @@ use std::fmt;
 use std::ops::ControlFlow;
 
 use masonry::analysis::study::{self, Progress};
-use masonry::report::{limit as output, study as study_output, svg};
 use masonry::{Bracket, Laws, LimitError, Scene, least_thickness_observed, limit_observed, ranges};
+use masonry_report::{limit as output, study as study_output, svg};
 use serde::{Deserialize, Serialize};
 
 use super::{Fault, Watch};

@@ -4,8 +4,8 @@ use std::time::Duration;
 
 use lcp::Status;
 use masonry::analysis::study::{End, Record, Settings};
-use masonry::report::study as output;
 use masonry::scene::Route;
+use masonry_report::study as output;
 
 use super::{WALL, block, leaning_wall, settings, studied};
 

@@ -1,0 +1,107 @@
+//! Attempts in sentences.
+
+use std::fmt::{Display, Formatter, Result};
+
+use lcp::lemke::{self, AttemptCovering, AttemptEnd};
+use lcp::{Ending, Status};
+
+use masonry::data::info::Attempt;
+use masonry::data::route::Route;
+
+/// An attempt as a sentence.
+pub(crate) struct Sentence<'a>(pub(crate) &'a Attempt);
+
+impl Display for Sentence<'_> {
+    fn fmt(&self, f: &mut Formatter<'_>) -> Result {
+        match self.0 {
+            Attempt::Pivots { form, start, path } => {
+                write!(f, "{form}: ")?;
+                pivots(f, start.as_deref(), path)
+            }
+            Attempt::Sparse { route, status, iterations, factorisations, residual } => write!(
+                f,
+                "{}: {} after {iterations} {} and {factorisations} factorisations, residual {residual:.1e}",
+                route.name(),
+                solved(*status),
+                counted(*route)
+            ),
+            Attempt::Motion { ending, factorisations } => write!(
+                f,
+                "interior: loaded slowly, the blocks {}, after {factorisations} factorisations",
+                moved(*ending)
+            ),
+            Attempt::Forces { status, are_found, factorisations } => {
+                let forces = forces(*status, *are_found);
+                write!(f, "forces: {forces}, after {factorisations} factorisations")
+            }
+            Attempt::Refinement { residual } => {
+                write!(f, "refined on all displacements, residual {residual:.1e}")
+            }
+            Attempt::Left { route, iterations } => write!(
+                f,
+                "{}: left after {iterations} steps, since no forces inside friction balance the loads",
+                route.name()
+            ),
+        }
+    }
+}
+
+fn pivots(f: &mut Formatter<'_>, start: Option<&str>, path: &lemke::Attempt) -> Result {
+    match start {
+        Some(name) => write!(f, "start {name}, covering ")?,
+        None => write!(f, "start {}, covering ", path.start)?,
+    }
+    match path.covering {
+        AttemptCovering::Given => f.write_str("cohesive")?,
+        covering => covering.fmt(f)?,
+    }
+    let end = match path.end {
+        AttemptEnd::Complementary => "complementary basis",
+        AttemptEnd::Ray => "ray",
+        AttemptEnd::PivotLimit => "pivot limit",
+        AttemptEnd::Cycle => "cycle",
+        AttemptEnd::Singular => "singular basis",
+        AttemptEnd::Cancelled => "cancelled",
+        _ => "ended",
+    };
+    write!(f, ": {end} after {} pivots", path.pivots)?;
+    path.residual.map_or(Ok(()), |residual| write!(f, ", residual {residual:.1e}"))
+}
+
+fn solved(status: Status) -> String {
+    match status {
+        Status::Solved => "solved".to_owned(),
+        Status::Infeasible => "proved to have no solution".to_owned(),
+        status => status.to_string(),
+    }
+}
+
+/// The name of the steps of a route.
+fn counted(route: Route) -> &'static str {
+    match route {
+        Route::Qp => "programs",
+        Route::Pgs => "rounds",
+        Route::Alm => "iterations",
+        _ => "steps",
+    }
+}
+
+fn moved(ending: Ending) -> String {
+    match ending {
+        Ending::Rests => "have come to rest".to_owned(),
+        Ending::Flows => "go on moving, and nothing resists them".to_owned(),
+        Ending::Left => "have moved beyond small displacements".to_owned(),
+        _ => format!("have come to no end: {}", ending.status()),
+    }
+}
+
+fn forces(status: Status, are_found: bool) -> &'static str {
+    match status {
+        Status::Solved => "balance the loads of blocks at rest",
+        Status::AlmostSolved => "are not exact enough",
+        Status::Infeasible => "that balance the loads do not exist, proved by a motion",
+        Status::Cancelled => "were not yet found when the search was cancelled",
+        _ if are_found => "balance the loads; whether displacements fit them, they do not say",
+        _ => "were neither found nor proved not to exist",
+    }
+}

@@ -1,0 +1,127 @@
+//! Joints of a mechanism, which turn about a hinge, slide, or come apart.
+
+use nalgebra::{Point2, Vector2};
+
+use masonry::ids::JointId;
+use masonry::model::{Anchor, Model};
+use masonry::rounding::largest;
+
+/// Joints that move by less than this part of the fastest are taken for closed. Chosen: hardly seen in a picture, and above what
+/// springs in joints make of a motion.
+const STILL: f64 = 1e-2;
+/// Relative difference up to which a joint opens as associated flow lifts it. Chosen: far above rounding errors.
+const AS_LIFTED: f64 = 1e-6;
+
+/// Behaviour of a joint in a mechanism.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Yield {
+    /// It opens about a place that stays closed.
+    Hinge,
+    /// Its sides slide on each other.
+    Slides,
+    /// Its sides come apart.
+    Opens,
+}
+
+impl Yield {
+    /// The word for it: `hinge`, `slides`, `opens`.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Hinge => "hinge",
+            Self::Slides => "slides",
+            Self::Opens => "opens",
+        }
+    }
+}
+
+/// A joint of a mechanism that yields.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct YieldingJoint {
+    /// The joint.
+    pub joint: JointId,
+    /// Its behaviour.
+    pub does: Yield,
+    /// Where its sides touch, or its middle \[m\].
+    pub at: Point2<f64>,
+    /// How that place moves: the mean of both sides.
+    pub rate: Vector2<f64>,
+    /// The largest rate at which it opens, relative to the fastest joint.
+    pub opens: f64,
+    /// The largest rate at which it slides, relative to the fastest joint.
+    pub slides: f64,
+    /// Whether it slides and opens just so far that no force inside its friction cone does work: associated flow.
+    pub dilates: bool,
+    /// Its number in pictures and tables, from one; `None` if its sides come apart, which is seen without a mark.
+    pub number: Option<usize>,
+}
+
+/// Rates at a contact point.
+struct PointRate {
+    at: Point2<f64>,
+    mean: Vector2<f64>,
+    opens: f64,
+    slides: f64,
+    /// Opening by associated flow, `mu` times the slip of the joint, at which its sides still touch.
+    lifts: f64,
+}
+
+/// The joints that yield in a mechanism, the displacement rates of the corners of all blocks, in the order of the joints.
+pub fn yielding(model: &Model, rates: &[Vec<Vector2<f64>>]) -> Vec<YieldingJoint> {
+    let mut of_joints: Vec<Vec<PointRate>> = model.joints.iter().map(|_| Vec::new()).collect();
+    for contact in &model.contacts {
+        let joint = &model.joints[contact.joint.index()];
+        let front = rate_at(rates, contact.b);
+        let behind = contact.a.map_or_else(Vector2::zeros, |anchor| rate_at(rates, anchor));
+        let apart = front - behind;
+        let slides = apart.dot(&joint.tangent()).abs();
+        of_joints[contact.joint.index()].push(PointRate {
+            at: contact.position,
+            mean: 0.5 * (front + behind),
+            opens: apart.dot(&joint.normal).max(0.0),
+            slides,
+            lifts: contact.law.cone().lift(slides),
+        });
+    }
+    let fastest = largest(of_joints.iter().flatten().map(|it| it.opens.max(it.slides)));
+    let joints = of_joints.iter().enumerate();
+    let of_joint =
+        |(index, points): (usize, &Vec<_>)| of_joint(JointId::new(index), points, fastest);
+    let mut list: Vec<YieldingJoint> = joints.filter_map(of_joint).collect();
+    let marked = list.iter_mut().filter(|it| it.does != Yield::Opens);
+    (1..).zip(marked).for_each(|(number, it)| it.number = Some(number));
+    list
+}
+
+/// The behaviour of a joint with these points; `None` if it stays as it is.
+fn of_joint(joint: JointId, points: &[PointRate], fastest: f64) -> Option<YieldingJoint> {
+    let still = STILL * fastest;
+    let opens = largest(points.iter().map(|it| it.opens));
+    let slides = largest(points.iter().map(|it| it.slides));
+    if opens.max(slides) <= still || fastest <= 0.0 {
+        return None;
+    }
+    let touching: Vec<&PointRate> =
+        points.iter().filter(|it| it.opens <= it.lifts + still).collect();
+    let does = if touching.is_empty() {
+        Yield::Opens
+    } else if touching.iter().any(|it| it.slides > still) {
+        Yield::Slides
+    } else {
+        Yield::Hinge
+    };
+    let places = if touching.is_empty() { points.iter().collect() } else { touching };
+    let share = 1.0 / places.len() as f64;
+    let at: Vector2<f64> = places.iter().map(|it| it.at.coords * share).sum();
+    let rate: Vector2<f64> = places.iter().map(|it| it.mean * share).sum();
+    let (opens, slides) = (opens / fastest, slides / fastest);
+    let follows = |it: &PointRate| (it.opens - it.lifts).abs() <= AS_LIFTED * it.lifts;
+    let dilates = points.iter().any(|it| it.lifts > still && follows(it));
+    let at = Point2::from(at);
+    Some(YieldingJoint { joint, does, at, rate, opens, slides, dilates, number: None })
+}
+
+fn rate_at(rates: &[Vec<Vector2<f64>>], anchor: Anchor) -> Vector2<f64> {
+    let corners = &rates[anchor.block.index()];
+    let next = (anchor.edge + 1) % corners.len();
+    corners[anchor.edge] * (1.0 - anchor.at) + corners[next] * anchor.at
+}

@@ -1,0 +1,155 @@
+//! The forces in every joint, the part of its friction that is used, and its opening.
+
+use nalgebra::{Point2, Vector2};
+
+use masonry::data::state::PointState;
+use masonry::ids::{JointId, SupportId};
+use masonry::model::{Body, Model, PlacedJoint};
+use masonry::recover;
+use masonry::rounding::largest;
+
+/// Forces below this part of the largest are rounding errors.
+const NO_FORCE: f64 = 1e-9;
+/// Openings and slips below this part of the size of the structure are rounding errors.
+const NO_WIDTH: f64 = 1e-9;
+
+/// So far beyond the ends of a support, in its lengths, its reaction is still on it.
+const BESIDE: f64 = 1e-6;
+
+/// The resultant of the contact forces of a joint.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct JointForce {
+    /// The joint.
+    pub joint: JointId,
+    /// Where the line of the resultant crosses the joint \[m\].
+    pub at: Point2<f64>,
+    /// The force on the body in front \[N\].
+    pub force: Vector2<f64>,
+    /// Its part across the joint \[N\], compression positive.
+    pub normal: f64,
+    /// Its part along the joint \[N\].
+    pub tangential: f64,
+    /// Distance of `at` from the middle of the joint, in lengths of the joint: `-0.5` and `0.5` at its ends, more than
+    /// a sixth outside its middle third.
+    pub eccentricity: f64,
+    /// `|T| / (mu N + c A)`: one if all points slide; `None` if nothing resists sliding.
+    pub utilisation: Option<f64>,
+}
+
+/// The resultants of all joints that press or pull, in the order of the joints.
+pub fn forces(model: &Model, contacts: &[PointState]) -> Vec<JointForce> {
+    /// Force, normal and tangential part, moment about the start, and resistance to sliding.
+    type Sum = (Vector2<f64>, [f64; 4]);
+    let mut sums: Vec<Sum> = vec![(Vector2::zeros(), [0.0; 4]); model.joints.len()];
+    for (contact, state) in model.contacts.iter().zip(contacts) {
+        let joint = &model.joints[contact.joint.index()];
+        let along = (contact.position - joint.from).dot(&joint.tangent());
+        let (force, parts) = &mut sums[contact.joint.index()];
+        *force += recover::contact_force(model, contact, state);
+        let bound = contact.law.bound(state.t_n);
+        for (sum, part) in parts.iter_mut().zip([state.t_n, state.t_t, state.t_n * along, bound]) {
+            *sum += part;
+        }
+    }
+    let largest = largest(sums.iter().map(|(force, _)| force.norm()));
+    let placed = |(index, (joint, (force, parts))): (usize, (&PlacedJoint, Sum))| {
+        let [normal, tangential, moment, bound] = parts;
+        if normal == 0.0 || normal.abs() <= NO_FORCE * largest {
+            return None;
+        }
+        let (start, end) = (0.0, (joint.to - joint.from).dot(&joint.tangent()));
+        let along = moment / normal;
+        let least = f64::EPSILON * largest;
+        Some(JointForce {
+            joint: JointId::new(index),
+            at: joint.from + joint.tangent() * along,
+            force,
+            normal,
+            tangential,
+            eccentricity: (along - 0.5 * (start + end)) / joint.length(),
+            utilisation: (bound > least).then(|| tangential.abs() / bound),
+        })
+    };
+    model.joints.iter().zip(sums).enumerate().filter_map(placed).collect()
+}
+
+/// Where the reaction of a support acts, and its size.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SupportForce {
+    /// The support.
+    pub support: SupportId,
+    /// A point of its line \[m\].
+    pub at: Point2<f64>,
+    /// The force on the structure \[N\].
+    pub force: Vector2<f64>,
+}
+
+/// The reactions of all supports that press or pull, except those whose line passes beside the support.
+pub fn reactions(model: &Model, forces: &[JointForce]) -> Vec<SupportForce> {
+    let of = |index: usize| {
+        let support = SupportId::new(index);
+        let own = |it: &&JointForce| model.joints[it.joint.index()].a == Body::Support(support);
+        let own: Vec<&JointForce> = forces.iter().filter(own).collect();
+        let normal: f64 = own.iter().map(|it| it.normal).sum();
+        let moment: Vector2<f64> = own.iter().map(|it| it.at.coords * it.normal).sum();
+        let force: Vector2<f64> = own.iter().map(|it| it.force).sum();
+        let at = (normal != 0.0).then(|| Point2::from(moment / normal))?;
+        let [from, to] = [model.supports[index].from, model.supports[index].to];
+        let is_on = (at - from).dot(&(to - from)) >= -BESIDE * (to - from).norm_squared()
+            && (at - to).dot(&(from - to)) >= -BESIDE * (to - from).norm_squared();
+        is_on.then_some(SupportForce { support, at, force })
+    };
+    (0..model.supports.len()).filter_map(of).collect()
+}
+
+/// How far a joint has opened and slid.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Opening {
+    /// The joint.
+    pub joint: JointId,
+    /// Place along the joint from its start, and width there \[m\], from the start to the end.
+    pub widths: Vec<[f64; 2]>,
+    /// The largest width \[m\].
+    pub widest: f64,
+    /// The largest slip of points that are closed, without its sign \[m\].
+    pub slip: f64,
+}
+
+/// All joints that are open or have slid somewhere.
+pub fn openings(model: &Model, contacts: &[PointState]) -> Vec<Opening> {
+    let none = NO_WIDTH * size(model);
+    let mut openings: Vec<Opening> = (0..model.joints.len())
+        .map(|index| Opening {
+            joint: JointId::new(index),
+            widths: Vec::new(),
+            widest: 0.0,
+            slip: 0.0,
+        })
+        .collect();
+    for (contact, state) in model.contacts.iter().zip(contacts) {
+        let joint = &model.joints[contact.joint.index()];
+        let opening = &mut openings[contact.joint.index()];
+        let along = (contact.position - joint.from).dot(&(joint.to - joint.from).normalize());
+        // Rounding errors are set to zero.
+        let [width, slip] = [state.y_n, state.y_t.abs()].map(|it| if it > none { it } else { 0.0 });
+        opening.widths.push([along, width]);
+        opening.widest = opening.widest.max(width);
+        // Sides that are apart have moved, not slid.
+        opening.slip = opening.slip.max(if width > 0.0 { 0.0 } else { slip });
+    }
+    openings.retain(|it| it.widest > 0.0 || it.slip > 0.0);
+    for opening in &mut openings {
+        opening.widths.sort_by(|a, b| a[0].total_cmp(&b[0]));
+    }
+    openings
+}
+
+/// The diagonal of the box around all blocks \[m\].
+fn size(model: &Model) -> f64 {
+    let corners = || model.blocks.iter().flat_map(|block| &block.corners);
+    let extent = |k: usize| {
+        let of = || corners().map(move |corner| corner[k]);
+        of().fold(f64::NEG_INFINITY, f64::max) - of().fold(f64::INFINITY, f64::min)
+    };
+    extent(0).hypot(extent(1)).max(0.0)
+}

@@ -1,0 +1,219 @@
+//! Reports: text, pictures, tables and meshes of a scene that was solved, or was not.
+//!
+//! Every result is in the units of the scene, named in titles, columns and legends. The functions
+//! of the modules return the contents of files; [`write_all`] writes them.
+
+mod attempt;
+pub mod csv;
+mod figures;
+mod format;
+pub mod hinges;
+pub mod joints;
+pub mod json;
+pub mod limit;
+mod moving;
+pub mod page;
+#[cfg(feature = "study")]
+pub mod study;
+pub mod summary;
+pub mod svg;
+pub mod table;
+mod text;
+pub mod vtu;
+
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+
+use serde::{Deserialize, Serialize};
+use thiserror::Error;
+
+use masonry::analysis::outcome::Outcome;
+use masonry::files::write_atomically;
+use svg::ReferenceLines;
+use svg::pictures::{Pictures, Shown, of_outcome};
+
+/// A kind of file.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Format {
+    /// `scene.svg` always; `principal_stresses.svg` if stresses were recovered, `deformed.svg` and `forces.svg`
+    /// if solved, with `cracks.svg` if joints have opened or slid; `mechanism.svg` if a mechanism is known;
+    /// `history.svg` if there is a load history.
+    Svg,
+    /// `panel.vtu`.
+    Vtu,
+    /// `contacts.csv`, if solved; `history.csv` if there is a load history.
+    Csv,
+    /// `report.txt`.
+    Text,
+    /// `result.json`.
+    Json,
+}
+
+impl Format {
+    /// All formats.
+    pub const ALL: [Self; 5] = [Self::Svg, Self::Vtu, Self::Csv, Self::Text, Self::Json];
+}
+
+/// The choice of files that [`write_all`] writes; by default all.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Options {
+    /// The formats wanted.
+    pub formats: Vec<Format>,
+    /// Lines to compare the principal stresses with.
+    pub reference: Option<ReferenceLines>,
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Self { formats: Format::ALL.to_vec(), reference: None }
+    }
+}
+
+/// Names of all files that reports and runs write into a directory.
+pub const FILES: [&str; 20] = [
+    "accuracy.svg",
+    "checkpoint.json",
+    "contacts.csv",
+    "cracks.svg",
+    "deformed.svg",
+    "forces.svg",
+    "history.csv",
+    "history.svg",
+    "limit.json",
+    "mechanism.svg",
+    "panel.vtu",
+    "path.svg",
+    "path_forces.svg",
+    "path_mechanism.svg",
+    "principal_stresses.svg",
+    "report.txt",
+    "result.json",
+    "scene.svg",
+    "study.csv",
+    "study.json",
+];
+
+/// Why files could not be written.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum OutputError {
+    /// The directory could not be made.
+    #[error("cannot create the directory {}: {source}; choose another one", path.display())]
+    Directory {
+        /// The directory.
+        path: PathBuf,
+        /// The error of the system.
+        source: io::Error,
+    },
+    /// Some files could not be written; all others were.
+    #[error("cannot write {}; the other {} files were written", listed(failed), written.len())]
+    Files {
+        /// The files that were written.
+        written: Vec<PathBuf>,
+        /// The files that were not, and what the system said.
+        failed: Vec<(PathBuf, io::Error)>,
+    },
+}
+
+/// Writes the files of `options` into `dir`, which is created, and returns their paths.
+///
+/// Each file appears whole or not at all: it is written under a temporary name and renamed. One
+/// that fails does not keep the others from being written. `result.json` comes last and lists the
+/// files of this call; files of earlier calls stay.
+///
+/// # Errors
+/// [`OutputError::Directory`] when the directory cannot be made, [`OutputError::Files`] when at
+/// least one file could not be written.
+pub fn write_all(
+    outcome: &Outcome,
+    dir: &Path,
+    options: &Options,
+) -> Result<Vec<PathBuf>, OutputError> {
+    let listing = options.formats.contains(&Format::Json).then_some("result.json");
+    write_files(dir, contents(outcome, options), listing, |names| json::result(outcome, names))
+}
+
+/// Names and contents of all files but `result.json`.
+fn contents(outcome: &Outcome, options: &Options) -> Vec<(&'static str, Vec<u8>)> {
+    let (model, state) = (&outcome.model, outcome.state.as_ref());
+    let title = &titled(outcome);
+    let mut files = Vec::new();
+    if options.formats.contains(&Format::Svg) {
+        let shown: Vec<Shown<'_>> =
+            state.into_iter().map(|state| Shown { title, model, state }).collect();
+        let reference = options.reference.as_ref();
+        files.extend(self::files(of_outcome(outcome, title, &shown, reference, false)));
+    }
+    if options.formats.contains(&Format::Vtu) {
+        files.push(("panel.vtu", vtu::vtu(model, state)));
+    }
+    if let (true, Some(state)) = (options.formats.contains(&Format::Csv), state) {
+        files.push(("contacts.csv", csv::contacts(model, state).into_bytes()));
+    }
+    if let (true, Some(history)) = (options.formats.contains(&Format::Csv), &outcome.history) {
+        files.push(("history.csv", csv::history(model, history).into_bytes()));
+    }
+    if options.formats.contains(&Format::Text) {
+        files.push(("report.txt", table::report(outcome).into_bytes()));
+    }
+    files
+}
+
+/// Pictures as files.
+fn files(pictures: Vec<Pictures>) -> impl Iterator<Item = (&'static str, Vec<u8>)> {
+    let of_kind = |Pictures { file, pictures }| {
+        pictures.into_iter().map(move |text: String| (file, text.into_bytes()))
+    };
+    pictures.into_iter().flat_map(of_kind)
+}
+
+/// The title of the pictures: the verdict, and of what.
+fn titled(outcome: &Outcome) -> String {
+    let verdict = outcome.judgement.verdict;
+    if outcome.title.is_empty() {
+        verdict.to_string()
+    } else {
+        format!("{verdict}: {}", outcome.title)
+    }
+}
+
+/// Writes files into a directory, which is created: each whole or not at all, whatever becomes of the others; and last
+/// the one that lists those that were written, itself among them.
+fn write_files(
+    dir: &Path,
+    files: Vec<(&str, Vec<u8>)>,
+    listing: Option<&str>,
+    list: impl FnOnce(&[String]) -> Result<String, serde_json::Error>,
+) -> Result<Vec<PathBuf>, OutputError> {
+    fs::create_dir_all(dir)
+        .map_err(|source| OutputError::Directory { path: dir.to_owned(), source })?;
+    let (mut names, mut written, mut failed) = (Vec::new(), Vec::new(), Vec::new());
+    let mut write = |name: &str, bytes: io::Result<Vec<u8>>| {
+        let path = dir.join(name);
+        let end = bytes.and_then(|bytes| write_atomically(&path, &bytes));
+        let is_written = end.is_ok();
+        match end {
+            Ok(()) => written.push(path),
+            Err(error) => failed.push((path, error)),
+        }
+        is_written
+    };
+    for (name, bytes) in files {
+        if write(name, Ok(bytes)) {
+            names.push(name.to_owned());
+        }
+    }
+    if let Some(name) = listing {
+        names.push(name.to_owned());
+        write(name, list(&names).map(String::into_bytes).map_err(io::Error::from));
+    }
+    if failed.is_empty() { Ok(written) } else { Err(OutputError::Files { written, failed }) }
+}
+
+fn listed(failed: &[(PathBuf, io::Error)]) -> String {
+    let texts: Vec<String> =
+        failed.iter().map(|(path, error)| format!("{} ({error})", path.display())).collect();
+    texts.join(", ")
+}

@@ -1,0 +1,179 @@
+//! A limit load, or the ranges of reactions, as one JSON object.
+
+use crate::figures::tables::{reactions, sides};
+use crate::figures::{self, Value, in_json, members, taken};
+use crate::format::InUnits;
+use crate::json::times;
+use masonry::analysis::limit::{
+    Associative, Directions, Event, Extremes, Governs, Limit, Path, Range, Thickness,
+};
+use masonry::data::statics::Extreme;
+use masonry::model::Model;
+
+/// A value, unless it cannot be written.
+type Written = Result<Value, serde_json::Error>;
+
+/// The object of `limit.json` and of `masonry limit --json`, pretty-printed.
+///
+/// `associative` has the `answer`, the `load_factor` that forces carry, the `bound` above which it is proved that none do, the
+/// `gap` between them, whether the answer is `proved`, the `reactions` under the load factor, and the `mechanism`: rates of the
+/// corners of every block, the largest component one. If a single block or a tenth of them at most move in the mechanism, `rest` has the
+/// `load_factor` and the `bound` of the other blocks while the moving ones are held. `path` has the `load_factor` up to which blocks rest, the factor at which
+/// it `falls`, whether that is `decided`, the `last_stable` state, the `mechanism` after it, the `events` on the way and the
+/// `curve`. Unknown values are null, and so is a law of friction that was not chosen. `units` names the units.
+///
+/// # Errors
+/// None that this data can cause; the signature is that of the serialiser.
+pub fn json(limit: &Limit, files: &[String]) -> Result<String, serde_json::Error> {
+    report(limit, files)?.file()
+}
+
+/// The object of `masonry limit --both --json`, pretty-printed: the object of [`json`] for the `given` direction of the load and for
+/// the `opposite` one, and which of them `governs` (`both` if they carry the same, `unknown` if one is not decided); files are of
+/// that one, else of the given one.
+///
+/// # Errors
+/// As [`json`].
+pub fn json_both(both: &Directions, files: &[String]) -> Result<String, serde_json::Error> {
+    let is_opposite = both.governs == Governs::Opposite;
+    let (of_given, of_opposite) = if is_opposite { (&[][..], files) } else { (files, &[][..]) };
+    Value::Object(members! {
+        "governs": Value::of(&both.governs)?,
+        "given": report(&both.given, of_given)?,
+        "opposite": report(&both.opposite, of_opposite)?,
+    })
+    .file()
+}
+
+fn report(limit: &Limit, files: &[String]) -> Written {
+    let model = &limit.model;
+    let found = limit.associative.as_ref().map(|found| associative(found, model)).transpose()?;
+    Ok(Value::Object(members! {
+        "sentence": &limit.sentence,
+        "warnings": limit.warnings.as_slice(),
+        "interrupted": limit.is_interrupted,
+        "title": &limit.title,
+        "group": &limit.group,
+        "units": names_of_units(model),
+        "associative": found,
+        "path": limit.path.as_ref().map(path).transpose()?,
+        "time_s": times(&limit.times),
+        "files": files,
+    }))
+}
+
+fn associative(found: &Associative, model: &Model) -> Written {
+    let mut figures = figures::limit::associative(found, model);
+    let mut object = members! { "answer": Value::of(&found.answer)? };
+    object.extend(taken(&mut figures, "load_factor bound gap proved"));
+    let reactions = reactions(InUnits(model.units), &found.reactions);
+    object.extend(members! { "reactions": reactions.by_name() });
+    object.extend(taken(&mut figures, "mechanism"));
+    object.extend(in_json(figures));
+    Ok(Value::Object(object))
+}
+
+fn path(path: &Path) -> Written {
+    let mut figures = figures::limit::path(path);
+    let units = InUnits(path.model.units);
+    let curve = figures::limit::curve(path).objects();
+    let last = curve.last().map(|state| {
+        let mut state = state.clone();
+        state.extend(members! { "reactions": reactions(units, &path.reactions).by_name() });
+        state
+    });
+    let events: Result<Vec<_>, _> = path.events.iter().map(|it| event(&path.model, it)).collect();
+    let mut object = taken(&mut figures, "load_factor falls decided");
+    object.extend(members! { "last_stable": last });
+    object.extend(taken(&mut figures, "mechanism"));
+    object.extend(in_json(figures));
+    object.extend(members! {
+        "events": Value::List(events?),
+        "curve": Value::List(curve.into_iter().map(Value::Object).collect()),
+        "dry_joints": path.model.dry_joints(),
+    });
+    Ok(Value::Object(object))
+}
+
+/// The two bodies that meet, the middle of their joint, and what it does between two factors.
+fn event(model: &Model, event: &Event) -> Written {
+    let units = InUnits(model.units);
+    let joint = &model.joints[event.joint.index()];
+    let middle = nalgebra::center(&joint.from, &joint.to);
+    let at = [middle.x, middle.y].map(|it| units.length(it).into());
+    Ok(Value::Object(members! {
+        "between": Value::List(sides(model, joint).map(Value::from).to_vec()),
+        "at": Value::List(at.to_vec()),
+        "change": Value::of(&event.change)?,
+        "after": event.after,
+        "before": event.before,
+    }))
+}
+
+fn names_of_units(model: &Model) -> Value {
+    let units = model.units;
+    Value::Object(members! {
+        "load_factor": "1",
+        "length": units.length_name(),
+        "force": units.force_name(),
+        "moment": units.energy_name(),
+        "time_s": "s",
+    })
+}
+
+/// The object of `masonry limit --range --json`, pretty-printed: by support the `min` and `max` of `fx` and `fy`, each with its
+/// `value`, the `bound` that no forces exceed, and whether it is `unlimited`; `range` is null if no forces balance the loads.
+///
+/// # Errors
+/// As [`json`].
+pub fn range_json(range: &Range) -> Result<String, serde_json::Error> {
+    let units = InUnits(range.model.units);
+    let components = |it: &Extremes| {
+        let object = members! { "fx": ends(it.fx, units), "fy": ends(it.fy, units) };
+        (it.support.clone(), Value::Object(object))
+    };
+    let supports = range.supports.as_ref();
+    Value::Object(members! {
+        "sentence": &range.sentence,
+        "title": &range.title,
+        "units": names_of_units(&range.model),
+        "range": supports.map(|list| list.iter().map(components).collect::<Vec<_>>()),
+    })
+    .file()
+}
+
+fn ends([min, max]: [Extreme; 2], units: InUnits) -> Value {
+    let end = |extreme: Extreme| {
+        let (value, bound) = match extreme {
+            Extreme::Value { value, bound } => (Some(units.force(value)), Some(units.force(bound))),
+            Extreme::Unlimited | Extreme::Open => (None, None),
+        };
+        let is_unlimited = extreme == Extreme::Unlimited;
+        members! { "value": value, "bound": bound, "unlimited": is_unlimited }
+    };
+    Value::Object(members! { "min": end(min), "max": end(max) })
+}
+
+/// The object of `masonry limit --thickness ARCH --json`, pretty-printed: the largest thickness that `falls` and the smallest that
+/// `stands`, and whether they are `proved` to be one number.
+///
+/// # Errors
+/// As [`json`].
+pub fn thickness_json(it: &Thickness, files: &[String]) -> Result<String, serde_json::Error> {
+    let mut object = members! {
+        "sentence": &it.sentence,
+        "interrupted": it.is_interrupted,
+        "title": &it.title,
+        "arch": &it.arch,
+        "length": it.model.units.length_name(),
+    };
+    let mut figures = figures::limit::thickness(it);
+    object.extend(taken(&mut figures, "falls"));
+    object.extend(in_json(figures));
+    let rates = it.mechanism.as_ref();
+    object.extend(members! {
+        "mechanism": rates.map(|rates| figures::tables::rates_by_name(&it.model, rates)),
+        "files": files,
+    });
+    Value::Object(object).file()
+}

@@ -1,0 +1,113 @@
+//! The pages of a limit load and of the least thickness of an arch.
+
+use super::tables::{self, section};
+use super::{Page, size, taken};
+use crate::figures::{self, Said, on_page};
+use crate::limit::{ByLaw, by_law, pictures, pictures_of_thickness, table, thickness_table};
+use crate::svg::{self, pictures::Pictures};
+use masonry::analysis::limit::{Answer, Associative, Limit, Path, Thickness};
+
+/// The page of a limit load.
+pub fn limit(limit: &Limit) -> String {
+    let mut pictures = pictures(limit, true);
+    pictures.push(Pictures::one("scene.svg", svg::scene(&limit.title, &limit.model)));
+    Page {
+        title: limit.title.clone(),
+        verdict: verdict(limit),
+        sentence: limit.sentence.clone(),
+        warnings: limit.warnings.clone(),
+        figures: figures(limit),
+        pictures,
+        steps: Vec::new(),
+        // The headline is about the path, if there is one.
+        tables: by_law(limit).rev().map(|it| tables_of(&it)).collect(),
+        text: table(limit),
+    }
+    .finish()
+}
+
+fn tables_of(ByLaw { of, model, forces, mechanism, reactions, path, .. }: &ByLaw<'_>) -> String {
+    let joints = format!("Joints of the mechanism{of}");
+    let mut list = mechanism.map_or_else(String::new, |it| tables::hinges(&joints, model, it));
+    list += &tables::reactions(&format!("Reactions{of}"), model, reactions);
+    if let Some(path) = path {
+        let title = "Joints that open and slide along the path";
+        list += &section(title, "Each between two load factors.", &figures::limit::events(path));
+    }
+    let joints = |it| tables::joints(&format!("Joints{of}"), model, it);
+    list + &forces.map_or_else(String::new, joints)
+}
+
+/// The page of the least thickness of an arch.
+pub fn thickness(thickness: &Thickness) -> String {
+    let (title, model) = (&thickness.title, &thickness.model);
+    let mut pictures = pictures_of_thickness(thickness, true);
+    pictures.push(Pictures::one("scene.svg", svg::scene(title, model)));
+    let mut tables = String::new();
+    if let Some(forces) = &thickness.forces {
+        tables += &tables::joints("Joints", model, forces);
+    }
+    if let Some(rates) = &thickness.mechanism {
+        let of = "Joints of the mechanism, of the thicker that falls";
+        tables += &tables::hinges(of, model, rates);
+    }
+    Page {
+        title: title.clone(),
+        verdict: verdict_of(thickness),
+        sentence: thickness.sentence.clone(),
+        warnings: Vec::new(),
+        figures: on_page(&figures::limit::thickness(thickness)),
+        pictures,
+        steps: Vec::new(),
+        tables,
+        text: thickness_table(thickness),
+    }
+    .finish()
+}
+
+/// Whether the arch stands at the thickness of the scene.
+fn verdict_of(thickness: &Thickness) -> &'static str {
+    let Thickness { given, stands, falls, .. } = thickness;
+    match (stands, falls) {
+        (_, Some(falls)) if given <= falls => "falls",
+        (Some(stands), _) if given >= stands => "stands",
+        _ => "undecided",
+    }
+}
+
+/// Whether the structure stands under the loads that stay, and some part of those that grow.
+fn verdict(limit: &Limit) -> &'static str {
+    if limit.falls_by_weight || limit.associative.as_ref().is_some_and(Associative::carries_nothing)
+    {
+        return "falls";
+    }
+    let answer = limit.associative.as_ref().map(|it| it.answer);
+    let falls = |path: &Path| path.decided && path.load_factor.is_none();
+    let is_open = limit.path.as_ref().is_some_and(|it| !it.decided);
+    if answer == Some(Answer::Falls) || limit.path.as_ref().is_some_and(falls) {
+        "falls"
+    } else if answer == Some(Answer::Undecided) || is_open || limit.is_interrupted {
+        "undecided"
+    } else {
+        "stands"
+    }
+}
+
+fn figures(limit: &Limit) -> Vec<Said> {
+    let mut list = vec![("load that grows", limit.group.clone())];
+    if let Some(path) = &limit.path {
+        list.extend(on_page(&figures::limit::path(path)));
+    }
+    if let Some(found) = &limit.associative {
+        let mut found = figures::limit::associative(found, &limit.model);
+        // Readers see the answer first and the proof last, and one motion.
+        let place = |key: &str| {
+            ["load_factor", "bound", "mechanism", "rest"].iter().position(|it| *it == key)
+        };
+        found.retain(|it| it.key != "mechanism" || limit.path.is_none());
+        found.sort_by_key(|it| place(it.key).unwrap_or(usize::MAX));
+        list.extend(on_page(&found));
+    }
+    list.extend([("size", size(&limit.model)), ("time", taken(&limit.times))]);
+    list
+}

@@ -1,0 +1,390 @@
+//! Loads and reactions as arrows with their values: on edges, at places, and of all mass beside the structure.
+
+use nalgebra::{Point2, Vector2};
+
+use super::canvas::{Anchor, Canvas, Pixel, arrow, open, parts};
+use super::labels::{Label, Labels};
+use super::motion::Motion;
+use super::names;
+use super::sheet::{Bounds, Frame, Sheet, Sides, label_room};
+use super::structure;
+use super::style::TEXT;
+use crate::format::{InUnits, acceleration_text, significant, stress_text};
+use crate::joints::{self, JointForce};
+use crate::summary::loaded_part;
+use masonry::geometry;
+use masonry::ids::{BlockId, LoadId};
+use masonry::model::{Model, PointLoad};
+use masonry::rounding::largest;
+
+/// Lengths of the arrow of the largest load of a kind, and of one that is small beside it.
+const LONGEST: f64 = 34.0;
+const SHORTEST: f64 = 14.0;
+/// Most that is between arrows on an edge, and from an edge to arrows along it.
+const SPACING: f64 = 24.0;
+const ASIDE: f64 = 7.0;
+/// Height that an acceleration takes beside the structure: its arrow, its label and room between.
+const ROW: f64 = LONGEST + 2.0 * TEXT;
+/// Forces of joints and supports below this part of the largest are not drawn.
+pub(super) const LEAST: f64 = 1e-6;
+
+/// A group of loads that grows, and the factor that it has in a picture.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Growth<'a> {
+    pub(crate) group: &'a str,
+    pub(crate) factor: f64,
+}
+
+/// The target of a load: a part of an edge of a block, or a place, which is both of its ends. Reactions act on no block alone.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Pushed {
+    pub(super) block: Option<BlockId>,
+    pub(super) ends: [Point2<f64>; 2],
+}
+
+/// A load or a reaction, of which all arrows share a label.
+#[derive(Debug)]
+struct Push {
+    /// Parts of edges in one line, or one place; nothing for an acceleration of all mass.
+    on: Vec<Pushed>,
+    value: Vector2<f64>,
+    /// Direction away from the blocks that it pushes, or from a place to its arrow.
+    outwards: Vector2<f64>,
+    label: String,
+    /// Attributes of its elements.
+    name: String,
+    /// Size, relative to the largest of its kind.
+    part: f64,
+}
+
+/// Pushes of one kind, which have one entry in the legend.
+#[derive(Debug)]
+struct Kind {
+    names: [&'static str; 2],
+    class: &'static str,
+    pushes: Vec<Push>,
+}
+
+/// How pushed blocks are displaced in a picture, as far as its motion magnifies it \[m\].
+pub(super) struct Displaced<'a> {
+    pub(super) motion: Motion,
+    pub(super) rate: &'a dyn Fn(&Pushed) -> Vector2<f64>,
+}
+
+impl Displaced<'_> {
+    /// Blocks stay in their places.
+    pub(super) const NOT: Displaced<'static> =
+        Displaced { motion: Motion::NONE, rate: &|_| Vector2::new(0.0, 0.0) };
+
+    fn ends(&self, frame: &Frame, on: &Pushed) -> [Pixel; 2] {
+        let movement = (self.rate)(on) * self.motion.factor;
+        on.ends.map(|end| frame.at(end + movement))
+    }
+
+    fn name(&self, frame: &Frame, push: &Push, on: &Pushed) -> String {
+        push.name.clone() + &self.motion.of_mark(frame, (self.rate)(on))
+    }
+}
+
+impl Push {
+    fn length(&self) -> f64 {
+        SHORTEST + (LONGEST - SHORTEST) * self.part
+    }
+
+    /// The cosine of the angle between it and its outward side.
+    fn outward_part(&self) -> f64 {
+        self.value.normalize().dot(&self.outwards)
+    }
+
+    /// Whether a traction runs along the edge, so that arrows stand beside it.
+    fn is_tangential(&self) -> bool {
+        self.outward_part().abs() < 0.2
+    }
+
+    /// Its arrows on a part of an edge, or at a place.
+    fn arrows(&self, [from, to]: [Pixel; 2]) -> Vec<[Pixel; 2]> {
+        let (t, length) = (self.value, self.length());
+        let count = parts([from, to], SPACING).saturating_sub(1).max(1);
+        let feet = (0..count).map(|k| from.between(to, (f64::from(k) + 0.5) / f64::from(count)));
+        let arrow = |foot: Pixel| {
+            if self.is_tangential() {
+                let middle = foot.along(self.outwards, ASIDE);
+                let half = 0.5 * length.min(0.9 * from.distance(to));
+                [middle.along(-t, half), middle.along(t, half)]
+            } else if self.outward_part() < 0.0 {
+                [foot.along(-t, length), foot]
+            } else {
+                [foot, foot.along(t, length)]
+            }
+        };
+        feet.map(arrow).collect()
+    }
+
+    /// The line that joins the tails of arrows which press an edge.
+    fn bar(&self, ends: [Pixel; 2]) -> Option<[Pixel; 2]> {
+        let presses = self.outward_part() < 0.0 && !self.is_tangential();
+        let tails = ends.map(|end| end.along(-self.value, self.length()));
+        (presses && ends[0] != ends[1]).then_some(tails)
+    }
+
+    fn draw(&self, canvas: &mut Canvas, frame: &Frame, displaced: &Displaced<'_>) {
+        for on in &self.on {
+            let ends = displaced.ends(frame, on);
+            let arrows: String = self.arrows(ends).into_iter().map(arrow).collect();
+            let bar = self.bar(ends).map_or_else(String::new, open);
+            canvas.group(&displaced.name(frame, self, on), |canvas| {
+                canvas.path(&(arrows + &bar), "");
+                if ends[0] == ends[1] {
+                    canvas.circle(ends[0], 1.8, "");
+                }
+            });
+        }
+    }
+
+    /// Where its label is best.
+    fn label_at(&self, frame: &Frame, displaced: &Displaced<'_>) -> Pixel {
+        let ends = self.on.iter().flat_map(|on| displaced.ends(frame, on));
+        let extent = Bounds::of(ends.map(|it| Point2::new(it.x, it.y))).middle();
+        let beside = self.length() * self.outward_part().abs();
+        let reach = if self.is_tangential() { ASIDE + 5.0 } else { beside };
+        Pixel::new(extent.x, extent.y).along(self.outwards, reach + 5.0)
+    }
+
+    /// Room for its arrows and label around the structure.
+    fn margins(&self) -> Sides {
+        let (n, length) = (self.outwards, self.length() + 14.0);
+        let beside = |part: f64| if part > 0.5 { length + label_room(&self.label) } else { 0.0 };
+        let above = |part: f64| if part > 0.0 { length * part + TEXT + 6.0 } else { 0.0 };
+        Sides { left: beside(-n.x), right: beside(n.x), top: above(n.y), bottom: above(-n.y) }
+    }
+
+    /// Whether an acceleration stands right of the structure: one to the left pushes from there.
+    fn is_right(&self) -> bool {
+        self.value.x < -0.5 * self.value.norm()
+    }
+
+    /// Room that an acceleration takes beside the structure.
+    fn width(&self) -> f64 {
+        label_room(&self.label).max(LONGEST) + 8.0
+    }
+}
+
+impl Kind {
+    fn new(names: [&'static str; 2], class: &'static str, mut pushes: Vec<Push>) -> Self {
+        pushes.retain(|it| it.value.norm() > 0.0);
+        let sizes: Vec<f64> = pushes.iter().map(|it| it.value.norm()).collect();
+        let most = largest(&sizes);
+        pushes.iter_mut().zip(sizes).for_each(|(it, size)| it.part = size / most);
+        Self { names, class, pushes }
+    }
+
+    /// The legend entry: the least and the largest, and their direction if they have one.
+    fn explain(&self, sheet: &mut Sheet) {
+        let by_size = |a: &&Push, b: &&Push| a.part.total_cmp(&b.part);
+        let ends = self.pushes.iter().min_by(by_size).zip(self.pushes.iter().max_by(by_size));
+        let Some((least, most)) = ends else { return };
+        let [one, many] = self.names;
+        let text = if least.label == most.label {
+            format!("{one}, {}", most.label)
+        } else {
+            format!("{many}, {} to {}", least.label, most.label)
+        };
+        let way = most.value.normalize();
+        let is_one = self.pushes.iter().all(|it| it.value.normalize().dot(&way) > 1.0 - 1e-9);
+        let way = if is_one { way } else { -Vector2::y() };
+        let middle = Pixel::new(0.0, 0.0);
+        sheet.legend.add(&text, self.class, |symbol| {
+            symbol.path(&arrow([-10.0, 10.0].map(|it| middle.along(way, it))), "");
+        });
+    }
+}
+
+/// All loads of a picture, and reactions.
+#[derive(Debug)]
+pub(super) struct Arrows(Vec<Kind>);
+
+impl Arrows {
+    /// The loads that act and are not zero; those of a group that grows also have its factor.
+    pub(super) fn of_loads(model: &Model, growth: Option<Growth<'_>>) -> Self {
+        let labelled = |load: LoadId, value: String| {
+            let group = model.loads.get(load.index()).map(|it| it.group.as_str());
+            match growth.filter(|it| Some(it.group) == group) {
+                Some(it) => format!("{value} (factor {})", significant(it.factor, 4)),
+                None => value,
+            }
+        };
+        let acceleration = |it: &masonry::model::Acceleration| Push {
+            on: Vec::new(),
+            value: it.value,
+            outwards: Vector2::zeros(),
+            label: labelled(it.load, acceleration_text(it.value.norm())),
+            name: names::load(model, it.load),
+            part: 1.0,
+        };
+        let accelerations = model.accelerations.iter().map(acceleration).collect();
+        Self(vec![
+            Kind::new(["edge load", "edge loads"], "loads", tractions(model, &labelled)),
+            Kind::new(["point load", "point loads"], "loads", forces(model, &labelled)),
+            Kind::new(["body acceleration", "body accelerations"], "accelerations", accelerations),
+        ])
+    }
+
+    /// The same with the reactions of supports.
+    pub(super) fn and_reactions(mut self, model: &Model, forces: &[JointForce]) -> Self {
+        let units = InUnits(model.units);
+        let mut all = joints::reactions(model, forces);
+        let sizes: Vec<f64> = all.iter().map(|it| it.force.norm()).collect();
+        all.retain(|it| it.force.norm() > LEAST * largest(&sizes));
+        let push = |it: joints::SupportForce| Push {
+            on: vec![Pushed { block: None, ends: [it.at; 2] }],
+            value: it.force,
+            outwards: -it.force.normalize(),
+            label: units.force_text(it.force.norm()),
+            name: names::support(&model.supports[it.support.index()]),
+            part: 1.0,
+        };
+        let pushes = all.into_iter().map(push).collect();
+        self.0.push(Kind::new(
+            ["reaction of a support", "reactions of supports"],
+            "reactions",
+            pushes,
+        ));
+        self
+    }
+
+    fn pushes(&self) -> impl Iterator<Item = &Push> {
+        self.0.iter().flat_map(|kind| &kind.pushes)
+    }
+
+    /// Room that arrows and labels need around the structure.
+    pub(super) fn margins(&self) -> Sides {
+        let on_blocks = self.pushes().filter(|it| !it.on.is_empty()).map(Push::margins);
+        let mut margins = on_blocks.fold(Sides::HATCH, Sides::and);
+        margins.left += self.beside(false);
+        margins.right += self.beside(true);
+        margins
+    }
+
+    /// The accelerations on one side of the structure.
+    fn accelerations(&self, is_right: bool) -> impl Iterator<Item = &Push> {
+        self.pushes().filter(move |it| it.on.is_empty() && it.is_right() == is_right)
+    }
+
+    /// Room that they take.
+    fn beside(&self, is_right: bool) -> f64 {
+        largest(self.accelerations(is_right).map(Push::width))
+    }
+
+    /// Draws arrows, labels that do not collide, and legend entries.
+    pub(super) fn draw(
+        &self,
+        sheet: &mut Sheet,
+        model: &Model,
+        labels: &mut Labels,
+        displaced: &Displaced<'_>,
+    ) {
+        structure::avoid_supports(&sheet.frame, model, labels);
+        for Kind { class, pushes, .. } in self.0.iter().filter(|kind| !kind.pushes.is_empty()) {
+            sheet.layer(class, |canvas, frame| {
+                for push in pushes {
+                    push.draw(canvas, frame, displaced);
+                }
+            });
+            for push in pushes {
+                let ends = push.on.iter().map(|on| displaced.ends(&sheet.frame, on));
+                let strokes = ends.flat_map(|it| push.arrows(it).into_iter().chain(push.bar(it)));
+                strokes.for_each(|stroke| labels.avoid(stroke));
+            }
+        }
+        for Kind { class, pushes, .. } in self.0.iter().filter(|kind| !kind.pushes.is_empty()) {
+            sheet.layer(&format!("{class} labels"), |canvas, frame| {
+                for it in pushes.iter().filter(|it| !it.on.is_empty()) {
+                    let (at, side) = (it.label_at(frame, displaced), it.outwards);
+                    let name = displaced.name(frame, it, &it.on[0]);
+                    labels.draw(
+                        canvas,
+                        &Label { text: &it.label, size: TEXT, at, side, name: &name },
+                    );
+                }
+            });
+        }
+        self.draw_accelerations(sheet, model);
+        self.0.iter().for_each(|kind| kind.explain(sheet));
+    }
+
+    /// Accelerations at the outer side of all else, one below the other at half the height of the structure.
+    fn draw_accelerations(&self, sheet: &mut Sheet, model: &Model) {
+        let margins = self.margins();
+        let [low, high] = structure::bounds(model).ends().map(|end| sheet.frame.at(end));
+        for is_right in [false, true] {
+            let half = 0.5 * self.beside(is_right);
+            let x =
+                if is_right { high.x + margins.right - half } else { low.x - margins.left + half };
+            let count = self.accelerations(is_right).count() as f64;
+            let mut middle = Pixel::new(x, 0.5 * (low.y + high.y - count * ROW + LONGEST));
+            for it in self.accelerations(is_right) {
+                let ends = [-0.5, 0.5].map(|part| middle.along(it.value, part * LONGEST));
+                sheet.layer("accelerations", |canvas, _| {
+                    canvas.group(&it.name, |canvas| canvas.path(&arrow(ends), ""));
+                });
+                let base = Pixel::new(x, middle.y + 0.5 * LONGEST + TEXT);
+                sheet.layer("accelerations labels", |canvas, _| {
+                    canvas.text(base, Anchor::Middle, TEXT, &it.name, &it.label);
+                });
+                middle.y += ROW;
+            }
+        }
+    }
+}
+
+/// All loads on edges, those of one load with one traction in one line together.
+fn tractions(model: &Model, labelled: &dyn Fn(LoadId, String) -> String) -> Vec<Push> {
+    let near = 1e-9 * structure::bounds(model).size().norm();
+    let mut list: Vec<Push> = Vec::new();
+    for (index, block) in model.blocks.iter().enumerate() {
+        for load in block.edge_loads() {
+            let (from, to) = loaded_part(block, load);
+            let Some(along) = (to - from).try_normalize(0.0) else { continue };
+            let on = Pushed { block: Some(BlockId::new(index)), ends: [from, to] };
+            let (outwards, name) = (Vector2::new(along.y, -along.x), names::load(model, load.load));
+            let is_same = |it: &&mut Push| {
+                it.name == name
+                    && it.value == load.traction
+                    && it.outwards.dot(&outwards) > 1.0 - 1e-9
+                    && (from - it.on[0].ends[0]).dot(&outwards).abs() <= near
+            };
+            if let Some(same) = list.iter_mut().find(is_same) {
+                same.on.push(on);
+                continue;
+            }
+            let label = labelled(load.load, stress_text(load.traction.norm()));
+            let value = load.traction;
+            list.push(Push { on: vec![on], value, outwards, label, name, part: 1.0 });
+        }
+    }
+    list
+}
+
+/// All forces at places of blocks: one that pulls at an edge begins there, all others end in their places.
+fn forces(model: &Model, labelled: &dyn Fn(LoadId, String) -> String) -> Vec<Push> {
+    let units = InUnits(model.units);
+    let blocks = model.blocks.iter().enumerate();
+    let all = blocks.flat_map(|(k, block)| block.point_loads().map(move |load| (k, block, load)));
+    let push = |(index, block, load): (usize, &masonry::model::PlacedBlock, &PointLoad)| {
+        let near = 1e-9 * geometry::size(&block.corners);
+        let pulls = (0..block.corners.len()).any(|k| {
+            let normal = geometry::outward_normal(&block.corners, k);
+            (load.at - block.corners[k]).dot(&normal) > -near && load.force.dot(&normal) > 0.0
+        });
+        let way = load.force.try_normalize(0.0).unwrap_or_default();
+        Push {
+            on: vec![Pushed { block: Some(BlockId::new(index)), ends: [load.at; 2] }],
+            value: load.force,
+            outwards: if pulls { way } else { -way },
+            label: labelled(load.load, units.force_text(load.force.norm())),
+            name: names::load(model, load.load),
+            part: 1.0,
+        }
+    };
+    all.map(push).collect()
+}

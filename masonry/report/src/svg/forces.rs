@@ -1,0 +1,253 @@
+//! The forces in the joints: resultants at their places, the paths between them, and the part of friction that is used.
+
+use nalgebra::{Point2, Vector2};
+
+use super::arrows::{Arrows, Displaced, LEAST};
+use super::canvas::{Pixel, fixed, open};
+use super::labels::{Label, Labels};
+use super::legend;
+use super::names;
+use super::sheet::{Bounds, Sheet, Shown, Sides};
+use super::structure::{self, counted};
+use super::style::{LARGEST_BRICK, PLACE};
+use crate::format::InUnits;
+use crate::joints::{self, JointForce};
+use masonry::data::state::PointState;
+use masonry::model::{Body, Model};
+
+/// Resultants below this part are left out of structures with many joints, from so many on.
+const LEAST_OF_MANY: f64 = 1e-2;
+const MANY: usize = 150;
+/// Structures with so few joints have the value of every resultant.
+const FEW: usize = 24;
+/// Least use of friction, class, and what the legend says.
+const USES: [(f64, &str, &str); 3] = [
+    (0.995, "used up", "friction used up"),
+    (0.8, "used much", "80 % of friction used or more"),
+    (0.5, "used", "50 % of friction used or more"),
+];
+/// Width of the widest path of forces, in bricks.
+const WIDEST: f64 = 0.15;
+/// Half the middle third, in lengths of a joint, with room for rounding errors.
+const MIDDLE_THIRD: f64 = 1.0 / 6.0 + 1e-9;
+/// Half a joint, with room for rounding errors.
+const ENDS: f64 = 0.5 + 1e-6;
+
+/// Scale and room that pictures of forces share, so that those of a load history can be compared.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Shared {
+    /// The largest resultant \[N\].
+    largest: f64,
+    bounds: Bounds,
+    /// Room for the arrows and labels of all.
+    margins: Sides,
+}
+
+impl Shared {
+    /// The scale of structures and their contact forces.
+    pub(crate) fn of(states: &[Loaded<'_>]) -> Self {
+        let (mut largest, mut margins) = (0.0_f64, Sides::HATCH);
+        for Loaded { model, contacts, .. } in states {
+            let all = joints::forces(model, contacts);
+            largest = all.iter().map(|it| it.force.norm()).fold(largest, f64::max);
+            let arrows = Arrows::of_loads(model, None).and_reactions(model, &all);
+            margins = margins.and(arrows.margins());
+        }
+        let all = states.iter().flat_map(|it| structure::bounds(it.model).ends());
+        Self { largest, bounds: Bounds::of(all), margins }
+    }
+}
+
+/// A structure with its contact forces, and the title of its picture.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Loaded<'a> {
+    pub(crate) title: &'a str,
+    pub(crate) model: &'a Model,
+    pub(crate) contacts: &'a [PointState],
+}
+
+impl<'a> From<&Shown<'a>> for Loaded<'a> {
+    fn from(Shown { title, model, state }: &Shown<'a>) -> Self {
+        Self { title, model, contacts: &state.contacts }
+    }
+}
+
+/// The structure with the resultant of every joint as a stroke in its direction, through the place where it crosses the
+/// joint; the length goes with the force.
+///
+/// Behind them are the paths of the forces: lines from joint to joint, as wide as the force is large; in an arch the
+/// line of thrust. Dots are hollow if the resultant has left the middle third. Joints in colour use much of their
+/// friction. Supports have their reactions. Loads are those of the model.
+pub fn forces(title: &str, model: &Model, contacts: &[PointState]) -> String {
+    let loaded = Loaded { title, model, contacts };
+    compared(&loaded, &Shared::of(&[loaded]))
+}
+
+/// The same, as long and as wide as others.
+pub(crate) fn compared(loaded: &Loaded<'_>, by: &Shared) -> String {
+    let Loaded { title, model, contacts } = *loaded;
+    let all = joints::forces(model, contacts);
+    let arrows = Arrows::of_loads(model, None).and_reactions(model, &all);
+    let mut sheet = Sheet::new(format!("{title}: forces"), model, by.bounds, by.margins);
+    structure::draw(&mut sheet, model);
+    let least = if all.len() > MANY { LEAST_OF_MANY } else { LEAST };
+    let is_large = |it: &&JointForce| it.force.norm() > least * by.largest;
+    let large: Vec<&JointForce> = all.iter().filter(is_large).collect();
+    // A joint with tensile strength can carry a moment whose resultant passes beside it.
+    let is_on = |it: &&JointForce| it.eccentricity.abs() <= ENDS;
+    let drawn =
+        Drawn { model, largest: by.largest, list: large.iter().copied().filter(is_on).collect() };
+    drawn.draw_paths(&mut sheet);
+    drawn.draw_uses(&mut sheet);
+    drawn.draw_resultants(&mut sheet);
+    let mut labels = Labels::within(sheet.room);
+    drawn.list.iter().for_each(|it| labels.avoid(drawn.stroke(&sheet, it)));
+    arrows.draw(&mut sheet, model, &mut labels, &Displaced::NOT);
+    if drawn.list.len() <= FEW {
+        drawn.draw_values(&mut sheet, &mut labels);
+    }
+    let (small, beside) = (all.len() - large.len(), large.len() - drawn.list.len());
+    if all.len() > MANY && small > 0 {
+        let count = counted(small, "joint");
+        sheet.legend.note(&format!("left out: {count} with less than 1 % of the largest force"));
+    }
+    if beside > 0 {
+        let count = counted(beside, "joint");
+        sheet.legend.note(&format!("left out: {count} whose resultant passes beside them"));
+    }
+    sheet.legend.note("one of many sets of forces if they are not unique");
+    sheet.finish()
+}
+
+/// The resultants that are drawn.
+struct Drawn<'a> {
+    model: &'a Model,
+    /// The largest of all that are compared \[N\].
+    largest: f64,
+    list: Vec<&'a JointForce>,
+}
+
+impl Drawn<'_> {
+    /// Lines from every joint of a block to the middle of its forces: of a block with two joints one straight line.
+    fn draw_paths(&self, sheet: &mut Sheet) {
+        let mut of_blocks: Vec<Vec<&JointForce>> = vec![Vec::new(); self.model.blocks.len()];
+        for it in self.list.iter().copied().filter(|it| it.normal > 0.0) {
+            let joint = &self.model.joints[it.joint.index()];
+            of_blocks[joint.b.index()].push(it);
+            if let Body::Block(a) = joint.a {
+                of_blocks[a.index()].push(it);
+            }
+        }
+        of_blocks.retain(|own| own.len() > 1);
+        if of_blocks.is_empty() {
+            return;
+        }
+        let widest = WIDEST * sheet.marks();
+        sheet.layer("paths", |canvas, frame| {
+            for own in of_blocks {
+                let sum: f64 = own.iter().map(|it| it.force.norm()).sum();
+                let share = |it: &&JointForce| it.at.coords * (it.force.norm() / sum);
+                let middle = Point2::from(own.iter().map(share).sum::<Vector2<f64>>());
+                for it in own {
+                    let width = (widest * it.force.norm() / self.largest).max(0.3);
+                    let width = format!("style=\"stroke-width:{}px\"", fixed(width));
+                    canvas.path(&open([frame.at(it.at), frame.at(middle)]), &width);
+                }
+            }
+        });
+        sheet.legend.add("path of forces, as wide as the force is large", "paths", legend::line);
+    }
+
+    /// Joints that use much of their friction.
+    fn draw_uses(&self, sheet: &mut Sheet) {
+        let mut below = f64::INFINITY;
+        for (least, class, name) in USES {
+            let is_within = |it: &&&JointForce| {
+                it.utilisation.is_some_and(|use_| use_ >= least && use_ < below)
+            };
+            let found: Vec<_> = self.list.iter().filter(is_within).collect();
+            below = least;
+            if found.is_empty() {
+                continue;
+            }
+            structure::joints(sheet, class, self.model, found.iter().map(|it| it.joint));
+            let text = format!("{name}: {}", counted(found.len(), "joint"));
+            sheet.legend.add(&text, class, legend::line);
+        }
+    }
+
+    fn draw_resultants(&self, sheet: &mut Sheet) {
+        let radius = PLACE * sheet.marks();
+        let outside = "class=\"outside\"";
+        for name in ["pressing", "pulling"] {
+            let is_own = |it: &&JointForce| (it.normal > 0.0) == (name == "pressing");
+            let own: Vec<_> = self.list.iter().copied().filter(is_own).collect();
+            let Some(most) = own.iter().map(|it| it.force.norm()).reduce(f64::max) else {
+                continue;
+            };
+            let places = format!("{name} places");
+            let strokes: Vec<_> = own.iter().map(|it| self.stroke(sheet, it)).collect();
+            sheet.layer(name, |canvas, _| {
+                for (it, stroke) in own.iter().zip(strokes) {
+                    canvas.path(&open(stroke), &names::joint(self.model, it.joint));
+                }
+            });
+            sheet.layer(&places, |canvas, frame| {
+                for it in &own {
+                    let name = names::number(it.joint);
+                    let class = if is_inside(it) { "" } else { outside };
+                    canvas.circle(frame.at(it.at), radius, format!("{name} {class}").trim_end());
+                }
+            });
+            let most = InUnits(self.model.units).force_text(most);
+            let text = format!("resultant in a joint, {name}, up to {most}");
+            let at = Pixel::new(0.0, 0.0);
+            sheet.legend.add(&text, &places, |symbol| {
+                legend::line(symbol);
+                symbol.circle(at, PLACE * LARGEST_BRICK, "");
+            });
+            let count = own.iter().filter(|it| !is_inside(it)).count();
+            if count > 0 {
+                let text = format!("outside the middle third: {}", counted(count, "joint"));
+                sheet.legend.add(&text, &places, |symbol| {
+                    symbol.circle(at, PLACE * LARGEST_BRICK, outside);
+                });
+            }
+        }
+    }
+
+    /// The ends of the stroke of a resultant: the largest is nearly as long as a brick.
+    fn stroke(&self, sheet: &Sheet, it: &JointForce) -> [Pixel; 2] {
+        let half = 0.45 * sheet.brick * it.force.norm() / self.largest;
+        [-half, half].map(|half| sheet.frame.at(it.at).along(it.force, half))
+    }
+
+    /// The value of every resultant between blocks beside it, if there is room; supports have their reactions.
+    fn draw_values(&self, sheet: &mut Sheet, labels: &mut Labels) {
+        let units = InUnits(self.model.units);
+        sheet.layer("pressing labels", |canvas, frame| {
+            for it in &self.list {
+                if let Body::Support(_) = self.model.joints[it.joint.index()].a {
+                    continue;
+                }
+                let across = Vector2::new(it.force.y, -it.force.x).normalize();
+                let is_left = across.x < 0.0 || (across.x < 1e-9 && across.y < 0.0);
+                let side = if is_left { -across } else { across };
+                labels.draw(
+                    canvas,
+                    &Label {
+                        text: &units.force_text(it.force.norm()),
+                        size: 11.0,
+                        at: frame.at(it.at).along(side, 5.0),
+                        side,
+                        name: &names::joint(self.model, it.joint),
+                    },
+                );
+            }
+        });
+    }
+}
+
+fn is_inside(it: &JointForce) -> bool {
+    it.eccentricity.abs() <= MIDDLE_THIRD
+}

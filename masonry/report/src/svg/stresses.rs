@@ -1,0 +1,144 @@
+//! Principal stresses: a cross of two strokes in every element.
+
+use nalgebra::{Point2, Vector2};
+
+use super::bond_lines::ReferenceLines;
+use super::canvas::open;
+use super::legend;
+use super::motion::Motion;
+use super::sheet::{LONGEST_BAR, Sheet, Shown, Sides, middling};
+use super::structure;
+use crate::format::{InUnits, round_down, stress_text};
+use crate::summary::extreme_stresses;
+use masonry::data::state::{ElementStress, State};
+use masonry::geometry;
+use masonry::model::Model;
+
+/// The shortest bar of the legend, if stresses are small.
+const SHORTEST_BAR: f64 = 14.0;
+/// Smallest and largest size of an element in pixels with which widths go.
+const SMALLEST: f64 = 6.0;
+const LARGEST: f64 = 33.0;
+/// Longest stroke in lengths of an element.
+const LONGEST: f64 = 2.2;
+
+/// Sizes of stresses that are compared \[Pa\], from which the length of strokes follows.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Scale {
+    /// Size that a twentieth of all stresses exceed.
+    large: f64,
+    largest: f64,
+}
+
+impl Scale {
+    /// The scale of the stresses of a state.
+    pub(crate) fn of(stresses: &[ElementStress]) -> Self {
+        let size = |it: &ElementStress| it.principal.sigma_1.abs().max(it.principal.sigma_2.abs());
+        let mut sizes: Vec<f64> = stresses.iter().map(size).collect();
+        sizes.retain(|size| *size > 0.0 && size.is_finite());
+        sizes.sort_by(f64::total_cmp);
+        let large = sizes.get(sizes.len() * 19 / 20).copied().unwrap_or(0.0);
+        Self { large, largest: sizes.last().copied().unwrap_or(0.0) }
+    }
+
+    pub(crate) fn and(self, other: Self) -> Self {
+        Self { large: self.large.max(other.large), largest: self.largest.max(other.largest) }
+    }
+
+    /// Pixels per pascal: large stresses fill an element, and the largest overlap the next one or two
+    /// if a few are far above the rest.
+    fn of_strokes(self, element: f64) -> f64 {
+        if self.largest > 0.0 {
+            (element / self.large).min(LONGEST * element / self.largest)
+        } else {
+            1.0
+        }
+    }
+}
+
+/// Principal stresses of every element as crosses whose strokes are proportional to the stresses,
+/// with the contact points that are open or slide.
+///
+/// Strokes along which the element is compressed and stretched differ in colour. The legend shows
+/// the length of a round stress.
+pub fn principal_stresses(
+    title: &str,
+    model: &Model,
+    state: &State,
+    reference: Option<&ReferenceLines>,
+) -> String {
+    compared(&Shown { title, model, state }, reference, Scale::of(&state.stresses))
+}
+
+/// The same with strokes as long as those of others.
+pub(crate) fn compared(
+    shown: &Shown<'_>,
+    reference: Option<&ReferenceLines>,
+    scale: Scale,
+) -> String {
+    let Shown { title, model, state } = *shown;
+    let title = format!("{title}: principal stresses");
+    let mut sheet = Sheet::new(title, model, structure::bounds(model), Sides::HATCH);
+    structure::outlines(&mut sheet, "bricks", &model.blocks);
+    draw_strokes(&mut sheet, model, state, scale);
+    structure::supports(&mut sheet, model, Motion::NONE);
+    if let Some(lines) = reference {
+        let ends = lines.within(structure::bounds(model).high.y);
+        sheet.layer("reference", |canvas, frame| {
+            for line in ends {
+                canvas.path(&open(line.map(|end| frame.at(end))), "");
+            }
+        });
+        sheet.legend.add(&lines.label, "reference", legend::line);
+    }
+    structure::contact_marks(&mut sheet, model, &state.contacts);
+    sheet.finish()
+}
+
+fn draw_strokes(sheet: &mut Sheet, model: &Model, state: &State, scale: Scale) {
+    let element = element_size(model, state) * sheet.frame.scale;
+    let pixels_per_pascal = scale.of_strokes(element);
+    let (compression, tension) = extreme_stresses(state);
+    for (name, extreme, compressed) in
+        [("compression", compression, true), ("tension", tension, false)]
+    {
+        sheet.layer_sized(name, element.clamp(SMALLEST, LARGEST), |canvas, frame| {
+            for ElementStress { centre, principal, .. } in &state.stresses {
+                let along = [principal.sigma_1, principal.sigma_2].into_iter();
+                let turned = principal.theta + std::f64::consts::FRAC_PI_2;
+                for (value, angle) in along.zip([principal.theta, turned]) {
+                    if (value <= 0.0) == compressed {
+                        let half = 0.5 * value.abs() * pixels_per_pascal;
+                        let way = Vector2::new(angle.cos(), angle.sin());
+                        let at = frame.at(*centre);
+                        canvas.path(&open([-half, half].map(|it| at.along(way, it))), "");
+                    }
+                }
+            }
+        });
+        if compression.is_some() || tension.is_some() {
+            let most = extreme.map(|it| format!("largest {}", stress_text(it.value.abs())));
+            let text = format!("{name}, {}", most.unwrap_or("none".to_owned()));
+            sheet.legend.add(&text, name, legend::line);
+        }
+    }
+    let extremes = [compression, tension].into_iter().flatten();
+    let Some(largest) = extremes.map(|it| it.value.abs()).reduce(f64::max) else {
+        return sheet.legend.note("no stress in any element");
+    };
+    let [shortest, longest] = [SHORTEST_BAR, LONGEST_BAR].map(|it| it / pixels_per_pascal);
+    let units = InUnits(model.units);
+    let round = round_down(units.stress(largest.max(shortest).min(longest)));
+    let round = round * units.0.stress_to_si();
+    let half = 0.5 * round * pixels_per_pascal;
+    sheet.legend.add(&format!("stroke of {}", stress_text(round)), "bar", legend::bar(half));
+}
+
+/// Side of a square as large as a middling element \[m\].
+fn element_size(model: &Model, state: &State) -> f64 {
+    middling(state.stresses.iter().filter_map(|stress| {
+        let mesh = model.blocks[stress.block.index()].mesh.as_ref()?;
+        let corners: [Point2<f64>; 4] = mesh.elements[stress.element].map(|node| mesh.nodes[node]);
+        Some(geometry::area(&corners))
+    }))
+}

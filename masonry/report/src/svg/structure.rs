@@ -1,0 +1,181 @@
+//! Parts of a structure that several pictures draw: blocks, hatched supports, contact points.
+
+use nalgebra::{Point2, Vector2};
+
+use super::canvas::{Canvas, Pixel, closed, open, parts};
+use super::labels::Labels;
+use super::motion::Motion;
+use super::names;
+use super::sheet::{Bounds, Frame, Sheet};
+use super::style::{LARGEST_BRICK, STATUS};
+use masonry::data::state::{PointState, PointStatus};
+use masonry::ids::{JointId, SupportId};
+use masonry::model::{Body, ContactPoint, Model, PlacedBlock, PlacedSupport};
+
+/// Length of the strokes of a hatch, and most that is between them.
+const TICK: f64 = 7.0;
+/// The line of a support is wider than its hatch.
+const LINE: &str = "class=\"line\"";
+
+/// The box around all blocks.
+pub(super) fn blocks(model: &Model) -> Bounds {
+    Bounds::of(model.blocks.iter().flat_map(|block| block.corners.iter().copied()))
+}
+
+/// The box around all blocks and supports.
+pub(super) fn bounds(model: &Model) -> Bounds {
+    let ends = model.supports.iter().flat_map(|support| [support.from, support.to]);
+    let corners = model.blocks.iter().flat_map(|block| block.corners.iter().copied());
+    Bounds::of(corners.chain(ends))
+}
+
+/// All blocks and supports as they are in the scene.
+pub(super) fn draw(sheet: &mut Sheet, model: &Model) {
+    outlines(sheet, "bricks", &model.blocks);
+    supports(sheet, model, Motion::NONE);
+}
+
+/// Blocks in their places before any movement.
+pub(super) fn outlines<'a>(
+    sheet: &mut Sheet,
+    class: &str,
+    blocks: impl IntoIterator<Item = &'a PlacedBlock>,
+) {
+    sheet.layer(class, |canvas, frame| {
+        for block in blocks {
+            let corners = block.corners.iter().map(|corner| frame.at(*corner));
+            canvas.path(&closed(corners), &names::block(block));
+        }
+    });
+}
+
+/// Joints as lines of a class.
+pub(super) fn joints(
+    sheet: &mut Sheet,
+    class: &str,
+    model: &Model,
+    list: impl Iterator<Item = JointId>,
+) {
+    sheet.layer(class, |canvas, frame| {
+        for id in list {
+            let joint = &model.joints[id.index()];
+            let ends = [joint.from, joint.to].map(|end| frame.at(end));
+            canvas.path(&open(ends), &names::joint(model, id));
+        }
+    });
+}
+
+/// All supports in their displaced places, hatched on the side away from the structure, and their legend entry.
+pub(super) fn supports(sheet: &mut Sheet, model: &Model, motion: Motion) {
+    if model.supports.is_empty() {
+        return;
+    }
+    sheet.layer("supports", |canvas, frame| {
+        for (index, support) in model.supports.iter().enumerate() {
+            let inward = side_of_structure(model, SupportId::new(index), support);
+            let ends = |factor: f64| {
+                [support.from, support.to]
+                    .map(|end| frame.at(end + support.displacement_at(end) * factor))
+            };
+            let ticks = parts(ends(0.0), TICK);
+            canvas.group(&names::support(support), |canvas| {
+                motion.path(canvas, LINE, |factor| open(ends(factor)));
+                motion.path(canvas, "", |factor| hatch(ends(factor), ticks, inward));
+            });
+        }
+    });
+    sheet.legend.add("support", "supports", |symbol| {
+        let ends = [Pixel::new(-22.0, -3.0), Pixel::new(22.0, -3.0)];
+        symbol.path(&open(ends), LINE);
+        symbol.path(&hatch(ends, parts(ends, TICK), Vector2::y()), "");
+    });
+}
+
+/// Keeps labels away from the supports.
+pub(super) fn avoid_supports(frame: &Frame, model: &Model, labels: &mut Labels) {
+    for (index, support) in model.supports.iter().enumerate() {
+        let inward = side_of_structure(model, SupportId::new(index), support);
+        let ends = [support.from, support.to].map(|end| frame.at(end));
+        labels.avoid(ends);
+        labels.avoid(ends.map(|end| end.along(-inward, TICK)));
+    }
+}
+
+/// A vector, y up, from the support to the structure.
+fn side_of_structure(model: &Model, id: SupportId, support: &PlacedSupport) -> Vector2<f64> {
+    match model.joints.iter().find(|joint| joint.a == Body::Support(id)) {
+        Some(joint) => joint.normal,
+        None => blocks(model).middle() - nalgebra::center(&support.from, &support.to),
+    }
+}
+
+/// The strokes along the line of a support, away from the structure, which is on the side `inward`, y up.
+fn hatch([from, to]: [Pixel; 2], ticks: u32, inward: Vector2<f64>) -> String {
+    let along = from.towards(to);
+    let across = Vector2::new(along.y, -along.x);
+    let outward = if across.dot(&inward) > 0.0 { -across } else { across };
+    let stroke = |k: u32| {
+        let foot = from.between(to, (f64::from(k) + 0.5) / f64::from(ticks));
+        open([foot, foot.along(outward, TICK).along(-along, 0.6 * TICK)])
+    };
+    (0..ticks).map(stroke).collect()
+}
+
+/// The nodes around a block, as positions in the list of its nodes.
+pub(super) fn rim(block: &PlacedBlock) -> Vec<usize> {
+    let Some(mesh) = &block.mesh else { return (0..block.corners.len()).collect() };
+    let row = mesh.nx + 1;
+    let bottom = 0..mesh.nx;
+    let right = (0..mesh.ny).map(|j| j * row + mesh.nx);
+    let top = (1..=mesh.nx).rev().map(|i| mesh.ny * row + i);
+    let left = (1..=mesh.ny).rev().map(|j| j * row);
+    bottom.chain(right).chain(top).chain(left).collect()
+}
+
+/// Contact points that are open (hollow circles) or slide (filled squares on a corner).
+///
+/// Each mark is moved along its joint by nearly two radii towards the joint's middle, so that the marks
+/// of joints which meet in one place stay apart.
+pub(super) fn contact_marks(sheet: &mut Sheet, model: &Model, states: &[PointState]) {
+    let radius = STATUS * sheet.marks();
+    for (status, name, class) in
+        [(PointStatus::Open, "open", "open"), (PointStatus::Slip, "sliding", "slip")]
+    {
+        let all = model.contacts.iter().zip(states);
+        let found: Vec<_> = all.filter(|(_, state)| state.status == status).collect();
+        if found.is_empty() {
+            continue;
+        }
+        sheet.layer(class, |canvas, frame| {
+            for (contact, _) in &found {
+                draw_mark(canvas, status, mark_place(model, contact, frame, radius), radius);
+            }
+        });
+        let text = format!("{name}: {}", counted(found.len(), "contact point"));
+        sheet.legend.add(&text, class, |symbol| {
+            draw_mark(symbol, status, Pixel::new(0.0, 0.0), STATUS * LARGEST_BRICK);
+        });
+    }
+}
+
+fn draw_mark(canvas: &mut Canvas, status: PointStatus, at: Pixel, radius: f64) {
+    if status == PointStatus::Open {
+        return canvas.circle(at, radius, "");
+    }
+    let tip = 1.35 * radius;
+    let corners = [[tip, 0.0], [0.0, tip], [-tip, 0.0], [0.0, -tip]];
+    canvas.path(&closed(corners.map(|[x, y]| Pixel::new(at.x + x, at.y + y))), "");
+}
+
+fn mark_place(model: &Model, contact: &ContactPoint, frame: &Frame, radius: f64) -> Pixel {
+    let joint = &model.joints[contact.joint.index()];
+    let at = frame.at(contact.position);
+    let middle: Point2<f64> = nalgebra::center(&joint.from, &joint.to);
+    let middle = frame.at(middle);
+    at.along(at.towards(middle), (1.7 * radius).min(at.distance(middle)))
+}
+
+/// A number of things: `1 joint`, `2 joints`.
+pub(crate) fn counted(count: usize, name: &str) -> String {
+    if count == 1 { format!("1 {name}") } else { format!("{count} {name}s") }
+}
