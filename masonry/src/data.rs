@@ -13,6 +13,7 @@
 //! [`method::statics`](crate::method::statics), [`Principal::of`](state::Principal::of) in
 //! [`recover`](crate::recover).
 
+mod attempt;
 pub mod info;
 pub mod motion;
 pub mod route;

@@ -4,7 +4,6 @@ use super::figures::tables::{forces, loads, rates_by_name, reactions};
 use super::figures::{Members, Value, history, in_json, members, solved, taken};
 use super::format::InUnits;
 use super::summary::{self, CornerSum, LoadGroup, Resultant, corner_sums, load_groups, reason};
-use crate::attempt::Sentence;
 use masonry::analysis::outcome::{Outcome, PhaseTime};
 use masonry::model::Model;
 
@@ -33,7 +32,7 @@ pub fn result(outcome: &Outcome, files: &[String]) -> Result<String, serde_json:
         "warnings": judgement.warnings.as_slice(),
         "status": Value::of(&solve.status)?,
     };
-    let attempts: Vec<String> = solve.attempts.iter().map(|it| Sentence(it).to_string()).collect();
+    let attempts: Vec<String> = solve.attempts.iter().map(ToString::to_string).collect();
     object.extend(reason(outcome).map(|why| ("reason".to_owned(), why.into())));
     object.extend(members! {
         "title": &outcome.title,

@@ -3,7 +3,6 @@
 //! Every result is in the units of the scene, named in titles, columns and legends. The functions
 //! of the modules return the contents of files; [`write_all`] writes them.
 
-mod attempt;
 pub mod csv;
 mod figures;
 mod format;

@@ -10,7 +10,6 @@ use super::summary::{
 };
 use super::svg::counted;
 use super::text::{self, heads, pairs, paragraph, section, underlined};
-use crate::attempt::Sentence;
 use masonry::analysis::outcome::Outcome;
 use masonry::data::info::SoftReport;
 use masonry::data::verdict::Evidence;
@@ -149,7 +148,7 @@ fn solution(outcome: &Outcome) -> Vec<Said> {
     }
     rows.push(("factorisations", solve.factorisations.to_string()));
     for (index, attempt) in solve.attempts.iter().enumerate() {
-        rows.push((if index == 0 { "attempts" } else { "" }, Sentence(attempt).to_string()));
+        rows.push((if index == 0 { "attempts" } else { "" }, attempt.to_string()));
     }
     if let Some(soft) = &solve.soft {
         rows.push(("soft springs", bias(soft)));

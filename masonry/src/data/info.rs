@@ -89,7 +89,7 @@ impl SolveInfo {
     }
 }
 
-/// One attempt to find a state; reports write it as a sentence.
+/// One attempt to find a state.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Attempt {

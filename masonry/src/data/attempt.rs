@@ -1,43 +1,40 @@
-//! Attempts in sentences.
+//! Attempts as sentences.
 
 use std::fmt::{Display, Formatter, Result};
 
 use lcp::lemke::{self, AttemptCovering, AttemptEnd};
 use lcp::{Ending, Status};
 
-use masonry::data::info::Attempt;
-use masonry::data::route::Route;
+use crate::data::info::Attempt;
+use crate::data::route::Route;
 
-/// An attempt as a sentence.
-pub(crate) struct Sentence<'a>(pub(crate) &'a Attempt);
-
-impl Display for Sentence<'_> {
+impl Display for Attempt {
     fn fmt(&self, f: &mut Formatter<'_>) -> Result {
-        match self.0 {
-            Attempt::Pivots { form, start, path } => {
+        match self {
+            Self::Pivots { form, start, path } => {
                 write!(f, "{form}: ")?;
                 pivots(f, start.as_deref(), path)
             }
-            Attempt::Sparse { route, status, iterations, factorisations, residual } => write!(
+            Self::Sparse { route, status, iterations, factorisations, residual } => write!(
                 f,
                 "{}: {} after {iterations} {} and {factorisations} factorisations, residual {residual:.1e}",
                 route.name(),
                 solved(*status),
                 counted(*route)
             ),
-            Attempt::Motion { ending, factorisations } => write!(
+            Self::Motion { ending, factorisations } => write!(
                 f,
                 "interior: loaded slowly, the blocks {}, after {factorisations} factorisations",
                 moved(*ending)
             ),
-            Attempt::Forces { status, are_found, factorisations } => {
+            Self::Forces { status, are_found, factorisations } => {
                 let forces = forces(*status, *are_found);
                 write!(f, "forces: {forces}, after {factorisations} factorisations")
             }
-            Attempt::Refinement { residual } => {
+            Self::Refinement { residual } => {
                 write!(f, "refined on all displacements, residual {residual:.1e}")
             }
-            Attempt::Left { route, iterations } => write!(
+            Self::Left { route, iterations } => write!(
                 f,
                 "{}: left after {iterations} steps, since no forces inside friction balance the loads",
                 route.name()
