@@ -3,7 +3,6 @@
 #![allow(clippy::float_cmp, reason = "import rounds away what is no digit of the drawing")]
 
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
-use std::time::Instant;
 
 use masonry::analysis::limit::{Laws, limit_by};
 use masonry::scene::Load;
@@ -315,12 +314,11 @@ fn rubble_that_is_rounded_meets_exactly() {
 }
 
 #[test]
-fn a_wall_of_1500_stones_is_imported_in_a_second() {
+fn a_wall_of_1500_stones_meets_in_all_its_joints() {
     let polygons = mapped(&mapped(&wall(50, 30, 0.0), turned(3.0)), rounded(1e-4));
-    let dxf = Dxf::new(6).polygons("brick", &polygons);
-    let began = Instant::now();
-    let imported = dxf.import();
-    let seconds = began.elapsed().as_secs_f64();
+    let imported = Dxf::new(6).polygons("brick", &polygons).import();
     assert_eq!(imported.scene.blocks.len(), 1515);
-    assert!(seconds < 1.0, "{seconds} s");
+    // Beds: each course meets the one below in 100 pieces, the lowest the floor in 50; heads: 49 or 50 a course.
+    let model = Model::from_scene(&imported.scene).unwrap();
+    assert_eq!(model.joints.len(), 29 * 100 + 50 + 15 * 49 + 15 * 50);
 }
