@@ -1,4 +1,4 @@
-//! `masonry live`: the page on which a scene answers while it is changed.
+//! `masonry live`: the page that solves a scene while it is changed.
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};

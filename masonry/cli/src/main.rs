@@ -48,7 +48,7 @@ enum Command {
     Limit(limit::LimitArgs),
     /// Measure error and cost of routes, tolerances and meshes.
     Study(study::StudyArgs),
-    /// Open a page on which a scene answers while it is changed.
+    /// Open a page that solves a scene while it is changed.
     Live(live::LiveArgs),
     /// Make a scene of a drawing: DXF, SVG, OBJ, COMPAS JSON.
     Import(import::ImportArgs),

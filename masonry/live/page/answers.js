@@ -4,8 +4,8 @@ import { all, button, made, one } from "./elements.js";
 
 // What comes within this time is there at once, as a hand feels it: a picture that is older grows pale [ms].
 const AT_ONCE = 100;
-// A solve that is younger is waited for when the text changes, so that pictures follow a hand that goes on. An older one is
-// stopped: thoughts do not wait longer [ms].
+// A younger solve is finished although the text has changed since, so that pictures follow a hand that goes on. An older one is
+// stopped: a reader who waits for longer than a second loses the thread [ms].
 const PATIENCE = 1000;
 
 const NAMES = {
@@ -61,7 +61,7 @@ export class Answers {
     this.age();
   }
 
-  // The last good picture stays, and says how old it is. A solve of an older text ends with the patience for it.
+  // Keeps the last good picture, with its age. A solve of an older text ends with the patience for it.
   age() {
     const time = this.running === null ? 0 : performance.now() - this.running.began;
     if (time > PATIENCE && this.next !== null) this.running.controller.abort();
@@ -78,7 +78,8 @@ export class Answers {
     this.isMistaken = answer.error != null;
     if (answer.numbers) this.parts(answer, text);
     this.showFault(answer.error, text === this.editor.text);
-    if (this.isMistaken) return;
+    // What was dragged too far can be dragged back.
+    if (this.isMistaken) return this.handles.show(answer.handles ?? [], this.picture.svg, text);
     this.last = { ...answer, text };
     const { verdict, sentence, warnings, seconds, picture, report } = answer.shown;
     setVerdict(verdict, sentence);

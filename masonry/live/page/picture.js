@@ -11,7 +11,7 @@ export class Picture {
     this.places = [];
     this.figure.addEventListener("click", (event) => {
       const element = event.target.closest(SELECTOR);
-      const place = element && this.placeOf(element);
+      const place = element && this.placeOf(this.named(element));
       if (place) onPlace(place);
     });
   }
@@ -31,11 +31,18 @@ export class Picture {
     if (this.line) this.mark(this.line);
   }
 
+  // The element itself, or of a mark that has only the number of a joint one with the name of its class.
+  named(element) {
+    const { joint, class: name } = element.dataset;
+    if (joint === undefined || name !== undefined) return element;
+    return this.svg.querySelector(`[data-joint="${joint}"][data-class]`) ?? element;
+  }
+
   // The place that describes an element: of a brick that of its wall, which has the name before the first stroke.
   placeOf(element) {
     for (const [kind, key] of Object.entries(KINDS)) {
-      if (element.dataset[kind] === undefined) continue;
       const name = element.dataset[key];
+      if (element.dataset[kind] === undefined || name === undefined) continue;
       const of = (it) => it.kind === kind && (it.name === name || name.startsWith(`${it.name}/`));
       const place = this.places.filter(of).sort((a, b) => b.name.length - a.name.length)[0];
       if (place) return place;

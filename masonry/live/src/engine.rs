@@ -164,18 +164,15 @@ impl Engine {
         watch: &mut Watch<'_>,
     ) -> Result<String, Fault> {
         let read = Text::read(text);
-        let (shown, handles, error) = match self.solved(text, watch) {
-            Ok(solved) => {
-                let handles = handles::handles(solved.scene(), &read);
-                (Some(solved.shown(show, step)), handles, None)
-            }
-            Err(fault) => (None, Vec::new(), Some(fault)),
+        let (shown, error) = match self.solved(text, watch) {
+            Ok(solved) => (Some(solved.shown(show, step)), None),
+            Err(fault) => (None, Some(fault)),
         };
         json(&Answer {
             numbers: read.numbers(),
             controls: controls::controls(&read),
             places: places::places(&read),
-            handles,
+            handles: handles::handles(&read),
             shown,
             error,
         })
@@ -186,7 +183,7 @@ impl Engine {
         if let Some(last) = last.filter(|it| it.is_of(text)) {
             return Ok(last);
         }
-        let solved = Arc::new(Solved::new(text, scene(text)?, watch)?);
+        let solved = Arc::new(Solved::new(text, &scene(text)?, watch)?);
         if solved.is_complete() {
             *self.last.lock().unwrap_or_else(PoisonError::into_inner) = Some(solved.clone());
         }

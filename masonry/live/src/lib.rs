@@ -1,8 +1,8 @@
-//! A page on which a wall or an arch answers while its scene is changed: the text of the scene beside its picture.
+//! A page that solves a scene while its text is changed, and shows verdict and picture beside the text.
 //!
-//! The page asks an [`Engine`](engine::Engine) questions in JSON: the text of a scene goes in, and verdict, pictures and places in
-//! the text come out. A [`Server`](server::Server) takes the questions to the engine on the loopback address; the same page as a
-//! single file has the engine beside it, compiled to WebAssembly.
+//! The page sends questions in JSON to an [`Engine`](engine::Engine): the text of a scene goes in, and verdict, pictures and
+//! places in the text come out. A [`Server`](server::Server) passes the questions on from the loopback address; the same page as
+//! a single file contains the engine, compiled to WebAssembly.
 //!
 //! ```
 //! use std::ops::ControlFlow;

@@ -1,8 +1,8 @@
 //! The page on the loopback address: one page, questions to the engine, and the file of the scene.
 //!
-//! Only programs of this machine reach the address, and only pages that it has served itself get answers: every request names
-//! the address as its host, comes from no other page, and knows a token that is drawn anew for every server. One connection
-//! has one request. A question ends with its connection: a page that wants no answer any more closes it, and the work stops.
+//! Only programs of the same machine reach the address, and only pages of this server get answers: a request needs the address
+//! as its host, no other origin, and a token that is drawn anew for every server. A connection has one request. A question ends
+//! with its connection: a page that needs no answer any more closes it, and the work stops.
 
 mod desk;
 mod guard;
@@ -29,7 +29,7 @@ use crate::page;
 
 /// Connections at once. A browser opens six to a host; more than a few tabs need are refused at once.
 const MOST_CONNECTIONS: usize = 32;
-/// How often a page hears of work that goes on, and how soon work ends that no page waits for.
+/// Time between two lines of news, and from the end of a connection to that of its work.
 const NEWS: Duration = Duration::from_millis(100);
 
 /// A server of the page, which listens from its making on.
@@ -51,7 +51,7 @@ impl Server {
     /// A server on a free port of the loopback address.
     ///
     /// # Errors
-    /// What the system says when no port or no random token is to be had.
+    /// The error of the system if there is no free port, or no source of random numbers.
     pub fn new(desk: Desk) -> io::Result<Self> {
         let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, 0))?;
         let guard = Guard::new(listener.local_addr()?.port())?;
@@ -67,7 +67,7 @@ impl Server {
     /// Serves until the program ends.
     ///
     /// # Errors
-    /// What the system says when it accepts no connections any more.
+    /// The error of the system if it accepts no connections any more.
     pub fn run(&self) -> io::Result<()> {
         loop {
             let stream = match self.listener.accept() {

@@ -11,7 +11,7 @@ use web_time::Instant;
 
 use crate::engine::Engine;
 
-/// How often the page hears of work that goes on.
+/// Time between two pieces of news.
 const NEWS: Duration = Duration::from_millis(100);
 
 /// The engine, as scripts see it.

@@ -1,13 +1,11 @@
-//! What can be dragged in the picture: openings of walls and ends of supports.
+//! What can be dragged in the picture: openings of walls and ends of supports. Their places come from the text alone, so that
+//! one that was dragged too far can be dragged back.
 
-use masonry::Scene;
-use masonry::scene::Wall;
-use masonry::scene::bond::JointThickness;
 use serde::Serialize;
 
 use super::controls::Edit;
 use super::schema::Step;
-use super::text::{Number, Text, Value};
+use super::text::{Number, Text, Value, text_of, value_of};
 
 /// Something in the picture that changes numbers of the text when it is dragged. Lengths are in units of the scene.
 #[derive(Debug, Serialize)]
@@ -42,68 +40,77 @@ impl Target {
     }
 }
 
-/// All handles of a scene that was read from the text.
-pub(super) fn handles(scene: &Scene, text: &Text<'_>) -> Vec<Handle> {
-    let mut list = Vec::new();
-    for (wall, table) in scene.walls.iter().zip(text.tables("walls")) {
-        let openings = table.get_ref().as_table().and_then(|it| it.get("openings"));
-        let openings = openings.and_then(|it| it.get_ref().as_array()).into_iter().flatten();
-        for (index, opening) in openings.enumerate() {
-            list.extend(opening_handles(scene, text, wall, index, opening));
-        }
-    }
-    for (support, table) in scene.supports.iter().zip(text.tables("supports")) {
-        let ends = [("from", support.from), ("to", support.to)];
-        list.extend(ends.into_iter().filter_map(|(key, at)| {
-            let label = format!("{key} of support {}", support.name);
-            Some(end_handle(text, label, at, table.get_ref().as_table()?.get(key)?))
-        }));
-    }
-    list
+/// All handles of a scene.
+pub(super) fn handles(text: &Text<'_>) -> Vec<Handle> {
+    let walls = text.tables("walls").into_iter().filter_map(|table| wall(text, table));
+    let supports = text.tables("supports").into_iter().flat_map(|table| support(text, table));
+    walls.flatten().chain(supports).collect()
+}
+
+/// The handles of the openings of a wall.
+fn wall(text: &Text<'_>, table: &Value<'_>) -> Option<Vec<Handle>> {
+    let name = text_of(table, "name")?;
+    let [left, foot] = pair(text, value_of(table, "origin")?)?.map(|it| it.value);
+    let brick = value_of(table, "brick")?;
+    let height = text.number(value_of(brick, "height")?, &[])?.value;
+    let course = height + bed(text, table).unwrap_or(0.0);
+    let openings = value_of(table, "openings")?.get_ref().as_array()?;
+    let of = |(index, it)| {
+        opening(text, it, [left, foot], course, &format!("{name}, opening {}", index + 1))
+    };
+    Some(openings.iter().enumerate().filter_map(of).flatten().collect())
+}
+
+/// The thickness of the beds of a wall in mortar.
+fn bed(text: &Text<'_>, wall: &Value<'_>) -> Option<f64> {
+    let class = value_of(wall, "joints").and_then(|it| text_of(it, "bed")).unwrap_or("bed");
+    let joint = text.named("joints").into_iter().find(|(name, _)| *name == class)?.1;
+    Some(text.number(value_of(joint, "thickness")?, &[])?.value)
 }
 
 /// The handles of an opening: all of it, its right side and its top.
-fn opening_handles(
-    scene: &Scene,
+fn opening(
     text: &Text<'_>,
-    wall: &Wall,
-    index: usize,
     table: &Value<'_>,
-) -> Vec<Handle> {
-    let Some(opening) = wall.openings.get(index) else { return Vec::new() };
-    let course = wall.brick.height + JointThickness::of(scene, wall).bed;
-    let left = wall.origin[0] + opening.x;
-    let bottom = wall.origin[1] + course * f64::from(opening.course.saturating_sub(1));
-    let (right, top) = (left + opening.width, bottom + course * f64::from(opening.courses));
+    origin: [f64; 2],
+    course: f64,
+    name: &str,
+) -> Option<Vec<Handle>> {
     let path = [Step::Key("walls"), Step::Item, Step::Key("openings"), Step::Item];
-    let target = |key: &str, per_length: f64| {
-        let value = table.get_ref().as_table()?.get(key)?;
-        let number = text.number(value, &[&path[..], &[Step::Key(key)]].concat())?;
-        Some(Target::of(number, per_length))
-    };
-    let handle = |part: &str, low, high, right: Option<Target>, up: Option<Target>| Handle {
-        label: format!("{part} of {}, opening {}", wall.name, index + 1),
+    let number = |key| text.number(value_of(table, key)?, &[&path[..], &[Step::Key(key)]].concat());
+    let (x, width, first, courses) =
+        (number("x")?, number("width")?, number("course"), number("courses")?);
+    let left = origin[0] + x.value;
+    let bottom = origin[1] + course * first.map_or(0.0, |it| it.value - 1.0);
+    let (right, top) = (left + width.value, bottom + course * courses.value);
+    let handle = |part: &str, low, high, right: Option<Number>, up: Option<Number>| Handle {
+        label: format!("{part} of {name}"),
         low,
         high,
-        right: right.into_iter().collect(),
-        up: up.into_iter().collect(),
+        right: right.map(|it| Target::of(it, 1.0)).into_iter().collect(),
+        up: up.map(|it| Target::of(it, 1.0 / course)).into_iter().collect(),
     };
-    let per_course = 1.0 / course;
-    let [x, width] = ["x", "width"].map(|key| target(key, 1.0));
-    let [first, courses] = ["course", "courses"].map(|key| target(key, per_course));
-    vec![
-        handle("place", [left, bottom], [right, top], x, first),
-        handle("right side", [right, bottom], [right, top], width, None),
-        handle("top", [left, top], [right, top], None, courses),
-    ]
+    Some(vec![
+        handle("place", [left, bottom], [right, top], Some(x), first),
+        handle("right side", [right, bottom], [right, top], Some(width), None),
+        handle("top", [left, top], [right, top], None, Some(courses)),
+    ])
 }
 
-/// The end of a support, which is a pair of numbers.
-fn end_handle(text: &Text<'_>, label: String, at: [f64; 2], pair: &Value<'_>) -> Handle {
-    let target = |index: usize| {
-        let number = text.number(pair.get_ref().as_array()?.get(index)?, &[Step::Item])?;
-        Some(Target::of(number, 1.0))
+/// The handles of the ends of a support.
+fn support(text: &Text<'_>, table: &Value<'_>) -> Vec<Handle> {
+    let end = |key: &str| {
+        let at = pair(text, value_of(table, key)?)?;
+        let [right, up] = at.map(|it| vec![Target::of(it, 1.0)]);
+        let label = format!("{key} of support {}", text_of(table, "name")?);
+        let place = at.map(|it| it.value);
+        Some(Handle { label, low: place, high: place, right, up })
     };
-    let [right, up] = [0, 1].map(|index| target(index).into_iter().collect());
-    Handle { label, low: at, high: at, right, up }
+    ["from", "to"].into_iter().filter_map(end).collect()
+}
+
+/// Two numbers.
+fn pair(text: &Text<'_>, value: &Value<'_>) -> Option<[Number; 2]> {
+    let [x, y] = value.get_ref().as_array()?.as_ref() else { return None };
+    Some([text.number(x, &[Step::Item])?, text.number(y, &[Step::Item])?])
 }

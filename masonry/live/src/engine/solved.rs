@@ -30,7 +30,6 @@ pub(super) enum Show {
 #[derive(Debug)]
 pub(super) struct Solved {
     text: String,
-    scene: Scene,
     outcome: Outcome,
     /// The steps of a load history that have pictures.
     frames: Vec<Frame>,
@@ -56,7 +55,11 @@ pub(super) struct Shown {
 }
 
 impl Solved {
-    pub(super) fn new(text: &str, scene: Scene, watch: &mut Watch<'_>) -> Result<Self, SolveError> {
+    pub(super) fn new(
+        text: &str,
+        scene: &Scene,
+        watch: &mut Watch<'_>,
+    ) -> Result<Self, SolveError> {
         let mut observe = |event: Event| match event {
             Event::Step { number, of } => watch(&format_args!("step {number} of {of}")),
             Event::Phase(phase) => watch(&phase),
@@ -67,19 +70,15 @@ impl Solved {
                 watch(&format_args!("iteration {number}, residual {residual:.1e}"))
             }
         };
-        let mut run = Run::new(&scene, &mut observe)?;
+        let mut run = Run::new(scene, &mut observe)?;
         let mut frames = Vec::new();
         // The second loading of a history, which doubles its time, is left out.
         while run.advance(&mut observe)? {
             let is_shown = |it: &Frame| page::is_framed(it.position, run.steps());
             frames.extend(run.frame().filter(is_shown));
         }
-        let reference = ReferenceLines::of(&scene);
-        Ok(Self { text: text.to_owned(), scene, outcome: run.finish(), frames, reference })
-    }
-
-    pub(super) fn scene(&self) -> &Scene {
-        &self.scene
+        let reference = ReferenceLines::of(scene);
+        Ok(Self { text: text.to_owned(), outcome: run.finish(), frames, reference })
     }
 
     pub(super) fn is_of(&self, text: &str) -> bool {

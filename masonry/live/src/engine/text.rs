@@ -156,7 +156,12 @@ impl<'a> Text<'a> {
     }
 }
 
+/// The value of a key in a table.
+pub(super) fn value_of<'t, 'a>(table: &'t Value<'a>, key: &str) -> Option<&'t Value<'a>> {
+    table.get_ref().as_table()?.get(key)
+}
+
 /// The text of a key in a table.
 pub(super) fn text_of<'t>(table: &'t Value<'_>, key: &str) -> Option<&'t str> {
-    table.get_ref().as_table()?.get(key)?.get_ref().as_str()
+    value_of(table, key)?.get_ref().as_str()
 }

@@ -60,7 +60,7 @@ pub enum DeskError {
     System {
         /// The file.
         path: PathBuf,
-        /// What it says.
+        /// The error.
         source: io::Error,
     },
 }

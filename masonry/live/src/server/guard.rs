@@ -1,4 +1,4 @@
-//! Who may ask: pages of this server alone.
+//! Access: only for pages of this server.
 
 use std::io;
 
@@ -7,7 +7,7 @@ use super::http::{Head, Reply};
 /// The header in which a page sends the token. A page of another origin cannot send it without asking first, which is refused.
 const TOKEN: &str = "x-masonry-token";
 
-/// Knows the address of the server and its token.
+/// The address of the server, and its token.
 #[derive(Debug)]
 pub(super) struct Guard {
     port: u16,
@@ -29,7 +29,7 @@ impl Guard {
     /// The reply that says what is missing.
     pub(super) fn check(&self, head: &Head<'_>) -> Result<(), Reply> {
         let host = format!("127.0.0.1:{}", self.port);
-        // A name of another host may lead here too, and the page of that host would then count as one of this server.
+        // The name of another host can lead to this address too, and pages of that host would count as pages of this server.
         if head.header("host") != Some(host.as_str()) {
             return Err(Reply::error(
                 403,
@@ -56,7 +56,7 @@ impl Guard {
         }
     }
 
-    /// Compares all letters, so that the time says nothing about the first that differ.
+    /// Compares all letters, so that the time does not depend on the first that differ.
     fn is_token(&self, given: &str) -> bool {
         let differences = self.token.bytes().zip(given.bytes()).map(|(a, b)| a ^ b);
         given.len() == self.token.len() && differences.fold(0, |all, it| all | it) == 0

@@ -24,22 +24,12 @@ pub(crate) struct Page {
 impl Page {
     /// Opens an address on a screen of a width; `None`, and a line that says so, if there is no browser.
     pub(crate) fn open(address: &str, width: u32) -> Option<Self> {
-        let started = Command::new("chromedriver")
-            .arg("--port=0")
-            .stdout(Stdio::piped())
-            .stderr(Stdio::null())
-            .spawn();
-        let Ok(mut driver) = started else {
-            let missing = "not tested: there is no chromedriver on this machine, by which the page could be operated";
-            say(missing);
+        let Some((driver, host)) = started() else {
+            say(
+                "not tested: there is no chromedriver on this machine, by which the page could be operated",
+            );
             return None;
         };
-        let said = BufReader::new(driver.stdout.take().unwrap()).lines();
-        let port = said.map_while(Result::ok).find_map(|line| {
-            let rest = line.split("successfully on port ").nth(1)?;
-            Some(rest.trim_end_matches('.').to_owned())
-        });
-        let host = format!("127.0.0.1:{}", port.expect("chromedriver names its port"));
         let mut page = Self { driver, host, session: String::new() };
         let arguments = ["--headless", "--no-sandbox", "--disable-gpu", "--hide-scrollbars"];
         let screen = json!({ "width": width, "height": 900, "pixelRatio": 1, "mobile": false, "touch": false });
@@ -181,6 +171,27 @@ impl Page {
         assert!(value["error"].is_null(), "{method} {path}: {value}");
         value
     }
+}
+
+/// A driver and the address at which it listens; `None` if there is none on this machine.
+fn started() -> Option<(Child, String)> {
+    /// Of two that start at once, both may choose the same port, and one ends.
+    const ATTEMPTS: usize = 5;
+    for _ in 0..ATTEMPTS {
+        let mut command = Command::new("chromedriver");
+        let quiet = command.arg("--port=0").stdout(Stdio::piped()).stderr(Stdio::null());
+        let mut driver = quiet.spawn().ok()?;
+        let said = BufReader::new(driver.stdout.take()?).lines();
+        let port = said.map_while(Result::ok).find_map(|line| {
+            let rest = line.split("successfully on port ").nth(1)?;
+            Some(rest.trim_end_matches('.').to_owned())
+        });
+        if let Some(port) = port {
+            return Some((driver, format!("127.0.0.1:{port}")));
+        }
+        driver.wait().ok()?;
+    }
+    panic!("chromedriver has named no port in {ATTEMPTS} attempts");
 }
 
 /// The pointer goes to a place of the window within a frame of the screen.
