@@ -1,5 +1,4 @@
 //! Scenes from drawings.
-#![expect(clippy::needless_pass_by_value, reason = "functions own what they take from Python")]
 
 use masonry_drawing::{Drawing, Format, Unit};
 use masonry_import::{Joints, Options, import};

@@ -116,9 +116,9 @@ impl Outcome {
             }
             mesh.first_cells.push(mesh.blocks.len());
             let mut cell = |nodes: &mut dyn Iterator<Item = usize>| {
-                mesh.nodes.extend(nodes.map(|node| (first + node) as i64));
-                mesh.ends.push(mesh.nodes.len() as i64);
-                mesh.blocks.push(number as i64);
+                mesh.nodes.extend(nodes.map(|node| first + node));
+                mesh.ends.push(mesh.nodes.len());
+                mesh.blocks.push(number);
             };
             match &block.mesh {
                 Some(mesh) => mesh.elements.iter().for_each(|it| cell(&mut it.iter().copied())),
@@ -188,9 +188,9 @@ impl Outcome {
 struct MeshRows {
     points: Vec<Vec<f64>>,
     moves: Vec<Vec<f64>>,
-    nodes: Vec<i64>,
-    ends: Vec<i64>,
-    blocks: Vec<i64>,
+    nodes: Vec<usize>,
+    ends: Vec<usize>,
+    blocks: Vec<usize>,
     /// The first cell of every block.
     first_cells: Vec<usize>,
 }
@@ -201,10 +201,10 @@ pub(crate) struct Mesh {
     points: Py<PyArray2<f64>>,
     displacements: Py<PyArray2<f64>>,
     /// The points of all cells, one after the other.
-    nodes: Py<PyArray1<i64>>,
+    nodes: Py<PyArray1<usize>>,
     /// Where each cell ends in them.
-    ends: Py<PyArray1<i64>>,
-    blocks: Py<PyArray1<i64>>,
+    ends: Py<PyArray1<usize>>,
+    blocks: Py<PyArray1<usize>>,
     /// Two normal stresses, the shear stress and two principal stresses of each cell.
     stresses: Py<PyArray2<f64>>,
 }

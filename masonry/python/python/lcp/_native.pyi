@@ -75,9 +75,9 @@ class Studied:
 class Mesh:
     points: _Vector
     displacements: _Vector
-    nodes: NDArray[np.int64]
-    ends: NDArray[np.int64]
-    blocks: NDArray[np.int64]
+    nodes: NDArray[np.uintp]
+    ends: NDArray[np.uintp]
+    blocks: NDArray[np.uintp]
     stresses: _Vector
 
 class Outcome:

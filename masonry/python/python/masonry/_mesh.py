@@ -44,18 +44,21 @@ class Mesh:
 
     @classmethod
     def _of(cls, native: _native.Mesh) -> Mesh:
-        starts = np.concatenate([[0], native.ends[:-1]]).astype(np.int64)
-        sizes = native.ends - starts
+        nodes, ends, blocks = (
+            it.astype(np.int64) for it in (native.nodes, native.ends, native.blocks)
+        )
+        starts = np.concatenate([[0], ends[:-1]])
+        sizes = ends - starts
         # Cells of one size are an entry.
         groups = [np.flatnonzero(sizes == size) for size in np.unique(sizes)]
-        columns: dict[str, NDArray[Any]] = {"block": native.blocks}
+        columns: dict[str, NDArray[Any]] = {"block": blocks}
         columns.update({name: native.stresses[:, k] for k, name in enumerate(_STRESSES)})
         return cls(
             points=_in_space(native.points),
             cells=[
                 (
                     _NAMES.get(int(sizes[group[0]]), "polygon"),
-                    native.nodes[starts[group][:, None] + np.arange(sizes[group[0]])],
+                    nodes[starts[group][:, None] + np.arange(sizes[group[0]])],
                 )
                 for group in groups
             ],
