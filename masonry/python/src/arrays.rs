@@ -31,7 +31,11 @@ impl Indices<'_> {
 
     /// The indices, each of which has to be at most `largest`.
     fn checked(&self, what: &str, largest: usize) -> PyResult<Vec<usize>> {
-        self.iter().map(|value| checked(what, value, largest)).collect()
+        let mut all = Vec::with_capacity(self.len());
+        for value in self.iter() {
+            all.push(checked(what, value, largest)?);
+        }
+        Ok(all)
     }
 }
 
