@@ -18,7 +18,7 @@ use dense::{positive_definite, wave};
 use faer::Mat;
 use lcp::{HorizontalLcp, Lemke, Solution, Solver};
 use masonry::forms::reduction::Reduction;
-use masonry::forms::{Form, FormKind};
+use masonry::forms::{DenseForm, FormKind};
 use masonry::model::Model;
 use masonry::scene::Scene;
 use masonry::system::System;
@@ -93,5 +93,5 @@ fn panel(name: &str) -> HorizontalLcp {
     let model = Model::from_scene(&scene).expect("the scene is sound");
     let system = System::new(&model).expect("the blocks are sound");
     let reduction = Reduction::new(&system, None).expect("no block is free");
-    Form::new(FormKind::Mixed, &system, &reduction).expect("finite data").problem
+    DenseForm::new(FormKind::Mixed, &system, &reduction).expect("finite data").problem
 }

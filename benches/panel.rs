@@ -11,7 +11,7 @@ use std::time::Duration;
 use criterion::{Criterion, criterion_group, criterion_main};
 use faer::Mat;
 use masonry::forms::reduction::Reduction;
-use masonry::forms::{Form, FormKind};
+use masonry::forms::{DenseForm, FormKind};
 use masonry::method::Request;
 use masonry::method::lemke::Pivots;
 use masonry::model::Model;
@@ -50,7 +50,9 @@ fn panel(c: &mut Criterion) {
     group.bench_function("reduction", |b| b.iter(|| black_box(Reduction::new(&system, None))));
     for kind in [FormKind::Coulomb, FormKind::Mixed] {
         let name = format!("form, {}", kind.name());
-        group.bench_function(name, |b| b.iter(|| black_box(Form::new(kind, &system, &reduction))));
+        group.bench_function(name, |b| {
+            b.iter(|| black_box(DenseForm::new(kind, &system, &reduction)))
+        });
     }
     group.bench_function("solve, mixed form", |b| b.iter(|| black_box(solve())));
     group.bench_function("recovery", |b| {

@@ -19,7 +19,7 @@ use bandwidth::semi_bandwidth;
 use lcp::Status;
 use masonry::analysis::solve::solve;
 use masonry::model::Model;
-use masonry::paper::alm::{Iteration, MortaredWall, Settings};
+use masonry::paper::alm::{AlmSettings, Iteration, MortaredWall};
 use masonry::scene::{Route, Scene};
 
 const PANELS: [&str; 4] = [
@@ -68,7 +68,7 @@ fn compare(name: &str) -> Result<Vec<Iteration>, Box<dyn Error>> {
     let began = Instant::now();
     let wall = MortaredWall::new(&model)?;
     let mut seconds = Vec::new();
-    let settings = Settings { tolerance: TOLERANCE, ..Settings::default() };
+    let settings = AlmSettings { tolerance: TOLERANCE, ..Settings::default() };
     let alm = wall.solve(&settings, &mut |_| {
         seconds.push(began.elapsed().as_secs_f64());
         ControlFlow::Continue(())

@@ -20,7 +20,7 @@ use lcp::Status;
 use masonry::analysis::outcome::Outcome;
 use masonry::analysis::solve::solve;
 use masonry::forms::reduction::Reduction;
-use masonry::forms::{Form, FormKind, Sparse};
+use masonry::forms::{DenseForm, FormKind, Sparse};
 use masonry::model::Model;
 use masonry::scene::{Route, Scene};
 use masonry::system::System;
@@ -197,7 +197,7 @@ fn built(scene: &Scene) -> [usize; 3] {
     let system = System::new(&model).expect("the blocks are sound");
     if scene.solver.route == Route::Lemke.into() {
         let reduction = Reduction::new(&system, None).expect("no block is free");
-        let form = Form::new(FormKind::Coulomb, &system, &reduction).expect("all is finite");
+        let form = DenseForm::new(FormKind::Coulomb, &system, &reduction).expect("all is finite");
         return [0, form.points(), form.order() - form.points()];
     }
     let problem = Sparse::new(&system).expect("all is finite").problem;

@@ -11,5 +11,5 @@ mod dense;
 pub mod reduction;
 mod sparse;
 
-pub use dense::{Form, FormKind, Scale, Start};
+pub use dense::{DenseForm, FormKind, FormScale, Start};
 pub use sparse::Sparse;

@@ -67,7 +67,7 @@ impl Request {
 
 /// The result of a route.
 #[derive(Debug, Clone)]
-pub struct Answer {
+pub struct RouteAnswer {
     /// How it was found.
     pub info: SolveInfo,
     /// Contact forces and relative displacements, when solved.
@@ -85,7 +85,7 @@ pub struct Answer {
     pub account: Option<lcp::Account>,
 }
 
-impl Answer {
+impl RouteAnswer {
     /// An answer without a solution.
     pub(crate) fn new(info: SolveInfo) -> Self {
         Self {

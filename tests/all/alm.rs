@@ -7,12 +7,12 @@ use faer::mat;
 use lcp::{Contact2d, InteriorPoint, Solver, Status};
 use masonry::forms::Sparse;
 use masonry::model::Model;
-use masonry::paper::alm::{self, AlmError, Answer, Settings};
+use masonry::paper::alm::{self, AlmAnswer, AlmError, AlmSettings};
 use masonry::scene::Scene;
 use masonry::system::System;
 
-fn solve(problem: &Contact2d, tolerance: f64) -> Answer {
-    let settings = Settings { tolerance, ..Settings::default() };
+fn solve(problem: &Contact2d, tolerance: f64) -> AlmAnswer {
+    let settings = AlmSettings { tolerance, ..Settings::default() };
     alm::solve(problem, &settings, &mut |_| ControlFlow::Continue(())).unwrap()
 }
 
@@ -42,7 +42,7 @@ fn a_body_sticks_slides_or_leaves() {
         ([0.0, -2.0], 0.25, 0.5, [1.0, 0.0, 0.0, -0.25]),
         ([1.0, 2.0], 0.0, 0.5, [0.0, 0.0, 0.25, 0.5]),
     ] {
-        let Answer { status, state, .. } = solve(&body(load, gap, mu), 1e-10);
+        let AlmAnswer { status, state, .. } = solve(&body(load, gap, mu), 1e-10);
         assert_eq!(status, Status::Solved);
         let found = [state.t_n[0], state.t_t[0], state.u[0], state.u[1]];
         for (found, expected) in found.iter().zip(expected) {
@@ -106,7 +106,7 @@ fn a_body_that_slides_far_hides_nothing() {
     let loads = vec![1.0, 0.0, 1.4, -2.0];
     let (x_0, s_0, mu) = (vec![far, 0.0], vec![0.0; 2], vec![0.0, 0.5]);
     let problem = Contact2d::new(k, loads, normal, tangent, x_0, s_0, mu).unwrap();
-    let Answer { status, state, .. } = solve(&problem, tolerance);
+    let AlmAnswer { status, state, .. } = solve(&problem, tolerance);
     assert_eq!(status, Status::Solved);
     let found =
         [state.t_n[0], state.t_n[1], state.t_t[1], state.gap[0], state.gap[1], state.slip[1]];
@@ -141,17 +141,17 @@ fn units_do_not_matter() {
 #[test]
 fn limits_and_misuse_are_said() {
     let problem = body([1.4, -2.0], 0.0, 0.5);
-    let run = |settings: Settings| {
+    let run = |settings: AlmSettings| {
         alm::solve(&problem, &settings, &mut |_| ControlFlow::Continue(())).unwrap()
     };
-    let few = run(Settings { max_iterations: 2, ..Settings::default() });
+    let few = run(AlmSettings { max_iterations: 2, ..Settings::default() });
     assert_eq!((few.status, few.convergence.len()), (Status::IterationLimit, 2));
-    let cancelled = alm::solve(&problem, &Settings::default(), &mut |_| ControlFlow::Break(()));
+    let cancelled = alm::solve(&problem, &AlmSettings::default(), &mut |_| ControlFlow::Break(()));
     assert_eq!(cancelled.unwrap().status, Status::Cancelled);
-    let none = Settings { tolerance: 0.0, ..Settings::default() };
+    let none = AlmSettings { tolerance: 0.0, ..Settings::default() };
     let error = alm::solve(&problem, &none, &mut |_| ControlFlow::Continue(())).unwrap_err();
     assert_eq!(error, AlmError::Tolerance { tolerance: 0.0 });
     let rigid = panel("stack");
-    let error = alm::solve(&rigid, &Settings::default(), &mut |_| ControlFlow::Continue(()));
+    let error = alm::solve(&rigid, &AlmSettings::default(), &mut |_| ControlFlow::Continue(()));
     assert_eq!(error.unwrap_err(), AlmError::NoStiffness { displacement: 0 });
 }

@@ -19,7 +19,7 @@ use masonry::analysis::outcome::Reaction;
 use masonry::data::state::PointStatus;
 use masonry::model::joints::PointRule;
 use masonry::model::{Model, Plane};
-use masonry::paper::alm::{AlmError, Answer, MortaredState, MortaredWall, Settings};
+use masonry::paper::alm::{AlmAnswer, AlmError, AlmSettings, MortaredState, MortaredWall};
 use masonry::scene::{Brick, Films, Joint, Load, Material, Route, Scene, Support, Wall};
 use masonry_report::summary;
 use nalgebra::{DMatrix, DVector};
@@ -36,8 +36,8 @@ fn panel(name: &str, mesh: [u32; 2]) -> Model {
     Model::from_scene(&scene).unwrap()
 }
 
-fn answer(wall: &MortaredWall, tolerance: f64) -> Answer {
-    let settings = Settings { tolerance, ..Settings::default() };
+fn answer(wall: &MortaredWall, tolerance: f64) -> AlmAnswer {
+    let settings = AlmSettings { tolerance, ..Settings::default() };
     let answer = wall.solve(&settings, &mut |_| ControlFlow::Continue(())).unwrap();
     assert_eq!(answer.status, Status::Solved, "{:?}", answer.convergence.last());
     answer
@@ -210,7 +210,7 @@ fn contact_points_are_the_limit_of_stiff_bricks() {
 #[test]
 fn films_updated_as_printed_do_not_settle() {
     let wall = MortaredWall::new(&panel(PANELS[1], [1, 1])).unwrap();
-    let settings = Settings::default();
+    let settings = AlmSettings::default();
     let by = |updates: Updates| Updated::of(&wall, &settings, &updates);
     let printed = by(Updates::default());
     assert_eq!(printed.settling, Settling::Cycle { period: 2 });

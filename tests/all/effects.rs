@@ -16,7 +16,7 @@ use common::routes::{ROUTES, answer_by, routes_for};
 use common::state;
 use masonry::analysis::solve::{Run, solve};
 use masonry::forms::reduction::Reduction;
-use masonry::forms::{Form, FormKind, Sparse};
+use masonry::forms::{DenseForm, FormKind, Sparse};
 use masonry::model::{Model, PlacedSupport};
 use masonry::plan::{Effect, Plan};
 use masonry::scene::{Films, Joint, Material, Movement, Route, Scene};
@@ -81,7 +81,7 @@ fn joints_without_friction_have_no_tangential_rows() {
             assert!(system.rows.iter().all(|row| row.direction == Direction::Normal));
             assert_eq!(Sparse::new(&system).unwrap().problem.tangent().compute_nnz(), 0);
             let reduction = Reduction::new(&system, None).unwrap();
-            let form = Form::new(FormKind::Coulomb, &system, &reduction).unwrap();
+            let form = DenseForm::new(FormKind::Coulomb, &system, &reduction).unwrap();
             assert_eq!((form.order(), reduction.isostatic.len()), (points, plan.rigid_modes));
 
             // Where one class alone has friction, its points alone have the rows.

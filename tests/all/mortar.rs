@@ -15,7 +15,7 @@ use masonry::forms::Sparse;
 use masonry::ids::FilmId;
 use masonry::model::joints::PointRule;
 use masonry::model::{Body, Model, Plane};
-use masonry::paper::alm::{self, AlmError, Settings};
+use masonry::paper::alm::{self, AlmError, AlmSettings};
 use masonry::plan::Plan;
 use masonry::recover;
 use masonry::scene::{Brick, Joint, Load, Material, Route, Scene, Support, Wall};
@@ -252,9 +252,10 @@ fn the_sparse_problem_has_the_same_answer() {
     assert!(solution.is_solved());
     let found = sparse.problem.recover(&solution.t, &solution.y);
     let observer = &mut |_: &_| ControlFlow::Continue(());
-    let refused = alm::solve(&sparse.problem, &Settings::default(), observer).unwrap_err();
+    let refused = alm::solve(&sparse.problem, &AlmSettings::default(), observer).unwrap_err();
     assert!(matches!(refused, AlmError::Compliance { contact: 0 }), "{refused}");
-    let augmented = alm::solve(&with_free_faces.problem, &Settings::default(), observer).unwrap();
+    let augmented =
+        alm::solve(&with_free_faces.problem, &AlmSettings::default(), observer).unwrap();
     assert_eq!(augmented.status, lcp::Status::Solved);
     let largest = moved(&outcome).iter().fold(0.0, |m: f64, u| m.max(u.abs()));
     for (k, u) in state(&outcome).displacements.iter().enumerate() {

@@ -12,7 +12,7 @@ use masonry::analysis::solve::{SolveError, solve};
 use masonry::data::state::RowState;
 use masonry::data::verdict::{Evidence, Verdict};
 use masonry::forms::reduction::Reduction;
-use masonry::forms::{Form, FormKind};
+use masonry::forms::{DenseForm, FormKind};
 use masonry::model::{Model, Plane};
 use masonry::scene::{self, Block, Brick, Joint, Load, Material, Route, Scene, Support, Wall};
 use masonry::system::{Direction, System};
@@ -124,7 +124,7 @@ fn a_ray_is_no_proof() {
         y: vec![0.0; system.rows.len()],
     };
     for kind in [FormKind::Coulomb, FormKind::StewartTrinkle, FormKind::Mixed] {
-        let form = Form::new(kind, &system, &reduction).unwrap();
+        let form = DenseForm::new(kind, &system, &reduction).unwrap();
         let (t, y) = form.pairs(&jammed, &[0.0; 3], &[]);
         let residuals = form.problem.residuals(&t, &y);
         assert!(residuals.worst() < 1e-14, "{kind:?}: {residuals:?}");

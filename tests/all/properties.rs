@@ -8,7 +8,7 @@ use masonry::analysis::outcome::{Outcome, PointState};
 use masonry::analysis::solve::solve;
 use masonry::data::state::RowState;
 use masonry::forms::reduction::Reduction;
-use masonry::forms::{Form, FormKind};
+use masonry::forms::{DenseForm, FormKind};
 use masonry::model::{Body, ContactPoint, Model, Plane};
 use masonry::scene::bond;
 use masonry::scene::{Block, Brick, Joint, Load, Material, Scene, Support, Wall};
@@ -128,7 +128,7 @@ fn violation(scene: &Scene, rows: &RowState) -> f64 {
     let model = Model::from_scene(scene).unwrap();
     let system = System::new(&model).unwrap();
     let reduction = Reduction::new(&system, None).unwrap();
-    let form = Form::new(FormKind::Coulomb, &system, &reduction).unwrap();
+    let form = DenseForm::new(FormKind::Coulomb, &system, &reduction).unwrap();
     let (t, y) = form.pairs(rows, &[], &[]);
     let (a, b, c) = (form.problem.a(), form.problem.b(), form.problem.c());
     let equation = |i: usize| -> f64 {

@@ -3,8 +3,8 @@
 use faer::mat;
 use faer::sparse::{SparseColMat, Triplet};
 use lcp::{
-    Auto, AutoSettings, BoxedLcp, Contact2d, ContactPoint, Error, Friction2d, Lcp, Lemke, Matrix,
-    MixedLcp, Solver, Vector,
+    Auto, AutoSettings, BoxedLcp, Contact2d, ContactPoint, Error, Friction2d, InteriorPoint, Lcp,
+    Lemke, Matrix, MixedLcp, QuadraticProgram, Solver, Vector,
 };
 use lcp_problems::families;
 
@@ -192,4 +192,23 @@ fn many_problems_come_back_in_their_order() {
     }
     let wrong = Auto::new(AutoSettings { tolerance: 2.0, ..Default::default() });
     assert!(wrong.solve_all(&problems).into_iter().all(|answer| answer.is_err()));
+}
+
+#[test]
+fn no_point_has_a_nan_if_coefficients_have_no_inverse() {
+    let smallest = f64::from_bits(1);
+    for n in 1..=3 {
+        let matrix = Matrix::from_fn(n, n, |_, _| smallest);
+        let problem = Lcp::new(matrix, vec![-1.0; n]).unwrap();
+        let solvers: [&dyn Solver<Lcp>; 4] = [
+            &InteriorPoint::default(),
+            &QuadraticProgram::default(),
+            &Lemke::default(),
+            &Auto::default(),
+        ];
+        for solver in solvers {
+            let solution = solver.solve(&problem).unwrap();
+            assert!(solution.t.iter().chain(&solution.y).all(|it| it.is_finite()), "{solution:?}");
+        }
+    }
 }

@@ -104,7 +104,7 @@ pub fn reactions(model: &Model, forces: &[JointForce]) -> Vec<SupportForce> {
 
 /// How far a joint has opened and slid.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Opening {
+pub struct JointOpening {
     /// The joint.
     pub joint: JointId,
     /// Place along the joint from its start, and width there \[m\], from the start to the end.
@@ -116,10 +116,10 @@ pub struct Opening {
 }
 
 /// All joints that are open or have slid somewhere.
-pub fn openings(model: &Model, contacts: &[PointState]) -> Vec<Opening> {
+pub fn openings(model: &Model, contacts: &[PointState]) -> Vec<JointOpening> {
     let none = NO_WIDTH * size(model);
-    let mut openings: Vec<Opening> = (0..model.joints.len())
-        .map(|index| Opening {
+    let mut openings: Vec<JointOpening> = (0..model.joints.len())
+        .map(|index| JointOpening {
             joint: JointId::new(index),
             widths: Vec::new(),
             widest: 0.0,

@@ -45,7 +45,7 @@ pub use error::LimitError;
 pub use path::{Change, Event, Path, Stand};
 pub use range::{Extremes, Range, ranges, ranges_observed};
 pub use thickness::{Thickness, least_thickness, least_thickness_observed};
-pub use watch::{Bracket, Observer};
+pub use watch::{Bracket, LimitObserver};
 
 use crate::analysis::clock::Clock;
 use crate::data::info::PhaseTime;
@@ -151,7 +151,7 @@ pub fn limit_by(scene: &Scene, laws: Laws) -> Result<Limit, LimitError> {
 pub fn limit_observed<'a>(
     scene: &Scene,
     laws: Laws,
-    observer: &'a mut Observer<'a>,
+    observer: &'a mut LimitObserver<'a>,
 ) -> Result<Limit, LimitError> {
     let mut watch = Watch::new(observer);
     let mut clock = Clock::default();

@@ -256,7 +256,7 @@ pub struct Progress {
 }
 
 /// Hears what is being solved, many times in each solve; after `Break` all further solves are skipped.
-pub type Observer<'a> = dyn FnMut(Progress) -> ControlFlow<()> + 'a;
+pub type StudyObserver<'a> = dyn FnMut(Progress) -> ControlFlow<()> + 'a;
 
 /// Studies a scene and reports to the observer what is being solved.
 ///
@@ -269,7 +269,7 @@ pub type Observer<'a> = dyn FnMut(Progress) -> ControlFlow<()> + 'a;
 pub fn study<'a>(
     scene: &Scene,
     settings: &'a Settings,
-    observer: &'a mut Observer<'a>,
+    observer: &'a mut StudyObserver<'a>,
 ) -> Result<Study, StudyError> {
     settings.validate()?;
     let model = Model::from_scene(scene)?;

@@ -42,7 +42,7 @@ pub enum FormKind {
 
 /// Units of the dimensionless variables of a form.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Scale {
+pub struct FormScale {
     /// Force of one \[N\].
     pub force: f64,
     /// Displacement of one \[m\].
@@ -70,13 +70,13 @@ impl Start {
 
 /// A contact problem `A t + B y = c`, `t >= 0`, `y >= 0`, `t.y = 0`, dimensionless.
 #[derive(Debug, Clone)]
-pub struct Form {
+pub struct DenseForm {
     /// The variables used.
     pub kind: FormKind,
     /// `A`, `B` and `c`.
     pub problem: HorizontalLcp,
     /// The units of force and of displacement.
-    pub scale: Scale,
+    pub scale: FormScale,
     /// Start bases for Lemke's method, the most promising first; empty if `y` itself is the natural start. Any of
     /// them may be singular for a certain `mu`.
     pub starts: Vec<Start>,
@@ -88,14 +88,14 @@ struct Equations {
     a: Mat<f64>,
     b: Mat<f64>,
     c: Vec<f64>,
-    scale: Scale,
+    scale: FormScale,
     layout: Layout,
 }
 
 impl Equations {
     /// The form, with zeros for the coefficients and right-hand sides that are only rounding errors: to who sees no
     /// more than the equations, they are couplings and loads.
-    fn into_form(self, kind: FormKind, starts: Vec<Start>) -> Result<Form, lcp::Error> {
+    fn into_form(self, kind: FormKind, starts: Vec<Start>) -> Result<DenseForm, lcp::Error> {
         let Self { mut a, mut b, mut c, scale, layout } = self;
         let rows: Vec<f64> =
             (0..c.len()).map(|i| largest(a.row(i).iter().chain(b.row(i).iter()))).collect();
@@ -110,11 +110,11 @@ impl Equations {
         for v in &mut c {
             *v = cleared(*v, load);
         }
-        Ok(Form { kind, problem: HorizontalLcp::new(a, b, c)?, scale, starts, layout })
+        Ok(DenseForm { kind, problem: HorizontalLcp::new(a, b, c)?, scale, starts, layout })
     }
 }
 
-impl Form {
+impl DenseForm {
     /// Sets up the problem in the given variables.
     ///
     /// # Errors
@@ -159,7 +159,7 @@ impl Form {
     /// If `t` or `y` is shorter than [`Form::order`].
     pub fn rows(&self, t: &[f64], y: &[f64]) -> RowState {
         let (t_weight, y_weight) = self.kind.tangential_weights();
-        let Scale { force, length } = self.scale;
+        let FormScale { force, length } = self.scale;
         RowState {
             t: self.layout.row_values(t, t_weight * force, force),
             y: self.layout.row_values(y, y_weight * length, length),
@@ -251,7 +251,7 @@ struct Layout {
 }
 
 impl Layout {
-    fn of(system: &System, scale: Scale) -> Self {
+    fn of(system: &System, scale: FormScale) -> Self {
         let in_units = |it: &Friction| {
             let cone = Cone { base: it.cone.base / scale.force, ..it.cone };
             Friction { cone, ..*it }
@@ -286,7 +286,7 @@ impl Layout {
     }
 }
 
-impl Scale {
+impl FormScale {
     /// Units in which the mean of the diagonal of `A` is one and the loads are at most one.
     fn of(reduction: &Reduction) -> Self {
         let or_one = |x: f64| if x > 0.0 { x } else { 1.0 };

@@ -5,7 +5,7 @@
 
 use lcp::{ContactState, Residuals, Status};
 
-use super::{Answer, sparse};
+use super::{RouteAnswer, sparse};
 use crate::data::info::{Attempt, SolveInfo};
 use crate::data::statics::Statics;
 use crate::forms::Sparse;
@@ -17,7 +17,12 @@ use crate::system::System;
 const FORM: &str = "admissible forces";
 
 /// The answer that a decision is, to this tolerance.
-pub fn answer(system: &System, sparse: &Sparse, decision: &Decision, tolerance: f64) -> Answer {
+pub fn answer(
+    system: &System,
+    sparse: &Sparse,
+    decision: &Decision,
+    tolerance: f64,
+) -> RouteAnswer {
     let problem = &sparse.problem;
     let (status, at_rest) = match &decision.statics {
         Statics::Admissible(forces) if system.is_at_rest() => {
@@ -42,7 +47,7 @@ pub fn answer(system: &System, sparse: &Sparse, decision: &Decision, tolerance: 
         ..SolveInfo::new(Route::Forces, status, residuals)
     };
     let state = at_rest.map(|(state, _)| state).filter(|_| status == Status::Solved);
-    Answer {
+    RouteAnswer {
         rows: state.as_ref().map(|state| sparse.rows(state)),
         displacements: state.map(|_| vec![0.0; problem.displacements()]),
         ..Answer::new(info)

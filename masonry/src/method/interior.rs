@@ -9,7 +9,7 @@ use lcp::{
 };
 
 use super::loading::{self, Led, Loading};
-use super::{Answer, Event, Observer, Request, sparse};
+use super::{Event, Observer, Request, RouteAnswer, sparse};
 use crate::data::info::{Attempt, SolveInfo, Way};
 use crate::data::motion::Motion;
 use crate::forms::Sparse;
@@ -33,7 +33,11 @@ impl Interior<'_> {
     ///
     /// # Errors
     /// As [`InteriorPoint`] and [`Evolution`](lcp::Evolution).
-    pub fn solve(&self, request: &Request, observer: Observer<'_>) -> Result<Answer, lcp::Error> {
+    pub fn solve(
+        &self,
+        request: &Request,
+        observer: Observer<'_>,
+    ) -> Result<RouteAnswer, lcp::Error> {
         let problem = &self.sparse.problem;
         let Request { tolerance, max_steps, .. } = *request;
         let may_move = !problem.frictional().is_empty();
@@ -57,10 +61,10 @@ impl Interior<'_> {
     /// Follows the loading, after a path that has no answer.
     fn led(
         &self,
-        path: Option<Answer>,
+        path: Option<RouteAnswer>,
         request: &Request,
         observer: Observer<'_>,
-    ) -> Result<Answer, lcp::Error> {
+    ) -> Result<RouteAnswer, lcp::Error> {
         let Self { sparse, before, mass, reach } = *self;
         let problem = &sparse.problem;
         let tolerance = request.tolerance.min(request.step_tolerance);
@@ -78,7 +82,7 @@ impl Interior<'_> {
         Ok(answer)
     }
 
-    fn answer_of(&self, led: Led) -> Result<Answer, lcp::Error> {
+    fn answer_of(&self, led: Led) -> Result<RouteAnswer, lcp::Error> {
         let Led { ending, evolution, iterations } = led;
         let (state, slips) = (evolution.state().clone(), evolution.slips_before());
         let residuals = self.sparse.problem.slid(slips)?.residuals(&state);

@@ -9,13 +9,13 @@
 use lcp::lemke::{self, AttemptStart};
 use lcp::{Basis, Covering, Lemke, LemkeSettings, Residuals, Side, Status, WarmStart};
 
-use super::{Answer, Event, Observer, Request, auto};
+use super::{Event, Observer, Request, RouteAnswer, auto};
 use crate::data::info::{Attempt, SolveInfo};
 use crate::data::motion::Motion;
 use crate::data::route::Route;
 use crate::data::state::RowState;
 use crate::forms::reduction::Reduction;
-use crate::forms::{Form, FormKind, Start};
+use crate::forms::{DenseForm, FormKind, Start};
 use crate::system::System;
 
 /// Attempts from every start basis of a reduced form: with the covering vector of [`covering`], then a random one.
@@ -44,7 +44,11 @@ impl Pivots<'_> {
     ///
     /// # Errors
     /// As [`Lemke`].
-    pub fn solve(&self, request: &Request, observer: Observer<'_>) -> Result<Answer, lcp::Error> {
+    pub fn solve(
+        &self,
+        request: &Request,
+        observer: Observer<'_>,
+    ) -> Result<RouteAnswer, lcp::Error> {
         let Self { system, reduction, start } = *self;
         let mut search = Pivoting {
             request,
@@ -56,7 +60,7 @@ impl Pivots<'_> {
         };
         let mut answer = None;
         for &kind in auto::forms(request.form) {
-            let form = Form::new(kind, system, reduction)?;
+            let form = DenseForm::new(kind, system, reduction)?;
             let found = search.run(form, observer)?;
             let done = found.rows.is_some() || found.info.status == Status::Cancelled;
             answer = Some(found);
@@ -76,11 +80,11 @@ struct Pivoting<'a> {
     pivots: usize,
     factorisations: usize,
     /// The paper's form, once it was tried: any answer is measured against it.
-    coulomb: Option<Form>,
+    coulomb: Option<DenseForm>,
 }
 
 impl Pivoting<'_> {
-    fn run(&mut self, form: Form, observer: Observer<'_>) -> Result<Answer, lcp::Error> {
+    fn run(&mut self, form: DenseForm, observer: Observer<'_>) -> Result<RouteAnswer, lcp::Error> {
         let mut last = None;
         for (settings, start) in self.settings(&form) {
             let solution = Lemke::new(settings)
@@ -121,11 +125,11 @@ impl Pivoting<'_> {
         let basis = solution.basis.filter(|_| rows.is_some() && kind == FormKind::Coulomb);
         let is_t = |side: &Side| *side == Side::T;
         let basis = basis.map(|it| Start::last(it.sides().iter().map(is_t).collect()));
-        Ok(Answer { rows, motion: ray.map(Motion::Rigid), basis, ..Answer::new(info) })
+        Ok(RouteAnswer { rows, motion: ray.map(Motion::Rigid), basis, ..Answer::new(info) })
     }
 
     /// Settings of every run on a form, and the name of the start basis that they give.
-    fn settings(&self, form: &Form) -> Vec<(LemkeSettings, Option<&'static str>)> {
+    fn settings(&self, form: &DenseForm) -> Vec<(LemkeSettings, Option<&'static str>)> {
         let common = LemkeSettings {
             tolerance: self.request.tolerance,
             max_pivots: self.request.max_pivots,
@@ -149,7 +153,7 @@ impl Pivoting<'_> {
         last.into_iter().chain(&form.starts).map(from_start).collect()
     }
 
-    fn against_coulomb(&self, form: &Form, rows: &RowState) -> Option<Residuals> {
+    fn against_coulomb(&self, form: &DenseForm, rows: &RowState) -> Option<Residuals> {
         let coulomb = self.coulomb.as_ref().filter(|_| form.kind != FormKind::Coulomb)?;
         let (t, mut y) = coulomb.pairs(rows, &[], &[]);
         // Rounding errors must not be measured against each other if nothing moves.
@@ -166,7 +170,7 @@ fn basis(start: &Start) -> Basis {
 /// A covering vector with a meaning: the artificial variable prestresses the isostatic contacts,
 /// opens the others, and, much more, gives cohesion, which opens the friction cone. The paper's form
 /// with ones nearly always ends on a ray after a few pivots if `mu` is large.
-fn covering(form: &Form, start: &Start) -> Vec<f64> {
+fn covering(form: &DenseForm, start: &Start) -> Vec<f64> {
     let cone = |pair: usize| start.t_basic[pair] && pair >= form.points();
     (0..form.order()).map(|pair| if cone(pair) { COHESION } else { 1.0 }).collect()
 }

@@ -13,7 +13,7 @@ use lcp::{
     Residuals, Solver, Status, WarmStart,
 };
 
-use super::{Answer, Event, Observer, Request, sparse};
+use super::{Event, Observer, Request, RouteAnswer, sparse};
 use crate::data::info::{SoftReport, SolveInfo};
 use crate::forms::Sparse;
 use crate::scene::Route;
@@ -51,7 +51,7 @@ pub fn solve(
     sparse: &Sparse,
     request: &Request,
     observer: Observer<'_>,
-) -> Result<Answer, lcp::Error> {
+) -> Result<RouteAnswer, lcp::Error> {
     let stiffness = request.soft.unwrap_or(SOFT);
     let bedding = Bedding::new(&sparse.problem, stiffness)?;
     let mut rounds = Rounds::new(sparse, &bedding, request.tolerance);

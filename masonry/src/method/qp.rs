@@ -7,7 +7,7 @@
 use lcp::qp::SoftConstraints;
 use lcp::{QuadraticProgram, QuadraticProgramSettings, Solver, Status};
 
-use super::{Answer, Observer, Request, sparse};
+use super::{Observer, Request, RouteAnswer, sparse};
 use crate::data::info::SoftReport;
 use crate::forms::Sparse;
 use crate::scene::Route;
@@ -20,7 +20,7 @@ pub fn solve(
     sparse: &Sparse,
     request: &Request,
     observer: Observer<'_>,
-) -> Result<Answer, lcp::Error> {
+) -> Result<RouteAnswer, lcp::Error> {
     let problem = &sparse.problem;
     let soft = request.soft.map(|epsilon| SoftConstraints { epsilon, ..Default::default() });
     let settings =

@@ -21,7 +21,7 @@ pub(crate) const UNKNOWN: Residuals = Residuals {
 };
 
 /// The answer that a solution is.
-pub(crate) fn solved(route: Route, sparse: &Sparse, solution: Solution<Contact2d>) -> Answer {
+pub(crate) fn solved(route: Route, sparse: &Sparse, solution: Solution<Contact2d>) -> RouteAnswer {
     let problem = &sparse.problem;
     // In the rows of the displacements a proof is a motion on which the loads do more work than the contacts can take.
     let motion =
@@ -34,11 +34,11 @@ pub(crate) fn solved(route: Route, sparse: &Sparse, solution: Solution<Contact2d
     };
     let recovered = || problem.recover(&solution.t, &solution.y);
     let state = solution.contact.unwrap_or_else(recovered);
-    Answer { motion: motion.map(Motion::Displacements), ..answer(sparse, info, state) }
+    RouteAnswer { motion: motion.map(Motion::Displacements), ..answer(sparse, info, state) }
 }
 
 /// The answer that a state is, with what is known of its route.
-pub(crate) fn answer(sparse: &Sparse, info: SolveInfo, state: ContactState) -> Answer {
+pub(crate) fn answer(sparse: &Sparse, info: SolveInfo, state: ContactState) -> RouteAnswer {
     let attempt = Attempt::Sparse {
         route: info.route,
         status: info.status,
@@ -47,7 +47,7 @@ pub(crate) fn answer(sparse: &Sparse, info: SolveInfo, state: ContactState) -> A
         residual: info.residuals.worst(),
     };
     let state = (info.status == Status::Solved).then_some(state);
-    Answer {
+    RouteAnswer {
         rows: state.as_ref().map(|state| sparse.rows(state)),
         displacements: state.map(|state| state.u),
         ..Answer::new(SolveInfo {

@@ -45,7 +45,7 @@ const ROUNDING: f64 = 64.0 * f64::EPSILON;
 
 /// The settings of the route.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Settings {
+pub struct AlmSettings {
     /// Largest unbalanced force, relative to the loads, largest residual, and largest estimated error of
     /// displacements and forces, relative to the largest of them, of a solution with status `Solved` \[-\].
     pub tolerance: f64,
@@ -53,7 +53,7 @@ pub struct Settings {
     pub max_iterations: usize,
 }
 
-impl Default for Settings {
+impl Default for AlmSettings {
     fn default() -> Self {
         Self { tolerance: 1e-8, max_iterations: 2000 }
     }
@@ -62,7 +62,7 @@ impl Default for Settings {
 /// The result of the route.
 #[derive(Debug, Clone)]
 #[non_exhaustive]
-pub struct Answer {
+pub struct AlmAnswer {
     /// `Solved`, `IterationLimit`, `Stalled` if every attempt diverged or stopped converging, or `Cancelled`.
     pub status: Status,
     /// Displacements and contact forces of the best iteration.
@@ -154,13 +154,13 @@ pub enum AlmError {
 /// ```
 /// use faer::mat;
 /// use lcp::Contact2d;
-/// use masonry::paper::alm::{self, Settings};
+/// use masonry::paper::alm::{self, AlmSettings};
 /// // A body of weight 2 on springs, pressed on a plane (mu = 0.5) and pushed by 1.4: it slides
 /// let contact = Contact2d::new(
 ///     mat![[4.0, 0.0], [0.0, 4.0]], vec![1.4, -2.0],
 ///     mat![[0.0, 1.0]], mat![[1.0, 0.0]], vec![0.0], vec![0.0], vec![0.5],
 /// )?;
-/// let answer = alm::solve(&contact, &Settings::default(), &mut |_| std::ops::ControlFlow::Continue(()))?;
+/// let answer = alm::solve(&contact, &AlmSettings::default(), &mut |_| std::ops::ControlFlow::Continue(()))?;
 /// assert_eq!(answer.status, lcp::Status::Solved);
 /// assert!((answer.state.t_t[0] + 1.0).abs() < 1e-7);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -170,8 +170,8 @@ pub enum AlmError {
 /// [`AlmError`] for a tolerance out of range and for structures with rigid blocks.
 pub fn solve(
     problem: &Contact2d,
-    settings: &Settings,
+    settings: &AlmSettings,
     observer: &mut dyn FnMut(&Iteration) -> ControlFlow<()>,
-) -> Result<Answer, AlmError> {
+) -> Result<AlmAnswer, AlmError> {
     run::solve(&Structure::new(problem, &[])?, settings, observer)
 }

@@ -6,7 +6,7 @@ use common::enumerate::{solutions, violation};
 use common::{model, model_with, rectangle, support, traction};
 use masonry::analysis::outcome::{PointStatus, State};
 use masonry::forms::reduction::Reduction;
-use masonry::forms::{Form, FormKind};
+use masonry::forms::{DenseForm, FormKind};
 use masonry::model::joints::JointSearch;
 use masonry::model::{Model, PlacedBlock};
 use masonry::recover::{reactions, recover};
@@ -34,8 +34,8 @@ impl Solved {
         Self { model, system, reduction }
     }
 
-    fn form(&self, kind: FormKind) -> Form {
-        Form::new(kind, &self.system, &self.reduction).unwrap()
+    fn form(&self, kind: FormKind) -> DenseForm {
+        DenseForm::new(kind, &self.system, &self.reduction).unwrap()
     }
 
     /// All states that enumeration finds.

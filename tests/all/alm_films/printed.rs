@@ -6,7 +6,7 @@
 use std::ops::ControlFlow;
 
 use lcp::Status;
-use masonry::paper::alm::{Answer, MortaredWall, Parts, Settings, solve};
+use masonry::paper::alm::{AlmAnswer, AlmSettings, MortaredWall, Parts, solve};
 
 use super::updating::{Settling, UpdateHistory, Updating};
 
@@ -41,7 +41,7 @@ pub struct Updated {
     /// The films in the last solution.
     pub parts: Parts,
     /// The last solution.
-    pub answer: Answer,
+    pub answer: AlmAnswer,
     /// How far the ends of the parts moved, update by update: the mean over the films, relative to their
     /// lengths \[-\].
     pub moved: Vec<f64>,
@@ -50,7 +50,7 @@ pub struct Updated {
 impl Updated {
     /// Solves with all films bonded, drops what is not in contact, and so on until nothing changes, or what
     /// changed comes back.
-    pub fn of(wall: &MortaredWall, settings: &Settings, updates: &Updates) -> Self {
+    pub fn of(wall: &MortaredWall, settings: &AlmSettings, updates: &Updates) -> Self {
         let Updates { updating, relaxation, limit, near } = *updates;
         let lengths: Vec<f64> = wall.films().iter().map(|it| it.film.strip().length()).collect();
         let mut history = UpdateHistory::new(lengths.clone(), near);

@@ -4,7 +4,7 @@ use super::common::routes::{ROUTES, routes_for};
 use super::scenes::{boxed, elastic, in_mortar, piers, stack};
 use super::{built, effect};
 use masonry::forms::reduction::Reduction;
-use masonry::forms::{Form, FormKind, Sparse};
+use masonry::forms::{DenseForm, FormKind, Sparse};
 use masonry::model::Model;
 use masonry::plan::Plan;
 use masonry::scene::{self, Films, Joint, Material, Route, Scene};
@@ -53,7 +53,7 @@ fn unknowns(scene: &Scene, route: Route) -> usize {
             scene::Form::Mixed => FormKind::Mixed,
         };
         let reduction = Reduction::new(&system, None).unwrap();
-        return Form::new(kind, &system, &reduction).unwrap().order();
+        return DenseForm::new(kind, &system, &reduction).unwrap().order();
     }
     let problem = Sparse::new(&system).unwrap().problem;
     let strips = model.contacts.iter().any(|it| it.film.is_some_and(|it| it.stretch.is_some()));

@@ -7,7 +7,7 @@ use super::{Columns, Table, Value, members};
 use crate::format::Quantity::{Area, Energy, Force, Length, Millimetres, Percent, Pure, Stress};
 use crate::format::{InUnits, block_name, body_name};
 use crate::hinges::{YieldingJoint, yielding};
-use crate::joints::{self, JointForce, Opening};
+use crate::joints::{self, JointForce, JointOpening};
 use crate::summary::{LoadGroup, Resultant};
 use masonry::data::state::{FilmStress, PointState, PointStatus, Reaction, State};
 use masonry::model::{Body, ContactPoint, Model, PlacedJoint};
@@ -82,7 +82,7 @@ struct JointRow<'a> {
     index: usize,
     joint: &'a PlacedJoint,
     carried: Option<&'a JointForce>,
-    opened: Option<&'a Opening>,
+    opened: Option<&'a JointOpening>,
 }
 
 /// The forces and openings of all joints.

@@ -16,7 +16,7 @@ const DECIMALS: f64 = 5.0;
 
 /// Meaning of equal lengths on an axis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Scale {
+pub enum AxisScale {
     /// Equal differences.
     Linear,
     /// Equal ratios.
@@ -27,7 +27,7 @@ pub enum Scale {
 /// An axis in pixels.
 #[derive(Debug)]
 pub(super) struct Axis {
-    scale: Scale,
+    scale: AxisScale,
     /// Values, or their decimal logarithms.
     ends: [f64; 2],
     pixels: [f64; 2],
@@ -38,22 +38,22 @@ pub(super) struct Axis {
 impl Axis {
     /// The axis on which all values have their place; `None` without values.
     pub(super) fn around(
-        scale: Scale,
+        scale: AxisScale,
         values: impl Iterator<Item = f64> + Clone,
         pixels: [f64; 2],
     ) -> Option<Self> {
         let is_count = values.clone().all(|value| value.fract() == 0.0);
         let (low, high) = (values.clone().reduce(f64::min)?, values.reduce(f64::max)?);
         let (ends, lines) = match scale {
-            Scale::Linear => linear([low, high], is_count),
-            Scale::Logarithmic => logarithmic([low, high].map(f64::log10)),
+            AxisScale::Linear => linear([low, high], is_count),
+            AxisScale::Logarithmic => logarithmic([low, high].map(f64::log10)),
         };
         Some(Self { scale, ends, pixels, lines })
     }
 
     /// The place of a value, a whole pixel, so that files with many curves stay small.
     pub(super) fn at(&self, value: f64) -> f64 {
-        let value = if self.scale == Scale::Logarithmic { value.log10() } else { value };
+        let value = if self.scale == AxisScale::Logarithmic { value.log10() } else { value };
         let share = (value - self.ends[0]) / (self.ends[1] - self.ends[0]);
         (self.pixels[0] + share * (self.pixels[1] - self.pixels[0])).round()
     }
@@ -133,7 +133,7 @@ mod tests {
         for ends in
             [[0.0, 11.0], [-3.2e-3, 1.7e-3], [0.0, 0.9], [1.0, 4.0], [120.0, 180.5], [0.0, 7e5]]
         {
-            let axis = Axis::around(Scale::Linear, ends.into_iter(), [0.0, 100.0]).unwrap();
+            let axis = Axis::around(AxisScale::Linear, ends.into_iter(), [0.0, 100.0]).unwrap();
             let labels: Vec<_> = axis.labels().collect();
             assert!((3..=8).contains(&labels.len()), "{ends:?}: {labels:?}");
             assert!(
@@ -148,7 +148,7 @@ mod tests {
 
     #[test]
     fn a_constant_has_an_axis() {
-        let axis = Axis::around(Scale::Linear, [5.0].into_iter(), [0.0, 100.0]).unwrap();
+        let axis = Axis::around(AxisScale::Linear, [5.0].into_iter(), [0.0, 100.0]).unwrap();
         assert!(axis.ends[0] < 5.0 && axis.ends[1] > 5.0);
     }
 }

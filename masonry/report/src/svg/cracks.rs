@@ -7,7 +7,7 @@ use super::names;
 use super::sheet::{Frame, Sheet, Sides};
 use super::structure::{self, counted};
 use crate::format::{round_down, significant};
-use crate::joints::{self, Opening};
+use crate::joints::{self, JointOpening};
 use masonry::data::state::PointState;
 use masonry::ids::JointId;
 use masonry::model::{Model, PlacedJoint};
@@ -29,7 +29,7 @@ pub fn cracks(title: &str, model: &Model, contacts: &[PointState]) -> Option<Str
 }
 
 /// The width \[m\] of the widest crack; zero if all joints are closed.
-pub(crate) fn widest(openings: &[Opening]) -> f64 {
+pub(crate) fn widest(openings: &[JointOpening]) -> f64 {
     largest(openings.iter().map(|it| it.widest))
 }
 
@@ -63,7 +63,7 @@ struct Piece {
     width: f64,
 }
 
-fn draw_widths(sheet: &mut Sheet, model: &Model, openings: &[Opening], widest_of_all: f64) {
+fn draw_widths(sheet: &mut Sheet, model: &Model, openings: &[JointOpening], widest_of_all: f64) {
     let round = round_down(1e3 * widest_of_all) * 1e-3;
     let class = |piece: &Piece| {
         let is_reached = |least: &f64| piece.width >= least * round * (1.0 - 1e-9);
@@ -112,7 +112,7 @@ fn explain_widths(sheet: &mut Sheet, round: f64, widest: f64, widest_of_all: f64
 
 /// Pieces of a joint: between its points the width changes evenly, beyond them it is that of the next.
 fn pieces<'a>(
-    opening: &'a Opening,
+    opening: &'a JointOpening,
     joint: &'a PlacedJoint,
     frame: &'a Frame,
 ) -> impl Iterator<Item = Piece> + 'a {
@@ -137,10 +137,10 @@ fn width_at(widths: &[[f64; 2]], along: f64) -> f64 {
 }
 
 /// Joints that have slid and are closed somewhere.
-fn draw_slips(sheet: &mut Sheet, model: &Model, openings: &[Opening]) {
+fn draw_slips(sheet: &mut Sheet, model: &Model, openings: &[JointOpening]) {
     let most = largest(openings.iter().map(|it| it.slip));
-    let has_slid = |it: &&Opening| it.slip > 0.0 && it.slip >= LEAST_SLIP * most;
-    let found: Vec<&Opening> = openings.iter().filter(has_slid).collect();
+    let has_slid = |it: &&JointOpening| it.slip > 0.0 && it.slip >= LEAST_SLIP * most;
+    let found: Vec<&JointOpening> = openings.iter().filter(has_slid).collect();
     if found.is_empty() {
         return;
     }

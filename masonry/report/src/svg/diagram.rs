@@ -1,7 +1,7 @@
 //! Diagrams of curves, one or many in a picture, with logarithmic or linear axes.
 
 use super::axis::Axis;
-pub use super::axis::Scale;
+pub use super::axis::AxisScale;
 use super::canvas::{Anchor, Canvas, Pixel, closed, open, wrapped};
 use super::labels::{Label, Labels};
 use super::legend::{self, Legend};
@@ -61,8 +61,8 @@ pub struct Series {
 
 impl Series {
     /// The points that have a place on the axes.
-    fn placed(&self, scale: Scale) -> impl Iterator<Item = [f64; 2]> + Clone {
-        let has_place = move |it: &f64| it.is_finite() && (scale == Scale::Linear || *it > 0.0);
+    fn placed(&self, scale: AxisScale) -> impl Iterator<Item = [f64; 2]> + Clone {
+        let has_place = move |it: &f64| it.is_finite() && (scale == AxisScale::Linear || *it > 0.0);
         self.points.iter().filter(move |it| it.iter().all(has_place)).copied()
     }
 
@@ -125,8 +125,8 @@ pub struct Diagram {
     pub title: String,
     /// Names of the values across and up, with units.
     pub axes: [String; 2],
-    /// Scale of both axes.
-    pub scale: Scale,
+    /// AxisScale of both axes.
+    pub scale: AxisScale,
     /// Values that the vertical axis has at least, whatever the points are.
     pub least: Option<[f64; 2]>,
     /// Later ones are drawn over earlier ones.
@@ -143,7 +143,7 @@ impl Diagram {
         let full = series.iter_mut().filter(|it| it.look == Look::Full);
         full.enumerate().for_each(|(style, it)| it.style = style);
         let axes = axes.map(str::to_owned);
-        Self { axes, scale: Scale::Linear, series, ..Self::default() }
+        Self { axes, scale: AxisScale::Linear, series, ..Self::default() }
     }
 
     fn is_empty(&self) -> bool {
@@ -164,7 +164,7 @@ impl Diagram {
 pub fn picture(title: &str, diagrams: &[Diagram], notes: &[String]) -> Option<String> {
     let drawn: Vec<&Diagram> = diagrams.iter().filter(|it| !it.is_empty()).collect();
     let first = drawn.first()?;
-    let are_linear = first.scale == Scale::Linear;
+    let are_linear = first.scale == AxisScale::Linear;
     let columns = if are_linear || drawn.len() == 1 { 1 } else { 2 };
     let [wide, high] = match (columns, are_linear) {
         (2, _) => ONE_OF_MANY,

@@ -24,13 +24,13 @@ const LONGEST: f64 = 2.2;
 
 /// Sizes of stresses that are compared \[Pa\], from which the length of strokes follows.
 #[derive(Debug, Clone, Copy, Default)]
-pub(crate) struct Scale {
+pub(crate) struct StressScale {
     /// Size that a twentieth of all stresses exceed.
     large: f64,
     largest: f64,
 }
 
-impl Scale {
+impl StressScale {
     /// The scale of the stresses of a state.
     pub(crate) fn of(stresses: &[ElementStress]) -> Self {
         let size = |it: &ElementStress| it.principal.sigma_1.abs().max(it.principal.sigma_2.abs());
@@ -67,14 +67,14 @@ pub fn principal_stresses(
     state: &State,
     reference: Option<&ReferenceLines>,
 ) -> String {
-    compared(&Shown { title, model, state }, reference, Scale::of(&state.stresses))
+    compared(&Shown { title, model, state }, reference, StressScale::of(&state.stresses))
 }
 
 /// The same with strokes as long as those of others.
 pub(crate) fn compared(
     shown: &Shown<'_>,
     reference: Option<&ReferenceLines>,
-    scale: Scale,
+    scale: StressScale,
 ) -> String {
     let Shown { title, model, state } = *shown;
     let title = format!("{title}: principal stresses");
@@ -95,7 +95,7 @@ pub(crate) fn compared(
     sheet.finish()
 }
 
-fn draw_strokes(sheet: &mut Sheet, model: &Model, state: &State, scale: Scale) {
+fn draw_strokes(sheet: &mut Sheet, model: &Model, state: &State, scale: StressScale) {
     let element = element_size(model, state) * sheet.frame.scale;
     let pixels_per_pascal = scale.of_strokes(element);
     let (compression, tension) = extreme_stresses(state);

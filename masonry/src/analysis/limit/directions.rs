@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::{Laws, Limit, LimitError, Observer, limit_observed};
+use super::{Laws, Limit, LimitError, LimitObserver, limit_observed};
 use crate::scene::Scene;
 
 /// The direction under which the structure fails first.
@@ -39,7 +39,7 @@ impl Directions {
         given: &Limit,
         scene: &Scene,
         laws: Laws,
-        observer: &'a mut Observer<'a>,
+        observer: &'a mut LimitObserver<'a>,
     ) -> Result<Limit, LimitError> {
         let group = &given.group;
         let mut opposite = limit_observed(&scene.reversed(group), laws, observer)?;

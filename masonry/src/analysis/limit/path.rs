@@ -6,7 +6,7 @@ mod steps;
 use nalgebra::Vector2;
 
 use events::EventSearch;
-pub use events::{Change, Event};
+pub use events::{Change, JointEvent};
 use steps::{AtRest, StepEnd, Steps};
 
 use super::watch::{Bracket, Watch};
@@ -58,7 +58,7 @@ pub struct Path {
     /// of one.
     pub mechanism: Option<Vec<Vec<Vector2<f64>>>>,
     /// Joints that opened or slid for the first time along the path.
-    pub events: Vec<Event>,
+    pub events: Vec<JointEvent>,
     /// The states at rest, by growing factor.
     pub curve: Vec<Stand>,
 }

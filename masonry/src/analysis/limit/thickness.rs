@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 
 use nalgebra::Vector2;
 
-use super::watch::{Observer, Watch};
+use super::watch::{LimitObserver, Watch};
 use super::{LimitError, rigid};
 use crate::data::state::PointState;
 use crate::data::statics::Statics;
@@ -64,7 +64,7 @@ pub fn least_thickness(scene: &Scene, arch: &str) -> Result<Thickness, LimitErro
 pub fn least_thickness_observed<'a>(
     scene: &Scene,
     arch: &str,
-    observer: &'a mut Observer<'a>,
+    observer: &'a mut LimitObserver<'a>,
 ) -> Result<Thickness, LimitError> {
     scene.check()?;
     let Some(place) = scene.arches.iter().position(|it| it.name == arch) else {

@@ -14,17 +14,17 @@ pub struct Bracket {
 }
 
 /// Called with the bounds many times during the search, which ends with them after `Break`.
-pub type Observer<'a> = dyn FnMut(Bracket) -> ControlFlow<()> + 'a;
+pub type LimitObserver<'a> = dyn FnMut(Bracket) -> ControlFlow<()> + 'a;
 
 /// An observer, what it is told, and whether it has ended the search.
 pub(super) struct Watch<'a> {
-    observer: &'a mut Observer<'a>,
+    observer: &'a mut LimitObserver<'a>,
     pub(super) known: Bracket,
     pub(super) is_ended: bool,
 }
 
 impl<'a> Watch<'a> {
-    pub(super) fn new(observer: &'a mut Observer<'a>) -> Self {
+    pub(super) fn new(observer: &'a mut LimitObserver<'a>) -> Self {
         Self { observer, known: Bracket::default(), is_ended: false }
     }
 

@@ -19,7 +19,7 @@ use crate::method::interior::Interior;
 use crate::method::lemke::Pivots;
 use crate::method::loading;
 use crate::method::statics::{self, Decision};
-use crate::method::{Answer, Observer, Request, pgs, qp};
+use crate::method::{Observer, Request, RouteAnswer, pgs, qp};
 use crate::model::Model;
 #[cfg(feature = "paper")]
 use crate::paper::alm;
@@ -165,7 +165,7 @@ impl<'a> Chain<'a> {
         let reach = loading::reach(&model);
         let interior = Interior { sparse: &sparse, before: None, mass, reach };
         self.may_be_cut = false;
-        let Answer { info, motion, .. } =
+        let RouteAnswer { info, motion, .. } =
             self.timed(|request, observer| interior.solve(request, observer))?;
         best.info.attempts.extend(info.attempts);
         best.info.factorisations += info.factorisations;
@@ -367,7 +367,7 @@ impl<'a> Chain<'a> {
     }
 
     /// The state that an answer on the sparse problem is.
-    fn recovered(&mut self, model: &Model, sparse: &Sparse, answer: &Answer) -> Option<State> {
+    fn recovered(&mut self, model: &Model, sparse: &Sparse, answer: &RouteAnswer) -> Option<State> {
         let Self { system, with_stresses, .. } = *self;
         let (rows, u) = answer.rows.as_ref().zip(answer.displacements.as_deref())?;
         let tolerance = self.request.tolerance;
@@ -387,8 +387,8 @@ impl<'a> Chain<'a> {
 
     fn timed<E: Into<SolveError>>(
         &mut self,
-        solve: impl FnOnce(&Request, Observer<'_>) -> Result<Answer, E>,
-    ) -> Result<Answer, SolveError> {
+        solve: impl FnOnce(&Request, Observer<'_>) -> Result<RouteAnswer, E>,
+    ) -> Result<RouteAnswer, SolveError> {
         let (model, system, observer) = (self.model, self.system, &mut *self.observer);
         let _ = observer(Event::Phase("solve"));
         let began = Instant::now();
@@ -408,9 +408,9 @@ impl<'a> Chain<'a> {
         answer.map_err(E::into)
     }
 
-    fn concluded(&self, model: &Model, answer: Answer, state: Option<State>) -> StepResult {
+    fn concluded(&self, model: &Model, answer: RouteAnswer, state: Option<State>) -> StepResult {
         let checks = state.as_ref().map(|state| Checks::of(model, state));
-        let Answer { mut info, basis, motion, moved, account, .. } = answer;
+        let RouteAnswer { mut info, basis, motion, moved, account, .. } = answer;
         // The complementarity problem may be solved to its tolerance and the structure not: forces and
         // displacements of very different size meet in one vector.
         if checks.as_ref().is_some_and(|checks| !checks.hold(self.request.tolerance)) {

@@ -5,7 +5,7 @@ use web_time::{Duration, Instant};
 
 use lcp::Status;
 
-use super::{End, Figures, Observer, Progress, Record, Settings};
+use super::{End, Figures, Progress, Record, Settings, StudyObserver};
 use crate::analysis::outcome::Outcome;
 use crate::analysis::solve::solve_observed;
 use crate::model::Model;
@@ -74,7 +74,7 @@ enum Beyond {
 /// Solves scenes, and remembers for which time or iterations were not enough.
 pub(super) struct Runner<'a> {
     settings: &'a Settings,
-    observer: &'a mut Observer<'a>,
+    observer: &'a mut StudyObserver<'a>,
     is_interrupted: bool,
     beyond: Vec<(Beyond, Progress)>,
     /// The last record by pivots, with its balances.
@@ -82,7 +82,7 @@ pub(super) struct Runner<'a> {
 }
 
 impl<'a> Runner<'a> {
-    pub(super) fn new(settings: &'a Settings, observer: &'a mut Observer<'a>) -> Self {
+    pub(super) fn new(settings: &'a Settings, observer: &'a mut StudyObserver<'a>) -> Self {
         Self { settings, observer, is_interrupted: false, beyond: Vec::new(), pivots: None }
     }
 

@@ -12,12 +12,12 @@
 
 use faer::Mat;
 
-use super::{Equations, Form, FormKind, Layout, Scale};
+use super::{DenseForm, Equations, FormKind, FormScale, Layout};
 use crate::forms::reduction::Reduction;
 use crate::system::System;
 
-pub(super) fn build(system: &System, reduction: &Reduction) -> Result<Form, lcp::Error> {
-    let scale = Scale::of(reduction);
+pub(super) fn build(system: &System, reduction: &Reduction) -> Result<DenseForm, lcp::Error> {
+    let scale = FormScale::of(reduction);
     let layout = Layout::of(system, scale);
     let rows = layout.rows();
     let g = system.rigid_rows();

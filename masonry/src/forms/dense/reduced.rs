@@ -3,7 +3,7 @@
 
 use faer::Mat;
 
-use super::{Equations, Form, FormKind, Layout, Scale, Start};
+use super::{DenseForm, Equations, FormKind, FormScale, Layout, Start};
 use crate::forms::reduction::Reduction;
 use crate::system::System;
 
@@ -11,8 +11,8 @@ pub(super) fn build(
     kind: FormKind,
     system: &System,
     reduction: &Reduction,
-) -> Result<Form, lcp::Error> {
-    let scale = Scale::of(reduction);
+) -> Result<DenseForm, lcp::Error> {
+    let scale = FormScale::of(reduction);
     let layout = Layout::of(system, scale);
     let order = layout.points + kind.unknowns_per_friction() * layout.friction.len();
     let (a, b) = (Mat::zeros(order, order), Mat::zeros(order, order));

@@ -11,7 +11,7 @@ use lcp::{Contact2d, Matrix};
 
 use super::films::{Segment, attached};
 use super::structure::Structure;
-use super::{AlmError, Answer, Iteration, Settings, run};
+use super::{AlmAnswer, AlmError, AlmSettings, Iteration, run};
 use crate::data::state::{Reaction, State};
 use crate::forms::Sparse;
 use crate::model::{Body, Model};
@@ -27,7 +27,7 @@ use crate::system::System;
 /// use std::ops::ControlFlow;
 /// use masonry::model::joints::PointRule;
 /// use masonry::model::{Model, Plane};
-/// use masonry::paper::alm::{MortaredWall, Settings};
+/// use masonry::paper::alm::{MortaredWall, AlmSettings};
 /// use masonry::scene::{Block, Films, Joint, Load, Material, Scene, Support};
 /// use masonry::units::Units;
 ///
@@ -45,7 +45,7 @@ use crate::system::System;
 ///     .contact_points(PointRule::Gauss)
 ///     .films(Films::Strips);
 /// let wall = MortaredWall::new(&Model::from_scene(&scene)?)?;
-/// let answer = wall.solve(&Settings::default(), &mut |_| ControlFlow::Continue(()))?;
+/// let answer = wall.solve(&AlmSettings::default(), &mut |_| ControlFlow::Continue(()))?;
 /// let state = wall.state(&answer);
 /// assert!((state.reactions[0].fy - 0.4 * 0.2 * 1e6).abs() < 1e-2);
 /// let top = state.state.displacements[0][8];
@@ -115,9 +115,9 @@ impl MortaredWall {
     /// As [`solve`](super::solve).
     pub fn solve(
         &self,
-        settings: &Settings,
+        settings: &AlmSettings,
         observer: &mut dyn FnMut(&Iteration) -> ControlFlow<()>,
-    ) -> Result<Answer, AlmError> {
+    ) -> Result<AlmAnswer, AlmError> {
         run::solve(&Structure::new(&self.sparse.problem, &self.films)?, settings, observer)
     }
 
@@ -153,7 +153,7 @@ impl MortaredWall {
     }
 
     /// The state that belongs to an answer.
-    pub fn state(&self, answer: &Answer) -> MortaredState {
+    pub fn state(&self, answer: &AlmAnswer) -> MortaredState {
         let (u, found) = (&answer.state.u, &answer.state);
         let rows = self.sparse.rows(found);
         let Self { dry, system, sparse, .. } = self;

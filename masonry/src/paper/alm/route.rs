@@ -2,7 +2,7 @@
 
 use lcp::{ContactState, Status};
 
-use super::{AlmError, Answer, Iteration, MortaredWall, Settings, solve};
+use super::{AlmAnswer, AlmError, AlmSettings, Iteration, MortaredWall, solve};
 use crate::data::info::SolveInfo;
 use crate::forms::Sparse;
 use crate::method::{self, Event, Observer, Request, sparse};
@@ -22,9 +22,9 @@ pub fn by_multipliers(
     sparse: &Sparse,
     request: &Request,
     observer: Observer<'_>,
-) -> Result<method::Answer, AlmError> {
+) -> Result<method::RouteAnswer, AlmError> {
     let problem = &sparse.problem;
-    let settings = Settings { tolerance: request.tolerance, ..Settings::default() };
+    let settings = AlmSettings { tolerance: request.tolerance, ..Settings::default() };
     let found = solve(problem, &settings, &mut told(observer))?;
     Ok(answer(sparse, found, problem.displacements()))
 }
@@ -40,9 +40,9 @@ pub fn by_films(
     sparse: &Sparse,
     request: &Request,
     observer: Observer<'_>,
-) -> Result<method::Answer, AlmError> {
+) -> Result<method::RouteAnswer, AlmError> {
     let wall = MortaredWall::new(model)?;
-    let settings = Settings { tolerance: BETTER * request.tolerance, ..Settings::default() };
+    let settings = AlmSettings { tolerance: BETTER * request.tolerance, ..Settings::default() };
     let mut found = wall.solve(&settings, &mut told(observer))?;
     let (t_n, t_t) = at_points(model, &wall, &found.state);
     let tangential: Vec<f64> = system.friction.iter().map(|it| t_t[it.contact.index()]).collect();
@@ -80,7 +80,7 @@ fn told(observer: Observer<'_>) -> impl FnMut(&Iteration) -> std::ops::ControlFl
 }
 
 /// The answer of the route, with the order of its linear systems.
-fn answer(sparse: &Sparse, found: Answer, order: usize) -> method::Answer {
+fn answer(sparse: &Sparse, found: AlmAnswer, order: usize) -> method::RouteAnswer {
     let info = SolveInfo {
         iterations: found.convergence.len(),
         factorisations: found.factorisations,

@@ -7,7 +7,7 @@ use lcp::{Contact2d, ContactState, Status};
 use super::contraction::Contraction;
 use super::matrices::{Matrices, States};
 use super::structure::{Structure, Taken};
-use super::{AlmError, Answer, Iteration, Settings};
+use super::{AlmAnswer, AlmError, AlmSettings, Iteration};
 use crate::data::state::PointStatus;
 
 /// Penalty of a contact, relative to the stiffness that it sees.
@@ -27,9 +27,9 @@ const HALVINGS: usize = 8;
 /// Iterates until the answer is near enough, or to the last attempt.
 pub(super) fn solve(
     structure: &Structure<'_>,
-    settings: &Settings,
+    settings: &AlmSettings,
     observer: &mut dyn FnMut(&Iteration) -> ControlFlow<()>,
-) -> Result<Answer, AlmError> {
+) -> Result<AlmAnswer, AlmError> {
     let tolerance = settings.tolerance;
     if !(tolerance > 0.0 && tolerance < 1.0) {
         return Err(AlmError::Tolerance { tolerance });
@@ -52,7 +52,7 @@ pub(super) fn solve(
     }
     let Iterations { convergence, factorisations, best: Best { state, .. }, .. } = run;
     let residuals = structure.residuals(&state, &structure.taken(&state.u))?;
-    Ok(Answer { status, state, residuals, convergence, factorisations })
+    Ok(AlmAnswer { status, state, residuals, convergence, factorisations })
 }
 
 /// The iteration with the smallest measure.
@@ -72,7 +72,7 @@ impl Best {
 /// A solve in progress.
 struct Iterations<'a> {
     structure: &'a Structure<'a>,
-    settings: &'a Settings,
+    settings: &'a AlmSettings,
     convergence: Vec<Iteration>,
     factorisations: usize,
     best: Best,

@@ -1,17 +1,17 @@
 //! All solutions of a tiny complementarity problem with a nonsingular basis, by trying every basis.
 
-use masonry::forms::Form;
+use masonry::forms::DenseForm;
 use nalgebra::{DMatrix, DVector};
 
 /// All basic solutions `(t, y)`; those of degenerate bases may repeat.
-pub fn solutions(form: &Form) -> Vec<(Vec<f64>, Vec<f64>)> {
+pub fn solutions(form: &DenseForm) -> Vec<(Vec<f64>, Vec<f64>)> {
     let n = form.order();
     assert!(n <= 16, "{n} pairs have too many bases");
     let c = DVector::from_column_slice(form.problem.c());
     (0..1_u32 << n).filter_map(|mask| basic_solution(form, &c, mask)).collect()
 }
 
-fn basic_solution(form: &Form, c: &DVector<f64>, mask: u32) -> Option<(Vec<f64>, Vec<f64>)> {
+fn basic_solution(form: &DenseForm, c: &DVector<f64>, mask: u32) -> Option<(Vec<f64>, Vec<f64>)> {
     let n = form.order();
     let t_basic = |j: usize| mask >> j & 1 == 1;
     let basis = DMatrix::from_fn(n, n, |i, j| {
@@ -28,7 +28,7 @@ fn basic_solution(form: &Form, c: &DVector<f64>, mask: u32) -> Option<(Vec<f64>,
 }
 
 /// Largest violation of `A t + B y = c`, `t >= 0`, `y >= 0`, `t.y = 0`, relative to the variables.
-pub fn violation(form: &Form, t: &[f64], y: &[f64]) -> f64 {
+pub fn violation(form: &DenseForm, t: &[f64], y: &[f64]) -> f64 {
     let size = t.iter().chain(y).fold(1.0, |m: f64, x| m.max(x.abs()));
     let row = |i: usize| {
         let sum: f64 = (0..form.order())

@@ -7,7 +7,7 @@
 use masonry::data::state::RowState;
 use masonry::element::quad4;
 use masonry::forms::reduction::Reduction;
-use masonry::forms::{Form, FormKind};
+use masonry::forms::{DenseForm, FormKind};
 use masonry::geometry;
 use masonry::material::constitutive;
 use masonry::model::{Model, PlacedBlock};
@@ -179,7 +179,7 @@ fn unpack(block: &PlacedBlock, x: &[f64]) -> Vec<Vector2<f64>> {
 pub fn by_reduction(system: &System, reduction: &Reduction, told: &[Told]) -> RowState {
     let rows = system.rows.len();
     let points = system.points();
-    let Form { scale, .. } = Form::new(FormKind::Coulomb, system, reduction).unwrap();
+    let DenseForm { scale, .. } = DenseForm::new(FormKind::Coulomb, system, reduction).unwrap();
     let (force, length) = (scale.force, scale.length);
     let Reduction { isostatic, others, .. } = reduction;
     let mut matrix = DMatrix::zeros(2 * rows, 2 * rows);

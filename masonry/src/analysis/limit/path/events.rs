@@ -41,7 +41,7 @@ impl Change {
 
 /// The first time that a joint opens or slides.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Event {
+pub struct JointEvent {
     /// The joint.
     pub joint: JointId,
     /// The change.
@@ -67,9 +67,9 @@ impl EventSearch<'_> {
         &self,
         mut rests: Vec<(f64, AtRest)>,
         watch: &mut Watch<'_>,
-    ) -> Result<(Vec<Event>, Vec<Stand>), LimitError> {
+    ) -> Result<(Vec<JointEvent>, Vec<Stand>), LimitError> {
         let mut steps = STEPS_BY_POINTS / self.model.contacts.len().max(1);
-        let mut events: Vec<Event> = Vec::new();
+        let mut events: Vec<JointEvent> = Vec::new();
         let mut curve: Vec<Stand> = Vec::new();
         let mut known = vec![Vec::new(); self.model.joints.len()];
         let at_zero = rests.first().map(|(_, rest)| rest.u.clone()).unwrap_or_default();
@@ -96,7 +96,7 @@ impl EventSearch<'_> {
                 for (k, change) in new {
                     known[k].push(change);
                     let (joint, after, before) = (JointId::new(k), *after, factor);
-                    events.push(Event { joint, change, after, before });
+                    events.push(JointEvent { joint, change, after, before });
                 }
             }
             curve.push(self.stand(factor, &rest, &statuses, &at_zero));
