@@ -143,7 +143,7 @@ impl Load {
         self.acceleration.is_some_and(|[along, _]| along != 0.0)
     }
 
-    /// Whether a stage means it by a name: its own or that of its group.
+    /// Whether a stage refers to the load by this name: the name of the load or of its group.
     pub fn is_called(&self, name: &str) -> bool {
         self.name == name || self.group_name() == name
     }
@@ -151,9 +151,9 @@ impl Load {
     /// The kind of the load; `None` if its keys are not those of exactly one kind, which
     /// [`Scene::check`](super::Scene::check) refuses.
     pub fn kind(&self) -> Option<LoadKind<'_>> {
-        let [(kind, _)] = self.given()[..] else { return None };
-        Some(match kind {
-            EDGE => {
+        let [(acts, _)] = self.given()[..] else { return None };
+        Some(match acts {
+            Acts::OnEdges => {
                 let stress = match (self.pressure, self.traction) {
                     (Some(pressure), None) => EdgeStress::Pressure(pressure),
                     (None, Some(traction)) => EdgeStress::Traction(traction),
@@ -161,32 +161,32 @@ impl Load {
                 };
                 LoadKind::Edge { from: self.from?, to: self.to?, stress }
             }
-            POINT => {
+            Acts::AtPlace => {
                 let (block, at, force) = (self.block.as_deref()?, self.at?, self.force?);
                 LoadKind::Force { block, at, force }
             }
-            _ => LoadKind::Acceleration(self.acceleration?),
+            Acts::OnMass => LoadKind::Acceleration(self.acceleration?),
         })
     }
 
-    /// The kinds of which keys are given, each with the first of these keys.
-    pub(super) fn given(&self) -> Vec<(&'static str, &'static str)> {
+    /// The places of action of which keys are given, each with the first of these keys.
+    pub(super) fn given(&self) -> Vec<(Acts, &'static str)> {
         let keys = [
-            (EDGE, "from", self.from.is_some()),
-            (EDGE, "to", self.to.is_some()),
-            (EDGE, "pressure", self.pressure.is_some()),
-            (EDGE, "traction", self.traction.is_some()),
-            (POINT, "block", self.block.is_some()),
-            (POINT, "at", self.at.is_some()),
-            (POINT, "force", self.force.is_some()),
-            (MASS, "acceleration", self.acceleration.is_some()),
+            (Acts::OnEdges, "from", self.from.is_some()),
+            (Acts::OnEdges, "to", self.to.is_some()),
+            (Acts::OnEdges, "pressure", self.pressure.is_some()),
+            (Acts::OnEdges, "traction", self.traction.is_some()),
+            (Acts::AtPlace, "block", self.block.is_some()),
+            (Acts::AtPlace, "at", self.at.is_some()),
+            (Acts::AtPlace, "force", self.force.is_some()),
+            (Acts::OnMass, "acceleration", self.acceleration.is_some()),
         ];
         let mut kinds: Vec<_> = keys
             .into_iter()
             .filter(|(.., given)| *given)
-            .map(|(kind, key, _)| (kind, key))
+            .map(|(acts, key, _)| (acts, key))
             .collect();
-        kinds.dedup_by_key(|(kind, _)| *kind);
+        kinds.dedup_by_key(|(acts, _)| *acts);
         kinds
     }
 
@@ -208,10 +208,24 @@ impl Load {
     }
 }
 
-/// Where a load acts, in messages.
-pub(super) const EDGE: &str = "on edges";
-pub(super) const POINT: &str = "at a place of a block";
-pub(super) const MASS: &str = "on all mass";
+/// Where a load acts, by its keys.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Acts {
+    OnEdges,
+    AtPlace,
+    OnMass,
+}
+
+impl Acts {
+    /// The place of action in messages.
+    pub(super) fn words(self) -> &'static str {
+        match self {
+            Self::OnEdges => "on edges",
+            Self::AtPlace => "at a place of a block",
+            Self::OnMass => "on all mass",
+        }
+    }
+}
 
 /// A mistake in a load.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -219,7 +233,7 @@ pub(super) const MASS: &str = "on all mass";
 pub enum LoadError {
     /// The load of this name is of no kind.
     #[error(
-        "load \"{0}\" does not say what acts: add `from`, `to` and `pressure` or `traction` (on edges), or \
+        "load \"{0}\" has no keys of any kind of load: add `from`, `to` and `pressure` or `traction` (on edges), or \
          `block`, `at` and `force` (at a place of a block), or `acceleration` (on all mass)"
     )]
     NoKind(String),
@@ -277,14 +291,14 @@ pub enum LoadError {
     },
     /// The load of this name accelerates, but nothing has a mass.
     #[error(
-        "load \"{0}\" accelerates nothing, for no material of a block has a density: add `density` to a \
+        "load \"{0}\" accelerates nothing, because no material of a block has a density: add `density` to a \
          material, or remove the load"
     )]
     NoMass(String),
     /// A limit load is asked of the support of this name.
     #[error(
-        "\"{0}\" is a support: its movement is no load, and rigid blocks follow any of it without a limit; name a load \
-         or a group of loads"
+        "\"{0}\" is a support. Rigid blocks follow every movement of a support, so there is no limit: name a load or a \
+         group of loads"
     )]
     Support(String),
     /// A stage names what is a load and a group of others.

@@ -127,7 +127,7 @@ fn what_is_no_weight_has_no_mass() {
     assert!(error(pushed(Material::rigid(), Some(more))).contains("accelerations take none"));
     let mut floating = pushed(Material::rigid(), Some(roofs()[0].clone().mass(1.0)));
     floating.gravity = None;
-    assert!(error(floating).contains("without gravity nothing is a weight"));
+    assert!(error(floating).contains("no load is a weight if gravity is missing or zero"));
     let [roof, _] = roofs();
     assert!(error(pushed(Material::rigid(), Some(roof.mass(1.5)))).contains("from 0 to 1"));
     let text = "name = \"roof\"\nfrom = [0, 1]\nto = [0.2, 1]\npressure = 1\nmass = \"all\"";

@@ -2,7 +2,7 @@
 
 use super::{Check, finite, needed, point, segment, value};
 use crate::scene::groups::WEIGHT;
-use crate::scene::load::{EDGE, POINT};
+use crate::scene::load::Acts;
 use crate::scene::rules::{One, exactly_one, plain, unknown};
 use crate::scene::{Fault, KeyPath, Load, LoadError, Scene, SceneErrorKind, Stage};
 
@@ -18,10 +18,11 @@ impl Scene {
         finite(at.key("factor"), load.factor)?;
         self.check_mass(&at.key("mass"), load)?;
         match load.given().as_slice() {
-            [(EDGE, _)] => check_edge(at, load),
-            [(POINT, key)] => check_force(at, load, key),
-            [_] => self.check_acceleration(at, load),
+            [(Acts::OnEdges, _)] => check_edge(at, load),
+            [(Acts::AtPlace, key)] => check_force(at, load, key),
+            [(Acts::OnMass, _)] => self.check_acceleration(at, load),
             [(one, first), (other, second), ..] => {
+                let (one, other) = (one.words(), other.words());
                 let error = LoadError::TwoKinds { first, one, second, other };
                 Err(Fault::new(at.key(second), error))
             }
@@ -36,7 +37,7 @@ impl Scene {
         let because = if load.acceleration.is_some() {
             "accelerations take none: leave `mass` out"
         } else if part > 0.0 && self.gravity.is_none_or(|it| it.iter().all(|it| *it == 0.0)) {
-            "without gravity nothing is a weight: set `gravity`, or leave `mass` out"
+            "no load is a weight if gravity is missing or zero: set `gravity`, or leave `mass` out"
         } else {
             return Ok(());
         };

@@ -15,7 +15,7 @@ fn keys_of_no_kind_and_of_two_kinds() {
         "",
         "[[loads]]\nname = \"more\"",
         "loads[1]",
-        "load \"more\" does not say what acts: add `from`, `to` and `pressure` or `traction` (on edges), or `block`, \
+        "load \"more\" has no keys of any kind of load: add `from`, `to` and `pressure` or `traction` (on edges), or `block`, \
          `at` and `force` (at a place of a block), or `acceleration` (on all mass)",
     );
     assert_load_error(
@@ -131,7 +131,7 @@ fn an_acceleration_without_mass() {
     ] {
         let error = Scene::from_toml(&text).unwrap_err();
         assert_eq!(error.key(), "loads[1].acceleration");
-        let words = "load \"quake\" accelerates nothing, for no material of a block has a density: add `density` to \
+        let words = "load \"quake\" accelerates nothing, because no material of a block has a density: add `density` to \
                      a material, or remove the load";
         assert!(error.to_string().ends_with(words), "{error}");
         assert!(error.line().is_some());
