@@ -11,7 +11,7 @@ use crate::out_dir::OutDir;
 use crate::page;
 use crate::progress::Progress;
 use masonry::analysis::limit::{
-    Bracket, Directions, Laws, Limit, least_thickness_observed, limit_observed, ranges,
+    Bracket, Directions, Laws, Limit, least_thickness_observed, limit_observed, ranges_observed,
 };
 use masonry::scene::Scene;
 use masonry_report::{self as report, limit as output};
@@ -182,10 +182,12 @@ fn out_dir(args: &LimitArgs) -> Result<Option<OutDir>, Failure> {
 }
 
 fn range(scene: &Scene, json: bool) -> Result<u8, Failure> {
-    let range = ranges(scene)?;
+    interrupt::listen();
+    let range = ranges_observed(scene, &mut |_| interrupt::asked())?;
     let text = if json { output::range_json(&range)? } else { output::range_table(&range) };
     print(&text)?;
-    Ok(if range.supports.is_some() { SOLVED } else { NOT_SOLVED })
+    let is_solved = range.supports.is_some() && !range.is_interrupted;
+    Ok(if is_solved { SOLVED } else { NOT_SOLVED })
 }
 
 fn thickness(scene: &Scene, arch: &str, args: &LimitArgs) -> Result<u8, Failure> {

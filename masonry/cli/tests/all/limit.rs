@@ -7,8 +7,11 @@ use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
-use masonry::analysis::limit::{Bracket, Laws, least_thickness_observed, limit, limit_observed};
+use masonry::analysis::limit::{
+    Bracket, Laws, least_thickness_observed, limit, limit_observed, ranges_observed,
+};
 use masonry::scene::Scene;
+use masonry_report::limit::range_json;
 use serde_json::Value;
 
 fn masonry(arguments: &[&str]) -> Output {
@@ -305,6 +308,17 @@ fn an_interrupted_search_keeps_its_bracket() {
 }
 
 #[test]
+fn an_interrupted_range_has_open_ends() {
+    let arch = Scene::read(&given("arch_semicircular.toml")).unwrap();
+    let range = ranges_observed(&arch, &mut |_| ControlFlow::Break(())).unwrap();
+    let json: Value = serde_json::from_str(&range_json(&range).unwrap()).unwrap();
+    assert_eq!(json["interrupted"], true);
+    assert!(json["sentence"].as_str().unwrap().starts_with("Interrupted. "));
+    let ends = json["range"].as_object().unwrap().values().next().unwrap();
+    assert_eq!(ends["fx"]["min"]["value"], Value::Null);
+}
+
+#[test]
 fn what_falls_without_the_group_is_said_with_the_proof() {
     let scene = blocks(0.3, &stack(1, 1.0, 1.0), SIDEWAYS).replace("[0.0, -10.0]", "[4.0, -10.0]");
     let (object, code) = object(&written("falls", &scene), &[]);
@@ -388,6 +402,7 @@ fn ranges_of_reactions() {
                 [joints.smooth]\nmu = 0.0\n";
     let scene = blocks(0.3, &stack(1, 1.0, 1.0), wall);
     let (single, code) = object(&written("range", &scene), &["--range"]);
+    assert_eq!(single["interrupted"], false);
     let wall_fx = &single["range"]["wall"]["fx"];
     let value = |end: &Value| end["value"].as_f64().unwrap();
     assert!((value(&wall_fx["min"]) + 3.0).abs() < 1e-5 && value(&wall_fx["max"]).abs() < 1e-5);

@@ -123,6 +123,7 @@ fn names_of_units(model: &Model) -> Value {
 
 /// The object of `masonry limit --range --json`, pretty-printed: by support the `min` and `max` of `fx` and `fy`, each with its
 /// `value`, the `bound` that no forces exceed, and whether it is `unlimited`; `range` is null if no forces balance the loads.
+/// Ends that an `interrupted` search did not find are null.
 ///
 /// # Errors
 /// As [`json`].
@@ -135,6 +136,7 @@ pub fn range_json(range: &Range) -> Result<String, serde_json::Error> {
     let supports = range.supports.as_ref();
     Value::Object(members! {
         "sentence": &range.sentence,
+        "interrupted": range.is_interrupted,
         "title": &range.title,
         "units": names_of_units(&range.model),
         "range": supports.map(|list| list.iter().map(components).collect::<Vec<_>>()),
