@@ -24,8 +24,8 @@
 //! ```
 //!
 //! # Data flow
-//! Every stage is a module; each imports only modules above it. Those without a link are internal: tests and benches see
-//! them, and they may change in any version.
+//! Every stage is a module; each imports only modules above it. Those without a link are internal: tests, benches and
+//! `masonry-report` see them, and they may change in any version.
 //!
 //! | module | what it holds |
 //! |---|---|
@@ -42,7 +42,7 @@
 //! | [`history`] | loads and support positions of every step |
 //! | [`verify`] | checks of a state: balances and contact law; the verdict: stands, falls or undecided |
 //! | [`plan`] | the effects that the scene uses, and why |
-//! | [`analysis`] | one solution, load histories, studies of accuracy |
+//! | [`analysis`] | one solution, load histories, limit loads, studies of accuracy |
 //!
 //! Numbers in brackets are equations of N.M. Auciello and A. Ercolano, *Numerical simulation of
 //! masonry panels* (1997). Signs and directions are those of [`model`].

@@ -1,8 +1,8 @@
 //! Figures and tables that a user sees of a result, as one kind of value in the units of the scene, with their names,
 //! quantities and digits.
 //!
-//! Text, pages, JSON and CSV write them as they are; they only have an order of their own for some. So a figure is added
-//! here and nowhere else.
+//! Text, pages, JSON and CSV write them as they are; they only have an order of their own for some. A figure is added
+//! here and nowhere else, except for its unit and its fixed place in `json.rs`.
 
 pub(super) mod history;
 pub(super) mod limit;
