@@ -36,7 +36,7 @@ pub struct JointLaw {
     pub cohesion: f64,
     /// Tensile strength `f_t` \[Pa\], at most `c / mu`.
     pub tension: f64,
-    /// Stiffness `k_n` across and `k_t` along the joint \[Pa/m\]; `None` where the faces do not give way.
+    /// Stiffness `k_n` across and `k_t` along the joint \[Pa/m\]; `None` if the faces do not give way.
     pub stiffness: Option<[f64; 2]>,
 }
 

@@ -111,7 +111,7 @@ fn of_motions<'a>(
     State { displacements, contacts, films, stresses, strain_energy }
 }
 
-/// Stresses of blocks and films, where they are wanted.
+/// Stresses of blocks and films, if they are wanted.
 pub(crate) fn wanted_stresses(
     model: &Model,
     displacements: &[Vec<Vector2<f64>>],
@@ -216,7 +216,7 @@ fn contact_states(
         .iter()
         .enumerate()
         .map(|(k, contact)| {
-            // Overwritten below where there is a tangential row.
+            // Overwritten below if there is a tangential row.
             let tangent = model.joints[contact.joint.index()].tangent();
             let y_t =
                 relative_displacement(model, displacements, contact).dot(&tangent) + contact.slip;

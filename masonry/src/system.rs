@@ -8,7 +8,7 @@
 //! the sum `c` of their compliances in the row of the point ([`Row::compliance`]). The shear of a film is that of the
 //! strip (3.38), `(u_b - u_a).t` and half the thickness times the rotation of both faces, so that no rigid motion
 //! shears it; both faces feel its force in the middle between them. Whole strips of mortar have two terms
-//! more where they touch elastic blocks, by the elongation `e = L u` of the film: a gap of
+//! more if they touch elastic blocks, by the elongation `e = L u` of the film: a gap of
 //! `t_y (C_12 / C_22) eps_x` in the normal row, and the force of a bar, [`StretchRow`],
 //! `K u + L^T D L u = f + C^T t`. Rigid motions have no part in either.
 
@@ -76,7 +76,7 @@ pub struct Row {
     pub direction: Direction,
     /// Initial gap `x_0` or initial slip `s_0` \[m\]; less what tensile strength stretches a joint that gives way.
     pub offset: f64,
-    /// Compression or shear of the joint and of a film in it under a unit of force \[m/N\]; zero where nothing gives way.
+    /// Compression or shear of the joint and of a film in it under a unit of force \[m/N\]; zero if nothing gives way.
     pub compliance: f64,
     /// The difference between the unknown and the force \[N\]: the tensile strength `T` of the point in a normal row,
     /// and zero in the others. It is among the loads on both sides.
@@ -104,7 +104,7 @@ pub struct System {
     pub friction: Vec<Friction>,
     /// The blocks, in the order of the model.
     pub bodies: Vec<BodySystem>,
-    /// The elongations of strips that act on elastic blocks; none where films are compliances.
+    /// The elongations of strips that act on elastic blocks; none if films are compliances.
     pub stretches: Vec<StretchRow>,
     /// Stiffnesses; equal blocks share one.
     pub stiffnesses: Vec<Stiffness>,

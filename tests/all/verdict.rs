@@ -34,7 +34,7 @@ fn rigid_walls_fall_if_loading_does_not_lead_to_rest() {
         assert_eq!(outcome.judgement.evidence, Evidence::Motion);
         assert!(outcome.mechanism.is_some());
         assert!(
-            outcome.judgement.sentence.contains("a prestress"),
+            outcome.judgement.sentence.contains("A prestress"),
             "{}",
             outcome.judgement.sentence
         );

@@ -20,7 +20,7 @@ type Record = BTreeMap<String, BTreeSet<String>>;
 pub(super) struct OutDir {
     path: PathBuf,
     command: &'static str,
-    /// The system unlocks it where a run ends without a word.
+    /// The system unlocks it if a run ends without a word.
     file: File,
     record: Record,
     /// What this run has written or goes on from.
@@ -31,7 +31,7 @@ pub(super) struct OutDir {
 }
 
 impl OutDir {
-    /// Makes a directory where there is none, and locks it until the end of the run, which goes on from a file there or from
+    /// Makes a directory if there is none, and locks it until the end of the run, which goes on from a file there or from
     /// nothing.
     pub(super) fn open(
         path: &Path,

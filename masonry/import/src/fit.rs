@@ -94,7 +94,7 @@ fn check_overlaps(sheet: &Sheet) -> Result<(), ImportError> {
     Ok(())
 }
 
-/// How far one polygon reaches into another, across the edge of the other where that is least.
+/// How far one polygon reaches into another, across the edge of the other over which the depth is least.
 fn depth(one: &[Point2<f64>], other: &[Point2<f64>]) -> f64 {
     let across = |k: usize| {
         let normal = geometry::outward_normal(other, k);

@@ -1,4 +1,4 @@
-//! Joints that are drawn open: blocks grow into them until they meet, and shrink again where mortar lies between them.
+//! Joints that are drawn open: blocks grow into them until they meet, and shrink again if mortar lies between them.
 
 use std::collections::BTreeMap;
 
@@ -162,7 +162,7 @@ fn mortar<'a>(
         let places = gap.stones.map(|k| &sheet.stones[k].place);
         return Err(ImportErrorKind::UnevenMortar { width, usual }.at(&places));
     }
-    // The quotient is exact where the number of tenths is written with few digits.
+    // The quotient is exact if the number of tenths is written with few digits.
     let rounded = (width / STEP).round() / STEP.recip();
     let is_same = (rounded - width).abs() <= 0.5 * sheet.tolerance && rounded > 0.0;
     Ok(Some(if is_same { rounded } else { width }))

@@ -23,7 +23,7 @@ use masonry::model::Model;
 const STYLE: &str = include_str!("page/page.css");
 const SCRIPT: &str = include_str!("page/page.js");
 
-/// The files of pictures to choose from and the names of their switches, in their order: first is what a headline is about.
+/// Files of pictures and names of their switches, in their order. The first that exists is shown first.
 const CHOICES: [(&str, &str); 8] = [
     ("path_mechanism.svg", "Mechanism, path"),
     ("mechanism.svg", "Mechanism"),
@@ -45,7 +45,7 @@ struct Page {
     warnings: Vec<String>,
     /// Names and values.
     figures: Vec<Said>,
-    /// Those that are no choice are curves, which are always seen.
+    /// Pictures without a switch are curves, which are always shown.
     pictures: Vec<Pictures>,
     /// The steps that pictures have; empty or one without a history.
     steps: Vec<Step>,

@@ -83,9 +83,7 @@ pub enum CheckpointError {
         step: usize,
     },
     /// The scene has one step.
-    #[error(
-        "the scene has one step, after which there is nothing to go on with: solve it without a checkpoint"
-    )]
+    #[error("the scene has one step, so a checkpoint is of no use: solve without one")]
     OneStep,
     /// A number is not finite, or forces and displacements are not those of an equilibrium.
     #[error(
@@ -93,7 +91,9 @@ pub enum CheckpointError {
     )]
     NoEquilibrium,
     /// Lists of wrong lengths.
-    #[error("the checkpoint has {found} {what}, and the scene {wanted}: solve from the first step")]
+    #[error(
+        "the checkpoint has {found} {what} and the scene has {wanted}: solve from the first step"
+    )]
     Size {
         /// The name of the list that is too long or too short.
         what: String,
@@ -188,7 +188,7 @@ impl Checkpoint {
     /// Reads a file that [`write`](Self::write) has written; numbers come back to the last digit.
     ///
     /// # Errors
-    /// [`CheckpointError`] with the path, and line and column where the text is wrong.
+    /// [`CheckpointError`] with the path, and with line and column if the text is wrong.
     pub fn read(path: &Path) -> Result<Self, CheckpointError> {
         let path_buf = || path.to_owned();
         let text = fs::read_to_string(path)
@@ -245,7 +245,7 @@ impl Checkpoint {
     }
 }
 
-/// An object whose end is left out, with its checksum: FNV-1a of 64 bits, in which every byte counts.
+/// The object without its closing brace, followed by its checksum (FNV-1a, 64 bits).
 fn sealed(data: &str) -> String {
     let checksum = data.bytes().fold(0xcbf2_9ce4_8422_2325, |hash: u64, byte| {
         (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3)

@@ -91,7 +91,7 @@ impl From<AlmError> for SolveError {
 }
 
 impl SolveError {
-    /// Whether a route does not treat the problem, so that another one may.
+    /// Whether the route refuses the problem; another route may treat it.
     pub fn is_refusal(&self) -> bool {
         matches!(self, Self::NotTreated { .. } | Self::Solver(lcp::Error::NotTreated { .. }))
     }
@@ -117,8 +117,9 @@ impl SolveError {
 /// ```
 ///
 /// # Errors
-/// [`SolveError`] when the scene is wrong. When the scene is right but no equilibrium was found,
-/// the outcome says so in [`SolveInfo::status`](crate::analysis::outcome::SolveInfo::status).
+/// [`SolveError`] if the scene is wrong.
+/// [`SolveInfo::status`](crate::analysis::outcome::SolveInfo::status) is not `Solved` if the scene is right and no equilibrium
+/// was found.
 pub fn solve(scene: &Scene) -> Result<Outcome, SolveError> {
     solve_observed(scene, &mut |_| ControlFlow::Continue(()))
 }

@@ -61,7 +61,7 @@ use runs::Runner;
 /// Routes, tolerances and meshes of a study, and the time limit of a solve.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Settings {
-    /// The routes; those that do not treat the scene say so in their records.
+    /// The routes; the record of a route that does not treat the scene has the reason.
     pub routes: Vec<Route>,
     /// The tolerances \[-\], between 0 and 1.
     pub tolerances: Vec<f64>,

@@ -32,7 +32,7 @@ pub struct SolveInfo {
     pub status: lcp::Status,
     /// The route whose result is reported.
     pub route: Route,
-    /// Why it was its turn.
+    /// Why the route was tried at its place in the order.
     pub because: String,
     /// All routes that were tried, in order.
     pub routes: Vec<RouteEnd>,
@@ -164,7 +164,7 @@ pub struct Iteration {
     pub changes: usize,
 }
 
-/// A number; infinite where a file has none, since JSON has no infinite numbers.
+/// A number; infinite if the file has none, since JSON has no infinite numbers.
 fn or_infinite<'de, D: Deserializer<'de>>(from: D) -> Result<f64, D::Error> {
     Ok(Option::deserialize(from)?.unwrap_or(f64::INFINITY))
 }
@@ -175,7 +175,7 @@ fn or_infinite<'de, D: Deserializer<'de>>(from: D) -> Result<f64, D::Error> {
 pub struct RouteEnd {
     /// The route.
     pub route: Route,
-    /// Why it was its turn.
+    /// Why the route was tried at its place in the order.
     pub because: String,
     /// The status and result of the route; or the reason of a refusal.
     pub end: String,
@@ -194,8 +194,8 @@ pub struct SoftReport {
     pub rounds: usize,
     /// The share of the load that they carried at first \[-\].
     pub share: f64,
-    /// The error of the displacements that they caused at first, relative to these \[-\]; `None` where it
-    /// is not known, as where nothing moves.
+    /// The error of the displacements that they caused at first, relative to these \[-\]; `None` if the error is unknown, for
+    /// example if nothing moves.
     pub displacement_error: Option<f64>,
 }
 

@@ -67,7 +67,7 @@ pub struct FilmStress {
     pub film: FilmId,
     /// The contact point.
     pub contact: ContactId,
-    /// Stress along the joint \[Pa\], tension positive; `None` where films act across their joints only.
+    /// Stress along the joint \[Pa\], tension positive; `None` if films act across their joints only.
     pub sigma_x: Option<f64>,
     /// Stress across the joint \[Pa\], tension positive: never above zero.
     pub sigma_y: f64,

@@ -6,11 +6,11 @@ use serde::Serialize;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Verdict {
-    /// It does.
+    /// The wall stands.
     Stands,
-    /// It does not.
+    /// The wall falls.
     Falls,
-    /// Neither is known.
+    /// Neither an equilibrium nor a failure was found.
     Undecided,
 }
 

@@ -37,7 +37,7 @@ fn jacobian(nodes: &Nodes, place: [f64; 2]) -> Matrix2<f64> {
 }
 
 /// The strain-displacement matrix and the determinant of the Jacobian at a place of the reference
-/// square; `None` where the map is not invertible with positive orientation.
+/// square; `None` if the map is not invertible with positive orientation.
 pub fn strain_matrix(nodes: &Nodes, place: [f64; 2]) -> Option<(StrainMatrix, f64)> {
     let jacobian = jacobian(nodes, place);
     let determinant = jacobian.determinant();

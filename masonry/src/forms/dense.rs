@@ -1,7 +1,7 @@
 //! Forms of the contact problem as a linear complementarity problem `A t + B y = c`.
 //!
 //! Every form has pairs `(t_i, y_i)` of nonnegative, complementary variables: forces on the `t` side and
-//! displacements on the `y` side, except where a form says otherwise. All are dimensionless: forces are
+//! displacements on the `y` side, unless a form says otherwise. All are dimensionless: forces are
 //! divided by [`Scale::force`] and displacements by [`Scale::length`], so that the coefficients of `A`
 //! are of order one whatever the units and moduli. [`Form::rows`] leads back to forces and
 //! relative displacements in SI units.

@@ -267,7 +267,7 @@ impl Sparse {
         self.problem.points() - of_cohesion
     }
 
-    /// The state on the statuses of the contacts of another one, solved anew with twice the digits; `None` where
+    /// The state on the statuses of the contacts of another one, solved anew with twice the digits; `None` if
     /// that is no solution to this tolerance either.
     pub fn refined(
         &self,

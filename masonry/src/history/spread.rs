@@ -44,7 +44,7 @@ pub struct Spread {
     pub dissipation: f64,
 }
 
-/// The state after some steps of a history, as far as it is compared.
+/// The parts of the state at the end of a history that are compared.
 pub(crate) struct AtEnd<'a> {
     pub(crate) model: &'a Model,
     pub(crate) state: &'a State,

@@ -109,7 +109,7 @@ pub(crate) fn forms(form: Form) -> &'static [FormKind] {
 /// Pivots of one attempt, in multiples of the order: two to three are usual.
 const PIVOTS: usize = 5;
 
-/// How many pivots an attempt on a problem of this order may take, where other routes follow.
+/// How many pivots an attempt on a problem of this order may take, if other routes follow.
 pub(crate) fn max_pivots(route: Route, order: usize, routes: usize) -> Option<usize> {
     (route == Route::Lemke && routes > 1).then_some(PIVOTS * order)
 }
@@ -126,14 +126,14 @@ pub(crate) fn may_be_cut(mut later: impl Iterator<Item = Route>) -> bool {
     later.any(|route| route == Route::Forces)
 }
 
-/// Whether the verdict needs to know if any forces balance the loads: without an answer, with one far away, and of blocks at
-/// rest, of which such forces are all there is to know, whatever tolerance another route has found them to.
+/// Whether the verdict needs to know if any forces balance the loads: if there is no answer, if the answer is far away, or if
+/// blocks are at rest. Such forces are all there is to know of blocks at rest, at whatever tolerance another route found them.
 pub(crate) fn needs_statics(status: Status, is_far: bool, at_rest: bool) -> bool {
     status != Status::Cancelled && (status != Status::Solved || is_far || at_rest)
 }
 
-/// Whether the verdict needs to know where loading from a state without stresses leads: blocks at rest with friction may be
-/// held by a prestress that nothing brings about.
+/// Whether the verdict needs to know if loading from a state without stresses leads to rest: a prestress that nothing brings
+/// about may hold blocks at rest with friction.
 pub(crate) fn needs_loading(status: Status, at_rest: bool, has_friction: bool) -> bool {
     status == Status::Solved && at_rest && has_friction
 }

@@ -54,7 +54,7 @@ pub fn answer(
     }
 }
 
-/// The state at rest under forces of all rows; brought to the last digit where that is needed.
+/// The state at rest under forces of all rows; brought to the last digit if that is needed.
 fn rested(
     system: &System,
     sparse: &Sparse,

@@ -24,7 +24,7 @@ const REACH: f64 = 0.25;
 const STEPS_BEFORE_MOTION: usize = 60;
 /// The largest tolerance of steps: forces are judged against the largest of all there, and in the end, to 1e-9, against those on
 /// each block. Measured on walls of 100 to 1000 bricks: these are up to some hundred times smaller. Finer steps cost 5 % more, so
-/// that they are taken only where blocks need them.
+/// that they are taken only if blocks need them.
 pub(crate) const STEP_TOLERANCE: f64 = 1e-11;
 /// Factorisations of one loading. Measured on walls of 1000 bricks: those that fall slowly take up to 14 351, settlements in a
 /// single step up to 15 917.

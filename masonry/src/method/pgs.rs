@@ -131,7 +131,7 @@ impl<'a> Rounds<'a> {
         self.residuals.merit().max(self.share)
     }
 
-    /// Takes the same forces with all bodies at rest, if that is nearer to a solution: where nothing is
+    /// Takes the same forces with all bodies at rest, if that is nearer to a solution: if nothing is
     /// elastic, motions are rounding errors, which residuals would compare with each other.
     fn rest(&mut self) {
         let ContactState { u, t_n, t_t, .. } = &self.state;

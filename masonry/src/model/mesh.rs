@@ -74,7 +74,8 @@ impl BlockMesh {
         [(self.edge_node(edge, first), 1.0 - s), (self.edge_node(edge, first + 1), s)]
     }
 
-    /// The coordinates of a point \[m\] in the block ([`geometry::reference`]), 0 or 1 exactly where rounding misses these.
+    /// The coordinates of a point \[m\] in the block ([`geometry::reference`]); exactly 0 or 1 if the point lies on an edge
+    /// up to rounding.
     pub fn reference(&self, point: Point2<f64>) -> [f64; 2] {
         geometry::reference(&self.corners(), point).map(geometry::snap)
     }

@@ -99,7 +99,7 @@ impl Called<'_> {
         self.beside(name, because, &without)
     }
 
-    /// A constant on the right-hand side by pivots; on the sparse routes a point and a displacement more.
+    /// Cohesion is a constant on the right-hand side by pivots, and one more point and displacement on the sparse routes.
     fn cohesion(&self) -> Effect {
         let used = self.classes(|law| law.cohesion > 0.0);
         if used.is_empty() {
@@ -357,7 +357,7 @@ impl Called<'_> {
         self.model.blocks.iter().filter(|block| block.density.is_some()).count()
     }
 
-    /// The effect of the loads of a kind, which act at a place; or none, since no load is `missing`.
+    /// The effect of the loads of one kind, which act at `place`; off if there is none, with the words `missing`.
     fn loads(
         &self,
         name: &'static str,

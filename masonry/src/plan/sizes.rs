@@ -28,11 +28,11 @@ pub(super) struct Sizes {
 pub(super) struct Point {
     /// A normal force.
     pub(super) presses: bool,
-    /// Resistance to sliding by the normal force,
+    /// Resistance to sliding that grows with the normal force.
     pub(super) coulomb: bool,
-    /// and without one.
+    /// Resistance to sliding without a normal force.
     pub(super) cohesive: bool,
-    /// Whether it gives way along the joint if it does across.
+    /// Whether the point, if it gives way across the joint, also gives way along the joint.
     pub(super) sheared: bool,
     /// A film of mortar, which gives way.
     pub(super) film: bool,

@@ -28,7 +28,8 @@ pub enum ArchError {
     },
     /// A pointed arch with a voussoir at the crown.
     #[error(
-        "{count} voussoirs would put one across the point, where it is not convex: give an even number, such as {even}"
+        "an odd number of voussoirs ({count}) puts one on the crown, and that voussoir is not convex: give an even \
+         number, such as {even}"
     )]
     Odd {
         /// How many.
@@ -37,7 +38,7 @@ pub enum ArchError {
         even: u32,
     },
     /// A joint whose ends coincide.
-    #[error("the joint has no length, for both of its ends are [{x}, {y}]: move one of them")]
+    #[error("the joint has no length, because both of its ends are [{x}, {y}]: move one of them")]
     NoLength {
         /// Coordinate of the ends.
         x: f64,

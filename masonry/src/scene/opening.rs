@@ -103,7 +103,7 @@ pub enum OpeningError {
         first: u32,
         /// Courses of the wall.
         wall: u32,
-        /// How many there are from its lowest one on.
+        /// Courses of the wall from the lowest course of the opening upwards.
         room: u32,
     },
     /// The lintel rests on nothing.

@@ -66,8 +66,8 @@ pub struct Checks {
     pub cone_violation: f64,
     /// Deepest interpenetration, relative to the lengths of the blocks that meet.
     pub penetration: f64,
-    /// Forces where there should be none: across a gap, or, where a point slides in the step, other than the bound
-    /// against the sliding. The smaller of the gap or slip, as a length, and of the error of the force.
+    /// Forces across gaps, and tangential forces off the bound at points that slide in the step. The measure is the smaller of
+    /// the gap or slip (as a length) and the error of the force.
     pub complementarity: f64,
     /// The error of `f.u + t.y = 2 U + t.x`: work of the loads and of forces on gaps and slips, strain energy, work
     /// on initial gaps and slips. And the work of friction if it is positive. Relative to the sum of the sizes of all
@@ -179,7 +179,7 @@ fn known(part: f64, whole: f64, rounding: f64) -> f64 {
     if part <= rounding { error.min(LARGEST_ERROR) } else { error }
 }
 
-/// A part of a whole, zero where it is not positive; infinite where one of them is no number, or there is no whole.
+/// A part divided by the whole: zero if the part is not positive, infinite if either is not a number or the whole is zero.
 fn relative(part: f64, whole: f64) -> f64 {
     if part <= 0.0 {
         0.0

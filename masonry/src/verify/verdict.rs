@@ -100,7 +100,7 @@ fn warnings(known: &Findings<'_>, verdict: Verdict, movement: Option<Drift>) -> 
         let blocks = "Displacements, stresses and the resultants of joints that do not meet in a corner are \
                       not affected.";
         let rigid = "One of many sets that balance the loads is shown. Joints that slide while the load grows \
-                     may bring the wall down earlier; `masonry limit` follows the load.";
+                     may bring the wall down below the load that these forces carry; `masonry limit` computes that load.";
         list.push(format!(
             "Forces at {} of {} contact points are not unique. {}",
             known.circulating,

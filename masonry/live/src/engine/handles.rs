@@ -29,7 +29,7 @@ struct Target {
     value: f64,
     whole: bool,
     least: Option<f64>,
-    /// How much it grows where the handle goes on by one unit of length.
+    /// How much it grows if the handle goes on by one unit of length.
     per_length: f64,
 }
 

@@ -32,7 +32,7 @@ pub(super) fn section(title: &str, note: &str, table: &Table) -> String {
     )
 }
 
-/// Words are sorted as such; nothing is sorted last.
+/// Words sort alphabetically; empty cells sort last.
 fn cell(value: &Value, column: &Column) -> String {
     let number = |value: f64, text: &str| {
         format!("<td class=\"number\" data-value=\"{value:e}\">{}</td>", escaped(text))

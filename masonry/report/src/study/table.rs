@@ -46,7 +46,7 @@ fn records(study: &Study, mesh: &Mesh) -> String {
     wide(&figures::records(study, of_mesh).only(RECORDS))
 }
 
-/// The solves that were skipped: for each route and reason the meshes.
+/// The skipped solves: the meshes by route and reason.
 fn not_tried(study: &Study) -> Vec<String> {
     let mut all: Vec<(&str, &str, Vec<u32>)> = Vec::new();
     for record in &study.records {

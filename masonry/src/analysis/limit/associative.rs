@@ -22,10 +22,10 @@ pub enum Answer {
     /// Forces within friction carry any factor.
     #[serde(rename = "does not fail")]
     Unlimited,
-    /// Without the group no forces within friction balance the loads.
+    /// No forces within friction balance the loads without the group.
     #[serde(rename = "falls without the group")]
     Falls,
-    /// None of these was found.
+    /// Neither a limit load nor a proof of another answer was found.
     #[serde(rename = "undecided")]
     Undecided,
 }
@@ -56,7 +56,7 @@ pub struct Associative {
     pub rest: Option<Rest>,
 }
 
-/// The factors \[-\] of a structure some blocks of which are held.
+/// The factors \[-\] of a structure in which some blocks are held.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Rest {
     /// The largest factor for which forces were found that balance the loads on the other blocks.
@@ -141,8 +141,7 @@ pub(super) fn of(
     Ok(Associative { load_factor, bound, size, mechanism, rest, ..found })
 }
 
-/// Blocks that move are a small part of a structure up to this share of all, and if there is one of them alone. Chosen: what is
-/// more is a collapse, of which the rest is no comfort.
+/// A mechanism is partial if one block moves alone, or at most this share of all blocks. Chosen: a larger share is a collapse.
 const SMALL_PART: f64 = 0.1;
 
 fn is_small_part(moving: &[bool]) -> bool {

@@ -98,8 +98,8 @@ pub fn ranges_observed(
         let [fx, fy] = [extremes(Vector2::x())?, extremes(Vector2::y())?];
         supports.push(Extremes { support: support.name.clone(), fx, fy });
     }
-    let sentence = "Reactions lie between the least and the largest that forces within friction allow; each limit is \
-                    reached by some of them, not all at once.";
+    let sentence = "Reactions lie between the least and the largest that forces within friction allow. Each end of a range \
+                    is reached by some forces within friction; all ends are not reached at once.";
     let is_interrupted = is_interrupted.get();
     let interrupted = if is_interrupted { "Interrupted. " } else { "" };
     let sentence = format!("{interrupted}{sentence}");

@@ -39,11 +39,11 @@ pub struct Thickness {
     pub proved: bool,
     /// Whether the observer has ended the search.
     pub is_interrupted: bool,
-    /// The structure that stands, or that of the scene where none does.
+    /// The structure that stands, or that of the scene if none does.
     pub model: Model,
     /// The forces of the structure that stands, point by point; gaps and slips are zero.
     pub forces: Option<Vec<PointState>>,
-    /// The motion in which the thicker of those that fall does so: rates of the corners of every block.
+    /// The mechanism at `falls`: rates of the corners of every block.
     pub mechanism: Option<Vec<Vec<Vector2<f64>>>>,
     /// The answer in the words of an engineer.
     pub sentence: String,
@@ -156,11 +156,11 @@ impl Bisection<'_> {
         let sentence = match (thinner, thicker) {
             (Some(falls), Some(stands)) if proved => format!(
                 "Arch \"{arch}\" needs a thickness of {stands} {name}: forces within friction balance the loads \
-                 then, and none do at {falls} {name} (proved)."
+                 at this thickness, and no forces do at {falls} {name} (proved)."
             ),
             (Some(falls), Some(stands)) => format!(
                 "Arch \"{arch}\" stands at a thickness of {stands} {name}, and falls at {falls} {name} \
-                 (proved); between them it is not known."
+                 (proved); thicknesses between {falls} and {stands} {name} are undecided."
             ),
             (Some(falls), None) => format!(
                 "Arch \"{arch}\" stands at none of the thicknesses that were tried, up to {falls} {name}, under \

@@ -288,7 +288,7 @@ impl<'a> Chain<'a> {
             #[cfg(not(feature = "paper"))]
             Route::Alm => {
                 let reason =
-                    "it is built with the feature `paper`: add this feature, or take another route";
+                    "the route needs the feature `paper`: add this feature, or take another route";
                 return Err(SolveError::NotTreated { route, reason: reason.to_owned() });
             }
             _ => {

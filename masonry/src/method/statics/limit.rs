@@ -36,7 +36,7 @@ pub struct Bounds {
 }
 
 impl Bounds {
-    /// The distance of the two bounds, where there are both.
+    /// The distance of the two bounds, if both are known.
     pub fn gap(&self) -> Option<f64> {
         Some(self.above.as_ref()?.0 - self.below.as_ref()?.0)
     }
@@ -96,7 +96,7 @@ pub fn extreme(
 }
 
 impl Growing<'_> {
-    /// The largest factor that is not negative, between bounds. There are none where no factor can be carried, or any.
+    /// The largest factor that is not negative, between bounds. There are no bounds if no factor or every factor is carried.
     ///
     /// # Errors
     /// [`lcp::Error::NotFinite`] when the data of the scene overflow.
@@ -129,7 +129,7 @@ impl Growing<'_> {
         Ok(bounds)
     }
 
-    /// The factor under which what grows is as large as the loads that stay; one where there are none.
+    /// The factor under which what grows is as large as the loads that stay; one if none stay.
     fn size(&self) -> f64 {
         let size = rounding::largest(self.system.resultants()) / rounding::largest(self.growth);
         if size > 0.0 && size.is_finite() { size } else { 1.0 }

@@ -26,7 +26,7 @@ pub(super) struct Program<'a> {
     /// `E`: edges, then for every force `q` of constant friction `q' = C_0 + q` and `q'' = C_0 - q`, with
     /// `q' + q'' = 2 C_0` below the balance of the blocks. Last, if loads grow, what a factor of one adds to them.
     e: SparseColMat<usize, f64>,
-    /// `r`, in units of the largest load; where there is constant friction, with `-C_0` along it.
+    /// `r`, in units of the largest load; with `-C_0` along joints that have constant friction.
     loads: Vec<f64>,
     /// The largest load \[N\].
     unit: f64,

@@ -21,7 +21,7 @@ const ROUNDING: f64 = 4.0 * f64::EPSILON;
 const CLEAR: f64 = 1e6;
 
 impl Proof {
-    /// Checks a motion, three amplitudes for every block ([`Modes`]); `None` where it proves nothing.
+    /// Checks a motion, three amplitudes for every block ([`Modes`]); `None` if the motion proves nothing.
     pub fn of(model: &Model, amplitudes: &[f64]) -> Option<Self> {
         let is_number = amplitudes.iter().all(|it| it.is_finite());
         if !is_number || amplitudes.len() != 3 * model.blocks.len() {

@@ -142,8 +142,7 @@ impl Segment {
         self.film.respond(&self.displacements(u), &self.before)
     }
 
-    /// The tangent with the friction of points that slip held: symmetric, and the same as long as no point
-    /// changes its state.
+    /// The tangent with zero slip stiffness at slipping points: symmetric, and constant while no point changes its state.
     pub(super) fn matrix(&self, response: &FilmResponse) -> Matrix8 {
         self.film.tangent(response.points.iter().map(|point| {
             let mut tangent = point.tangent;
@@ -165,7 +164,7 @@ impl Segment {
         }
     }
 
-    /// The entries of a matrix at its ends among those of all unknowns.
+    /// The entries of a matrix at the ends of the film, in the numbering of all unknowns.
     pub(super) fn entries(&self, k: &Matrix8) -> Vec<Triplet<usize, usize, f64>> {
         let mut entries = Vec::new();
         for (row, rows) in self.ends.iter().enumerate() {

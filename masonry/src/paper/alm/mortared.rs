@@ -61,7 +61,7 @@ pub struct MortaredWall {
     films: Vec<Segment>,
 }
 
-/// The part `[x_i, x_f]` of every segment that is in contact \[m\], in its own axis; `None` where it is open.
+/// The part `[x_i, x_f]` of every segment that is in contact \[m\], in its own axis; `None` if the segment is open.
 pub type Parts = Vec<Option<[f64; 2]>>;
 
 /// The state of a wall under its loads.

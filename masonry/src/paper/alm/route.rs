@@ -10,8 +10,8 @@ use crate::model::Model;
 use crate::scene::Route;
 use crate::system::System;
 
-/// The iteration on whole films goes on until it is better than the tolerance by this factor, because residuals of the problem
-/// with contact points in the films are measured row by row.
+/// The iteration on whole films stops at the tolerance times this factor, because residuals of the problem with contact points
+/// in the films are measured row by row.
 const BETTER: f64 = 0.1;
 
 /// The route on a sparse problem without compliances of contacts ([`Sparse::with_free_faces`]).

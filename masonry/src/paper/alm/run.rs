@@ -148,8 +148,8 @@ impl Iterations<'_> {
         Ok(Status::IterationLimit)
     }
 
-    /// Rest; and where gaps or slips begin elsewhere, as after a support has moved, what the blocks come to when all
-    /// contacts hold them. From rest they would fall there in the small steps of the proximal term.
+    /// The start is rest. If gaps or slips begin elsewhere (a support has moved), the start is the state to which blocks come
+    /// while all contacts hold them. From rest they would fall there in the small steps of the proximal term.
     fn start(&mut self, matrices: &Matrices<'_>) -> Result<ContactState, AlmError> {
         let problem = self.structure.problem;
         let mut at = Best::rest(problem).state;

@@ -108,7 +108,7 @@ impl<'a> Structure<'a> {
     /// load of the contact problem any more.
     ///
     /// # Errors
-    /// [`lcp::Error::NotFinite`] where the forces of films overflow.
+    /// [`lcp::Error::NotFinite`] if the forces of films overflow.
     pub(super) fn residuals(
         &self,
         state: &ContactState,

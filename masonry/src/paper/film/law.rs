@@ -32,7 +32,7 @@ pub struct FilmState {
 pub struct PointResponse {
     /// `(sigma_x, sigma_y, tau)` \[Pa\].
     pub stress: Vector3<f64>,
-    /// Derivative of the stress by the strain \[Pa\]; not symmetric where the point slips.
+    /// Derivative of the stress by the strain \[Pa\]; not symmetric if the point slips.
     pub tangent: Matrix3<f64>,
     /// The state of the point.
     pub contact: PointStatus,

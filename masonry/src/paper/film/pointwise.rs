@@ -73,7 +73,7 @@ impl PointwiseFilm {
     }
 
     /// The integral of `B^T D B` \[N/m\] with a matrix `D` \[Pa\] at every Gauss point: the derivative of the forces by the
-    /// displacements for the tangents of the points, which are not symmetric where they slip.
+    /// displacements for the tangents of the points, which are not symmetric if the points slip.
     pub fn tangent(&self, d: impl IntoIterator<Item = Matrix3<f64>>) -> Matrix8 {
         let points = self.places().zip(d).map(|(x, d)| {
             let b = self.strip.strain_matrix(x);

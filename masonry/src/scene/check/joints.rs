@@ -83,14 +83,14 @@ pub(super) fn check_room(at: &KeyPath, wall: &Wall, joints: JointThickness) -> C
         Courses::RunningBond(_) => (
             at.key("width"),
             wall.width.unwrap_or(wall.brick.length),
-            "a course would end in a head joint and no brick: with joints of thickness t_y give a width of n (length + \
+            "a course would end in a head joint and no brick: with head joints of thickness t_y give a width of n (length + \
              t_y) - t_y, or one with a longer last brick",
         ),
         Courses::List(courses) => (
             at.key("courses").item(course).item(place),
             courses[course][place],
-            "the head joint leaves nothing of a brick of this length f: it measures f (length + t_y) - t_y, t_y being \
-             the thickness of the head joints",
+            "the head joint leaves nothing of a brick of this length f: it measures f (length + t_y) - t_y, and \
+             t_y is the thickness of the head joints",
         ),
     };
     value(at, length, false, wanted)

@@ -18,8 +18,8 @@ pub enum ContactError {
     /// Two edges that should have mortar between them are too close, or not parallel.
     #[error(
         "{a} and {b} stand {nearest:.6} to {farthest:.6} m apart, but their joint, of class \"{class}\", has \
-         mortar of {thickness:.6} m between parallel faces: move them apart by that, or give the joint \
-         no thickness"
+         mortar of {thickness:.6} m between parallel faces: move the blocks apart by {thickness:.6} m, or give the \
+         joint no thickness"
     )]
     NoRoomForFilm {
         /// Name of side `a`.

@@ -181,8 +181,8 @@ pub enum SceneErrorKind {
     },
     /// The tensile strength lies beyond the tip of the friction cone.
     #[error(
-        "the tensile strength {} is larger than cohesion / mu = {}, where the friction cone ends: give \
-         at most that, or more `cohesion`", number(*tension), number(*largest)
+        "the tensile strength {} is larger than cohesion / mu = {}, the tip of the friction cone: lower \
+         `tension`, or raise `cohesion`", number(*tension), number(*largest)
     )]
     TooMuchTension {
         /// The tensile strength, in units of the scene.
@@ -237,7 +237,7 @@ pub enum SceneErrorKind {
     /// No free edge lies on the segment of the load of this name.
     #[error(
         "load \"{0}\" acts on nothing: no free edge of a block lies on its segment (edges \
-         within joints are not free): move it to an edge, or remove it"
+         within joints are not free): move the segment to a free edge, or remove the load"
     )]
     IdleLoad(String),
     /// Two blocks meet in a joint whose class is not given.

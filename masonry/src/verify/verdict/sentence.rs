@@ -36,8 +36,8 @@ pub(super) fn of(
             "The {structure} falls{at}: its blocks do not come to rest within small displacements (evidence, not a proof).{}",
             match known.step.statics {
                 _ if known.step.loading.is_some() => {
-                    " Contact forces within friction that balance the loads exist, as a prestress might bring them about, \
-                     but loading from a state without stresses does not lead to them."
+                    " A prestress might produce contact forces within friction that balance the loads; loading from a \
+                     state without stresses does not."
                 }
                 Some(Statics::Admissible(_)) => {
                     " Contact forces that balance the loads exist, but this loading does not lead to them."
@@ -102,7 +102,7 @@ fn undecided(known: &Findings<'_>, evidence: Evidence, movement: Option<Drift>) 
     let tried = tried(known);
     match (info.status, evidence) {
         (Status::Solved, _) if known.step.loading.is_some() => {
-            "forces within friction balance the loads, but it was not found whether loading leads to them.".to_owned()
+            "forces within friction balance the loads; whether loading leads to these forces is not known.".to_owned()
         }
         (Status::Solved, _) => {
             let movement = movement.map(of_movement).unwrap_or_default();
@@ -157,7 +157,7 @@ fn reached(model: &Model, history: &History) -> Option<String> {
     let mut factor = |name: &str, [before, after]: [f64; 2]| {
         if (before - after).abs() > 0.0 {
             changed.push(format!(
-                "{name} at {before:.4} times its full value, of {after:.4} in the next step"
+                "{name} at {before:.4} times its full value (next step: {after:.4})"
             ));
         }
     };

@@ -37,7 +37,7 @@ struct Changes {
     effects: SparseColMat<usize, f64>,
 }
 
-/// `None` where memory does not suffice.
+/// The forces that may change, and the effects of their changes on the balance; `None` if memory does not suffice.
 fn changes(model: &Model, problem: &Contact2d, state: &State) -> Option<Changes> {
     let contacts = || model.contacts.iter().zip(&state.contacts);
     // How far a force is from opening the joint.

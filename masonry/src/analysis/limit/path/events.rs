@@ -62,7 +62,7 @@ pub(super) struct EventSearch<'a> {
 }
 
 impl EventSearch<'_> {
-    /// Follows the states, and puts others between them where joints open or slide, as far as that is quick.
+    /// Follows the states, and puts others between two of them if joints open or slide there, as far as that is quick.
     pub(super) fn follow(
         &self,
         mut rests: Vec<(f64, AtRest)>,
