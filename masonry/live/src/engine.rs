@@ -19,29 +19,27 @@
 mod complete;
 mod controls;
 mod dxf;
+mod fault;
 mod handles;
 mod places;
 mod schema;
 mod solved;
 mod text;
+mod watch;
 mod work;
 
-use std::fmt::Display;
-use std::ops::ControlFlow;
 use std::sync::{Arc, Mutex, PoisonError};
 
-use masonry::scene::SceneError;
-use masonry::{LimitError, Scene, SolveError};
+use masonry::Scene;
 use serde::{Deserialize, Serialize};
 
 use crate::beginnings::BEGINNINGS;
 
-use solved::{Show, Solved};
+use fault::Fault;
+use solved::{Format, Show, Solved};
 use text::Text;
+pub use watch::Watch;
 use work::Law;
-
-/// Hears many times how far the work on an answer is; after `Break` the work ends early.
-pub type Watch<'a> = dyn FnMut(&dyn Display) -> ControlFlow<()> + 'a;
 
 /// The longest text of a scene \[bytes\]: that of a wall of 10 000 single blocks.
 pub const LONGEST_TEXT: usize = 4 << 20;
@@ -63,62 +61,6 @@ enum Task {
     Export { text: String, format: Format },
     Complete { text: String, at: usize },
     Begin,
-}
-
-#[derive(Debug, Clone, Copy, Deserialize)]
-#[serde(rename_all = "lowercase")]
-enum Format {
-    Page,
-    Json,
-    Text,
-    Dxf,
-}
-
-/// Why there is no answer.
-#[derive(Debug, Serialize)]
-struct Fault {
-    message: String,
-    /// The place of the mistake in the text of the scene, from 1.
-    line: Option<usize>,
-    column: Option<usize>,
-}
-
-impl Fault {
-    fn new(message: &impl ToString) -> Self {
-        Self { message: message.to_string(), line: None, column: None }
-    }
-}
-
-impl From<SceneError> for Fault {
-    fn from(error: SceneError) -> Self {
-        let (key, kind) = (error.key(), error.kind());
-        let message = if key.is_empty() { kind.to_string() } else { format!("{key}: {kind}") };
-        Self { message, line: error.line(), column: error.column() }
-    }
-}
-
-impl From<SolveError> for Fault {
-    fn from(error: SolveError) -> Self {
-        match error {
-            SolveError::Scene(error) => error.into(),
-            other => Self::new(&other),
-        }
-    }
-}
-
-impl From<LimitError> for Fault {
-    fn from(error: LimitError) -> Self {
-        match error {
-            LimitError::Scene(error) => error.into(),
-            other => Self::new(&other),
-        }
-    }
-}
-
-impl From<serde_json::Error> for Fault {
-    fn from(error: serde_json::Error) -> Self {
-        Self::new(&error)
-    }
 }
 
 impl Engine {

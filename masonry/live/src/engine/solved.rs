@@ -8,7 +8,9 @@ use masonry_report::svg::{self, ReferenceLines};
 use masonry_report::{json, page, table};
 use serde::{Deserialize, Serialize};
 
-use super::{Fault, Format, Watch, dxf};
+use super::dxf;
+use super::fault::Fault;
+use super::watch::Watch;
 
 /// What is seen beside the text.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -24,6 +26,16 @@ pub(super) enum Show {
     Scene,
     /// The report as text.
     Report,
+}
+
+/// A kind of file.
+#[derive(Debug, Clone, Copy, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub(super) enum Format {
+    Page,
+    Json,
+    Text,
+    Dxf,
 }
 
 /// A scene that was solved.

@@ -8,7 +8,8 @@ use masonry::{Bracket, Laws, LimitError, Scene, least_thickness_observed, limit_
 use masonry_report::{limit as output, study as study_output, svg};
 use serde::{Deserialize, Serialize};
 
-use super::{Fault, Watch};
+use super::fault::Fault;
+use super::watch::Watch;
 
 /// The laws of friction of a limit load.
 #[derive(Debug, Clone, Copy, Deserialize)]

@@ -1,0 +1,52 @@
+//! Mistakes, with their places in the text of a scene.
+
+use masonry::scene::SceneError;
+use masonry::{LimitError, SolveError};
+use serde::Serialize;
+
+/// Why there is no answer.
+#[derive(Debug, Serialize)]
+pub(super) struct Fault {
+    pub(super) message: String,
+    /// The place of the mistake in the text of the scene, from 1.
+    pub(super) line: Option<usize>,
+    pub(super) column: Option<usize>,
+}
+
+impl Fault {
+    pub(super) fn new(message: &impl ToString) -> Self {
+        Self { message: message.to_string(), line: None, column: None }
+    }
+}
+
+impl From<SceneError> for Fault {
+    fn from(error: SceneError) -> Self {
+        let (key, kind) = (error.key(), error.kind());
+        let message = if key.is_empty() { kind.to_string() } else { format!("{key}: {kind}") };
+        Self { message, line: error.line(), column: error.column() }
+    }
+}
+
+impl From<SolveError> for Fault {
+    fn from(error: SolveError) -> Self {
+        match error {
+            SolveError::Scene(error) => error.into(),
+            other => Self::new(&other),
+        }
+    }
+}
+
+impl From<LimitError> for Fault {
+    fn from(error: LimitError) -> Self {
+        match error {
+            LimitError::Scene(error) => error.into(),
+            other => Self::new(&other),
+        }
+    }
+}
+
+impl From<serde_json::Error> for Fault {
+    fn from(error: serde_json::Error) -> Self {
+        Self::new(&error)
+    }
+}
