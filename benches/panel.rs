@@ -51,7 +51,7 @@ fn panel(c: &mut Criterion) {
     for kind in [FormKind::Coulomb, FormKind::Mixed] {
         let name = format!("form, {}", kind.name());
         group.bench_function(name, |b| {
-            b.iter(|| black_box(DenseForm::new(kind, &system, &reduction)))
+            b.iter(|| black_box(DenseForm::new(kind, &system, &reduction)));
         });
     }
     group.bench_function("solve, mixed form", |b| b.iter(|| black_box(solve())));

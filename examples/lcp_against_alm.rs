@@ -68,7 +68,7 @@ fn compare(name: &str) -> Result<Vec<Iteration>, Box<dyn Error>> {
     let began = Instant::now();
     let wall = MortaredWall::new(&model)?;
     let mut seconds = Vec::new();
-    let settings = AlmSettings { tolerance: TOLERANCE, ..Settings::default() };
+    let settings = AlmSettings { tolerance: TOLERANCE, ..AlmSettings::default() };
     let alm = wall.solve(&settings, &mut |_| {
         seconds.push(began.elapsed().as_secs_f64());
         ControlFlow::Continue(())

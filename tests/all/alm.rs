@@ -12,7 +12,7 @@ use masonry::scene::Scene;
 use masonry::system::System;
 
 fn solve(problem: &Contact2d, tolerance: f64) -> AlmAnswer {
-    let settings = AlmSettings { tolerance, ..Settings::default() };
+    let settings = AlmSettings { tolerance, ..AlmSettings::default() };
     alm::solve(problem, &settings, &mut |_| ControlFlow::Continue(())).unwrap()
 }
 
@@ -144,11 +144,11 @@ fn limits_and_misuse_are_said() {
     let run = |settings: AlmSettings| {
         alm::solve(&problem, &settings, &mut |_| ControlFlow::Continue(())).unwrap()
     };
-    let few = run(AlmSettings { max_iterations: 2, ..Settings::default() });
+    let few = run(AlmSettings { max_iterations: 2, ..AlmSettings::default() });
     assert_eq!((few.status, few.convergence.len()), (Status::IterationLimit, 2));
     let cancelled = alm::solve(&problem, &AlmSettings::default(), &mut |_| ControlFlow::Break(()));
     assert_eq!(cancelled.unwrap().status, Status::Cancelled);
-    let none = AlmSettings { tolerance: 0.0, ..Settings::default() };
+    let none = AlmSettings { tolerance: 0.0, ..AlmSettings::default() };
     let error = alm::solve(&problem, &none, &mut |_| ControlFlow::Continue(())).unwrap_err();
     assert_eq!(error, AlmError::Tolerance { tolerance: 0.0 });
     let rigid = panel("stack");

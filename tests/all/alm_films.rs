@@ -37,7 +37,7 @@ fn panel(name: &str, mesh: [u32; 2]) -> Model {
 }
 
 fn answer(wall: &MortaredWall, tolerance: f64) -> AlmAnswer {
-    let settings = AlmSettings { tolerance, ..Settings::default() };
+    let settings = AlmSettings { tolerance, ..AlmSettings::default() };
     let answer = wall.solve(&settings, &mut |_| ControlFlow::Continue(())).unwrap();
     assert_eq!(answer.status, Status::Solved, "{:?}", answer.convergence.last());
     answer

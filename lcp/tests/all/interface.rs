@@ -198,7 +198,7 @@ fn many_problems_come_back_in_their_order() {
 fn no_point_has_a_nan_if_coefficients_have_no_inverse() {
     let smallest = f64::from_bits(1);
     for n in 1..=3 {
-        let matrix = Matrix::from_fn(n, n, |_, _| smallest);
+        let matrix = faer::Mat::from_fn(n, n, |_, _| smallest);
         let problem = Lcp::new(matrix, vec![-1.0; n]).unwrap();
         let solvers: [&dyn Solver<Lcp>; 4] = [
             &InteriorPoint::default(),

@@ -42,7 +42,7 @@ use web_time::Instant;
 pub use associative::{Answer, Associative, Rest};
 pub use directions::{Directions, Governs};
 pub use error::LimitError;
-pub use path::{Change, Event, Path, Stand};
+pub use path::{Change, JointEvent, Path, Stand};
 pub use range::{Extremes, Range, ranges, ranges_observed};
 pub use thickness::{Thickness, least_thickness, least_thickness_observed};
 pub use watch::{Bracket, LimitObserver};

@@ -50,7 +50,7 @@ pub fn answer(
     RouteAnswer {
         rows: state.as_ref().map(|state| sparse.rows(state)),
         displacements: state.map(|_| vec![0.0; problem.displacements()]),
-        ..Answer::new(info)
+        ..RouteAnswer::new(info)
     }
 }
 

@@ -125,7 +125,7 @@ impl Pivoting<'_> {
         let basis = solution.basis.filter(|_| rows.is_some() && kind == FormKind::Coulomb);
         let is_t = |side: &Side| *side == Side::T;
         let basis = basis.map(|it| Start::last(it.sides().iter().map(is_t).collect()));
-        Ok(RouteAnswer { rows, motion: ray.map(Motion::Rigid), basis, ..Answer::new(info) })
+        Ok(RouteAnswer { rows, motion: ray.map(Motion::Rigid), basis, ..RouteAnswer::new(info) })
     }
 
     /// Settings of every run on a form, and the name of the start basis that they give.

@@ -2,7 +2,7 @@
 
 use lcp::{Contact2d, ContactState, Residuals, Solution, Status};
 
-use super::Answer;
+use super::RouteAnswer;
 use crate::data::info::{Attempt, SolveInfo};
 use crate::data::motion::Motion;
 use crate::forms::Sparse;
@@ -50,7 +50,7 @@ pub(crate) fn answer(sparse: &Sparse, info: SolveInfo, state: ContactState) -> R
     RouteAnswer {
         rows: state.as_ref().map(|state| sparse.rows(state)),
         displacements: state.map(|state| state.u),
-        ..Answer::new(SolveInfo {
+        ..RouteAnswer::new(SolveInfo {
             form: FORM.to_owned(),
             order: sparse.problem.order(),
             attempts: vec![attempt],

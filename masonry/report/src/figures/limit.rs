@@ -6,7 +6,9 @@ use super::{Columns, Figure, Table, Value, members, yes_or_no};
 use crate::format::Quantity::{Force, Length, Pure};
 use crate::format::{InUnits, significant};
 use crate::moving::moving_part;
-use masonry::analysis::limit::{Associative, Change, Event, Path, Range, Rest, Stand, Thickness};
+use masonry::analysis::limit::{
+    Associative, Change, JointEvent, Path, Range, Rest, Stand, Thickness,
+};
 use masonry::data::statics::Extreme;
 use masonry::model::Model;
 use masonry::rounding::{Side, outwards};
@@ -106,8 +108,8 @@ pub(crate) fn curve(path: &Path) -> Table {
 /// Joints that open and slide along a path, each between two factors.
 pub(crate) fn events(path: &Path) -> Table {
     let model = &path.model;
-    let sides = |it: &Event| sides(model, &model.joints[it.joint.index()]);
-    Columns::<(usize, &Event)>::new()
+    let sides = |it: &JointEvent| sides(model, &model.joints[it.joint.index()]);
+    Columns::<(usize, &JointEvent)>::new()
         .count("number", |it| it.0)
         .words("between", |it| sides(it.1)[0])
         .words("and", |it| sides(it.1)[1])

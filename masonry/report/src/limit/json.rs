@@ -5,7 +5,7 @@ use crate::figures::{self, Value, in_json, members, taken};
 use crate::format::InUnits;
 use crate::json::times;
 use masonry::analysis::limit::{
-    Associative, Directions, Event, Extremes, Governs, Limit, Path, Range, Thickness,
+    Associative, Directions, Extremes, Governs, JointEvent, Limit, Path, Range, Thickness,
 };
 use masonry::data::statics::Extreme;
 use masonry::model::Model;
@@ -96,7 +96,7 @@ fn path(path: &Path) -> Written {
 }
 
 /// The two bodies that meet, the middle of their joint, and what it does between two factors.
-fn event(model: &Model, event: &Event) -> Written {
+fn event(model: &Model, event: &JointEvent) -> Written {
     let units = InUnits(model.units);
     let joint = &model.joints[event.joint.index()];
     let middle = nalgebra::center(&joint.from, &joint.to);

@@ -125,7 +125,7 @@ pub struct Diagram {
     pub title: String,
     /// Names of the values across and up, with units.
     pub axes: [String; 2],
-    /// AxisScale of both axes.
+    /// Scale of both axes.
     pub scale: AxisScale,
     /// Values that the vertical axis has at least, whatever the points are.
     pub least: Option<[f64; 2]>,

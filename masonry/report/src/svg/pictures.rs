@@ -8,7 +8,7 @@ use super::history::curves;
 use super::mechanism::{Collapse, collapse};
 use super::scene::scene;
 pub(crate) use super::sheet::Shown;
-use super::stresses::{self, Scale};
+use super::stresses::{self, StressScale};
 use crate::joints;
 use masonry::analysis::outcome::Outcome;
 
@@ -62,8 +62,8 @@ fn of_states(
         list.push(Pictures { file, pictures: shown.iter().map(draw).collect() });
     };
     if shown.iter().any(|it| !it.state.stresses.is_empty()) {
-        let scales = shown.iter().map(|it| Scale::of(&it.state.stresses));
-        let scale = scales.fold(Scale::default(), Scale::and);
+        let scales = shown.iter().map(|it| StressScale::of(&it.state.stresses));
+        let scale = scales.fold(StressScale::default(), StressScale::and);
         add("principal_stresses.svg", &|it| stresses::compared(it, reference, scale));
     }
     let by = Magnified::of(shown, for_page);

@@ -3,7 +3,7 @@
 use std::cell::Cell;
 use std::ops::ControlFlow;
 
-use lcp::{Iteration, LimitObserver};
+use lcp::{Iteration, Observer};
 use nalgebra::Vector2;
 
 use super::{LimitError, rigid};
@@ -65,10 +65,7 @@ pub fn ranges(scene: &Scene) -> Result<Range, LimitError> {
 ///
 /// # Errors
 /// As [`ranges`].
-pub fn ranges_observed(
-    scene: &Scene,
-    observer: &mut LimitObserver<'_>,
-) -> Result<Range, LimitError> {
+pub fn ranges_observed(scene: &Scene, observer: &mut Observer<'_>) -> Result<Range, LimitError> {
     let is_interrupted = Cell::new(false);
     let on = &mut |at: &Iteration| {
         is_interrupted.set(is_interrupted.get() || observer(at).is_break());

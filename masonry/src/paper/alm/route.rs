@@ -24,7 +24,7 @@ pub fn by_multipliers(
     observer: Observer<'_>,
 ) -> Result<method::RouteAnswer, AlmError> {
     let problem = &sparse.problem;
-    let settings = AlmSettings { tolerance: request.tolerance, ..Settings::default() };
+    let settings = AlmSettings { tolerance: request.tolerance, ..AlmSettings::default() };
     let found = solve(problem, &settings, &mut told(observer))?;
     Ok(answer(sparse, found, problem.displacements()))
 }
@@ -42,7 +42,7 @@ pub fn by_films(
     observer: Observer<'_>,
 ) -> Result<method::RouteAnswer, AlmError> {
     let wall = MortaredWall::new(model)?;
-    let settings = AlmSettings { tolerance: BETTER * request.tolerance, ..Settings::default() };
+    let settings = AlmSettings { tolerance: BETTER * request.tolerance, ..AlmSettings::default() };
     let mut found = wall.solve(&settings, &mut told(observer))?;
     let (t_n, t_t) = at_points(model, &wall, &found.state);
     let tangential: Vec<f64> = system.friction.iter().map(|it| t_t[it.contact.index()]).collect();

@@ -1,6 +1,6 @@
 //! One step of a load factor: the blocks rest, or flow.
 
-use lcp::{Contact2d, ContactState, Ending, LimitObserver, Solver};
+use lcp::{Contact2d, ContactState, Ending, Observer, Solver};
 
 use crate::forms::Sparse;
 use crate::method::loading::{self, Loading};
@@ -42,7 +42,7 @@ impl Steps<'_> {
         &self,
         from: Option<&AtRest>,
         factor: f64,
-        observer: &mut LimitObserver<'_>,
+        observer: &mut Observer<'_>,
     ) -> Result<StepEnd, lcp::Error> {
         let unloaded = &self.sparse.problem;
         let loads = unloaded.loads().iter().zip(self.growth);
