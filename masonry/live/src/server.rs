@@ -145,11 +145,24 @@ impl Shared {
             let is_gone = http::is_closed(stream) || (&*stream).write_all(line.as_bytes()).is_err();
             if is_gone { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
         };
-        let work = AssertUnwindSafe(|| self.engine.answer(question, &mut watch));
-        let answer = catch_unwind(work).unwrap_or_else(|_| {
-            let message = "the solver has failed: this is a fault of the program, please report it with the scene";
-            json!({ "error": { "message": message } }).to_string()
-        });
+        let answer = caught(|| self.engine.answer(question, &mut watch));
         (&*stream).write_all((answer + "\n").as_bytes())
+    }
+}
+
+/// An answer, or the error that there is none since the solver has panicked.
+fn caught(answer: impl FnOnce() -> String) -> String {
+    catch_unwind(AssertUnwindSafe(answer)).unwrap_or_else(|_| {
+        let message = "the solver has failed: this is a fault of the program, please report it with the scene";
+        json!({ "error": { "message": message } }).to_string()
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    #[test]
+    fn a_panic_of_the_solver_is_an_error_in_the_page() {
+        let answer = super::caught(|| panic!("out of bounds"));
+        assert!(answer.starts_with("{\"error\":{\"message\":\"the solver has failed"), "{answer}");
     }
 }
