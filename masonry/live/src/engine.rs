@@ -79,7 +79,7 @@ impl Engine {
         Ok(match task {
             Task::Solve { text, show, step } => self.solve(&text, show, step, watch)?,
             Task::Limit { text, law } => json(&work::limit(&scene(&text)?, law, watch)?)?,
-            Task::Range { text } => json(&work::range(&scene(&text)?)?)?,
+            Task::Range { text } => json(&work::range(&scene(&text)?, watch)?)?,
             Task::Thickness { text, arch } => {
                 json(&work::thickness(&scene(&text)?, &arch, watch)?)?
             }

@@ -4,7 +4,9 @@ use std::fmt;
 use std::ops::ControlFlow;
 
 use masonry::analysis::study::{self, Progress};
-use masonry::{Bracket, Laws, LimitError, Scene, least_thickness_observed, limit_observed, ranges};
+use masonry::{
+    Bracket, Laws, LimitError, Scene, least_thickness_observed, limit_observed, ranges_observed,
+};
 use masonry_report::{limit as output, study as study_output, svg};
 use serde::{Deserialize, Serialize};
 
@@ -46,10 +48,9 @@ struct Picture {
 }
 
 impl Found {
-    /// A result with its pictures, of which some may not exist. Without a sentence of its own it is the first line of the report.
+    /// A result with its pictures, of which some may not exist.
     fn new(sentence: &str, pictures: Vec<(&'static str, Option<String>)>, text: String) -> Self {
-        let first = text.lines().next().unwrap_or_default();
-        let sentence = if sentence.is_empty() { first } else { sentence }.to_owned();
+        let sentence = sentence.to_owned();
         let drawn =
             |(name, picture): (_, Option<String>)| Some(Picture { name, picture: picture? });
         Self { sentence, pictures: pictures.into_iter().filter_map(drawn).collect(), text }
@@ -80,8 +81,10 @@ pub(super) fn limit(scene: &Scene, law: Law, watch: &mut Watch<'_>) -> Result<Fo
     Ok(Found::new(&limit.sentence, pictures, output::table(&limit)))
 }
 
-pub(super) fn range(scene: &Scene) -> Result<Found, LimitError> {
-    Ok(Found::new("", Vec::new(), output::range_table(&ranges(scene)?)))
+pub(super) fn range(scene: &Scene, watch: &mut Watch<'_>) -> Result<Found, LimitError> {
+    let range =
+        ranges_observed(scene, &mut |at| watch(&format_args!("iteration {}", at.iteration)))?;
+    Ok(Found::new(&range.sentence, Vec::new(), output::range_table(&range)))
 }
 
 pub(super) fn thickness(
@@ -95,7 +98,7 @@ pub(super) fn thickness(
         ("Mechanism", found.mechanism.as_ref().map(|it| svg::mechanism(title, model, it))),
         ("Forces", found.forces.as_ref().map(|it| svg::forces(title, model, it))),
     ];
-    Ok(Found::new("", pictures, output::thickness_table(&found)))
+    Ok(Found::new(&found.sentence, pictures, output::thickness_table(&found)))
 }
 
 pub(super) fn study(scene: &Scene, watch: &mut Watch<'_>) -> Result<Found, Fault> {
@@ -105,7 +108,8 @@ pub(super) fn study(scene: &Scene, watch: &mut Watch<'_>) -> Result<Found, Fault
     let settings = study::Settings::default();
     let study = study::study(scene, &settings, &mut observe).map_err(|it| Fault::new(&it))?;
     let pictures = vec![("Accuracy", study_output::accuracy(&study))];
-    Ok(Found::new("", pictures, study_output::table(&study)))
+    let sentence = study_output::in_short(&study).unwrap_or_default();
+    Ok(Found::new(&sentence, pictures, study_output::table(&study)))
 }
 
 /// The bounds of a limit that are known during its search.

@@ -163,6 +163,19 @@ fn a_limit_is_found_told_on_the_way_and_stopped() {
 }
 
 #[test]
+fn ranges_and_thicknesses_have_a_sentence_and_a_report() {
+    let text = BEGINNINGS.into_iter().find(|it| it.name == "arch").unwrap().text;
+    let range = ask(&json!({ "task": "range", "text": text }));
+    let thickness = ask(&json!({ "task": "thickness", "arch": "arch", "text": text }));
+    for found in [&range, &thickness] {
+        let sentence = found["sentence"].as_str().unwrap();
+        assert!(sentence.ends_with('.') && !sentence.contains('\n'), "{sentence}");
+    }
+    assert!(range["text"].as_str().unwrap().contains("arch/left"));
+    assert_eq!(thickness["pictures"].as_array().unwrap().len(), 2);
+}
+
+#[test]
 fn an_exported_drawing_has_the_blocks_of_the_scene() {
     let file = ask(&json!({ "task": "export", "text": DOOR, "format": "dxf" }));
     let drawing = Drawing::read(file["file"].as_str().unwrap().as_bytes(), Format::Dxf).unwrap();
