@@ -202,19 +202,14 @@ pub(crate) fn solve_in_standard_form(
     Ok(judged_by(problem, solution, tolerance))
 }
 
-/// A point of the general form, judged by the problem itself. Zero takes the place of a point that is not finite, as a
-/// method finds it if a coefficient has no inverse in floating point.
+/// A point of the general form, judged by the problem itself.
 pub(crate) fn judged_point(
     problem: &impl General,
-    mut t: Vec<f64>,
-    mut y: Vec<f64>,
+    t: Vec<f64>,
+    y: Vec<f64>,
     tolerance: f64,
     otherwise: Status,
 ) -> Solution {
-    if t.iter().chain(&y).any(|it| !it.is_finite()) {
-        t.fill(0.0);
-        y.fill(0.0);
-    }
     let residuals = problem.residuals_of_pairs(&t, &y);
     let contact = problem.state_of_pairs(&t, &y);
     Solution { contact, ..Solution::judged(t, y, residuals, tolerance, otherwise) }

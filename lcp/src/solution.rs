@@ -158,15 +158,20 @@ pub struct Solution<P = HorizontalLcp> {
 }
 
 impl Solution {
-    /// A point that is judged by residuals: [`Solved`](Status::Solved) where they are below the
-    /// tolerance, else what the method says.
+    /// A point that is judged by residuals: [`Solved`](Status::Solved) if they are below the
+    /// tolerance, else what the method says. Zero takes the place of a point that is not finite, as a method finds it if a
+    /// coefficient has no inverse in floating point; its residuals are infinite.
     pub(crate) fn judged(
-        t: Vec<f64>,
-        y: Vec<f64>,
+        mut t: Vec<f64>,
+        mut y: Vec<f64>,
         residuals: Residuals,
         tolerance: f64,
         otherwise: Status,
     ) -> Self {
+        if t.iter().chain(&y).any(|it| !it.is_finite()) {
+            t.fill(0.0);
+            y.fill(0.0);
+        }
         Self {
             status: residuals.verdict(tolerance, otherwise),
             t,

@@ -78,7 +78,7 @@ fn nothing_yields_in_a_body_that_moves_as_one_or_not_at_all() {
 
 #[test]
 fn hinges_of_an_arch_are_numbered_in_their_order() {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes/arch_semicircular.toml");
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes/arch_semicircular.toml");
     let scene = Scene::read(&path);
     let limit = limit_by(&scene.unwrap(), Laws::Associative).unwrap();
     let rates = limit.associative.unwrap().mechanism.unwrap();
