@@ -6,7 +6,9 @@ mod sizes;
 
 use serde::Serialize;
 
+pub use effects::Effect;
 pub use memory::TooLarge;
+pub use sizes::PlannedRoute;
 use sizes::Sizes;
 
 use crate::method::auto::{self, Facts};
@@ -51,40 +53,6 @@ pub struct Plan {
     pub routes: Vec<PlannedRoute>,
     /// Why the scene is not solved on this machine, if that is so.
     pub refused: Option<String>,
-}
-
-/// One physical effect, on or off, and the reason.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Effect {
-    /// Name of the effect, such as `friction`.
-    pub name: &'static str,
-    /// Whether it is built.
-    pub on: bool,
-    /// The reason in the scene why the effect is on or off.
-    pub because: String,
-    /// The unknowns that the effect adds to the [`order`](Plan::order) of the plan, contact points being the same: on the pivoting
-    /// route displacements are eliminated, and add nothing.
-    pub unknowns: usize,
-    /// The expected cost on the first route, in words: `none` if the effect is off.
-    pub cost: String,
-}
-
-/// A route of a plan.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct PlannedRoute {
-    /// The route.
-    pub route: Route,
-    /// Why it has this place.
-    pub because: String,
-    /// Order of the complementarity problem that it begins with; of the augmented Lagrangian method, of its linear systems.
-    pub order: usize,
-    /// Order of the largest problem that it may turn to.
-    pub largest_order: usize,
-    /// Numbers in its dense matrices: of reduction, forms and pivots, and of the stiffnesses of blocks.
-    /// None on the sparse routes, which build none.
-    pub dense_numbers: usize,
-    /// Memory at the peak \[bytes\], as measured on walls.
-    pub memory_bytes: usize,
 }
 
 impl Plan {

@@ -67,6 +67,9 @@ pub use crate::data::route::Route;
 pub use crate::material::Plane;
 use crate::units::Units;
 
+strict::tables!(Arch, Between, Block, Brick, Contact, Joint, LimitLoad, Load, Material, Movement);
+strict::tables!(Opening, Output, Piers, Solver, Stage, Support, Units, Wall, WallJoints);
+
 /// Name of the class of the joints between blocks whose normal is closer to the vertical.
 pub(crate) const BED: &str = "bed";
 /// Name of the class of the other joints between blocks.

@@ -1,5 +1,6 @@
 //! Units of a scene and their conversion to SI.
 
+use nalgebra::Point2;
 use serde::{Deserialize, Serialize};
 
 /// Unit of length of a scene.
@@ -58,6 +59,11 @@ pub struct Units {
 impl Units {
     /// Metres and newtons.
     pub const SI: Self = Self { length: LengthUnit::M, force: ForceUnit::N };
+
+    /// A place of a scene \[m\].
+    pub(crate) fn point(self, [x, y]: [f64; 2]) -> Point2<f64> {
+        Point2::new(x, y) * self.length_to_si()
+    }
 
     /// Metres in one unit of length.
     pub fn length_to_si(self) -> f64 {

@@ -1,6 +1,6 @@
 //! The way from a scene to a model: conversion to SI units, meshes, joints.
 
-use nalgebra::{Point2, Vector2};
+use nalgebra::Vector2;
 
 use super::classes::Classes;
 use super::{
@@ -151,7 +151,7 @@ fn block(
     mesh: Option<[usize; 2]>,
 ) -> PlacedBlock {
     let units = scene.units;
-    let corners: Vec<_> = corners.iter().map(|corner| point(*corner, units)).collect();
+    let corners: Vec<_> = corners.iter().map(|corner| units.point(*corner)).collect();
     let material = scene.materials.get(material).copied().unwrap_or_default();
     let elasticity = material.elasticity(units);
     let mesh = mesh.filter(|_| elasticity.is_some());
@@ -179,14 +179,10 @@ fn check_shapes(blocks: &[PlacedBlock], keys: &[KeyPath]) -> Result<(), Fault> {
 fn support(support: &scene::Support, units: Units) -> PlacedSupport {
     PlacedSupport {
         name: support.name.clone(),
-        from: point(support.from, units),
-        to: point(support.to, units),
+        from: units.point(support.from),
+        to: units.point(support.to),
         movement: Movement::default(),
     }
-}
-
-pub(super) fn point([x, y]: [f64; 2], units: Units) -> Point2<f64> {
-    Point2::new(x, y) * units.length_to_si()
 }
 
 /// Joints, their contact points and the classes that they refer to.

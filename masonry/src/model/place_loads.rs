@@ -4,7 +4,6 @@ use std::collections::BTreeMap;
 
 use nalgebra::{Point2, Vector2};
 
-use super::from_scene::point;
 use super::{Acceleration, ContactPoint, EdgeLoad, LoadCase, PlacedBlock, PlacedJoint, PointLoad};
 use crate::geometry::{self, SAME_PLACE};
 use crate::ids::LoadId;
@@ -35,7 +34,7 @@ pub(super) fn place(
         let (at, id) = (KeyPath::of("loads").item(k), LoadId::new(k));
         match load.kind() {
             Some(LoadKind::Edge { from, to, stress }) => {
-                let ends = [from, to].map(|end| point(end, scene.units));
+                let ends = [from, to].map(|end| scene.units.point(end));
                 let on_edge = OnEdges { load, id, ends, stress, units: scene.units, moved };
                 if !on_edge.place(blocks, &joined) {
                     return Err(Fault::new(at, SceneErrorKind::IdleLoad(load.name.clone())));
@@ -46,7 +45,7 @@ pub(super) fn place(
                     return Err(Fault::new(at.key("block"), unknown(blocks, block)));
                 };
                 let block = &mut blocks[*k];
-                let at = place_in(block, point(place, scene.units), scene.units, moved)
+                let at = place_in(block, scene.units.point(place), scene.units, moved)
                     .map_err(|error| Fault::new(at.key("at"), error))?;
                 let force = Vector2::from(force) * scene.units.force_to_si() * load.factor;
                 block.loads.push(PointLoad { at, force, load: id }.into());

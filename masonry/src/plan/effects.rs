@@ -2,12 +2,29 @@
 
 use std::collections::BTreeSet;
 
-use super::sizes::Sizes;
-use super::{Effect, PlannedRoute};
+use serde::Serialize;
+
+use super::sizes::{PlannedRoute, Sizes};
 use crate::history::moving_supports;
 use crate::law::JointLaw;
 use crate::model::Model;
 use crate::scene::{Films, LoadKind, Route, Scene};
+
+/// One physical effect, on or off, and the reason.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Effect {
+    /// Name of the effect, such as `friction`.
+    pub name: &'static str,
+    /// Whether it is built.
+    pub on: bool,
+    /// The reason in the scene why the effect is on or off.
+    pub because: String,
+    /// The unknowns that the effect adds to the [`order`](super::Plan::order) of the plan, contact points being the same: on the pivoting
+    /// route displacements are eliminated, and add nothing.
+    pub unknowns: usize,
+    /// The expected cost on the first route, in words: `none` if the effect is off.
+    pub cost: String,
+}
 
 /// All effects that a scene can call for, for the route that is tried first.
 pub(super) fn of(scene: &Scene, model: &Model, sizes: &Sizes, first: &PlannedRoute) -> Vec<Effect> {

@@ -10,11 +10,6 @@ use std::marker::PhantomData;
 use serde::de::value::MapAccessDeserializer;
 use serde::de::{Deserialize, Deserializer, Error, IgnoredAny, MapAccess, SeqAccess, Visitor};
 
-use super::{
-    Arch, Between, Block, Brick, Contact, Joint, LimitLoad, Load, Material, Movement, Opening,
-    Output, Piers, Solver, Stage, Support, Units, Wall, WallJoints,
-};
-
 /// Reads pairs of exactly two items, and tables from nothing but tables, however deep they are.
 pub(super) fn read<'de, D: Deserializer<'de>, T: Strict<'de>>(from: D) -> Result<T, D::Error> {
     T::read(from)
@@ -62,19 +57,26 @@ macro_rules! values {
     )+ };
 }
 
+/// Reads a table from nothing but a table.
+pub(super) fn table<'de, D: Deserializer<'de>, T: Deserialize<'de>>(
+    from: D,
+) -> Result<T, D::Error> {
+    from.deserialize_map(TableVisitor(PhantomData))
+}
+
+/// Has these types read by [`table`].
 macro_rules! tables {
     ($($table:ty),+) => { $(
-        impl<'de> Strict<'de> for $table {
-            fn read<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
-                from.deserialize_map(TableVisitor(PhantomData))
+        impl<'de> strict::Strict<'de> for $table {
+            fn read<D: serde::Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
+                strict::table(from)
             }
         }
     )+ };
 }
+pub(super) use tables;
 
 values!(f64, u32, String);
-tables!(Arch, Between, Block, Brick, Contact, Joint, LimitLoad, Load, Material, Movement, Opening);
-tables!(Output, Piers, Solver, Stage, Support, Units, Wall, WallJoints);
 
 struct TableVisitor<T>(PhantomData<T>);
 
