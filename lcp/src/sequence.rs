@@ -112,8 +112,8 @@ impl<K: Ord + Clone> Sequence<K> {
         self.solve_observed(q, &mut |_| ControlFlow::Continue(()))
     }
 
-    /// Solves the problem for this `q`, calling the observer before every factorisation and every iteration of [`Auto`]. `Break`
-    /// stops with [`Status::Cancelled`], unless the point at hand is a solution; the next solve begins at that point. While pairs
+    /// Solves the problem for this `q`, calling the observer before every factorisation except the first, and before every
+    /// iteration of [`Auto`]. `Break` stops with [`Status::Cancelled`], unless the point at hand is a solution; the next solve begins at that point. While pairs
     /// change sides, the residual is the most negative variable, in units of the largest of its vector.
     ///
     /// # Errors

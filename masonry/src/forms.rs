@@ -5,7 +5,7 @@
 //! |---|---|
 //! | [`Sparse`] | all displacements, by sparse matrices (3.2), (3.3) |
 //! | [`reduction`] | equilibrium (3.18) and compatibility (3.23) in the contact forces alone |
-//! | [`Form`] | complementarity problems `A t + B y = c` made of the reduction (3.27) |
+//! | [`DenseForm`] | complementarity problems `A t + B y = c` made of the reduction (3.27) |
 
 mod dense;
 pub mod reduction;

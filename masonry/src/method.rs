@@ -9,7 +9,7 @@
 //! | [`pgs`] | [`Sparse`](crate::forms::Sparse) | projected Gauss-Seidel on the contacts of blocks on springs |
 //! | `paper::alm` | [`Sparse`](crate::forms::Sparse), or whole films | the augmented Lagrangian method of the paper |
 //!
-//! All of them give an [`Answer`] to a [`Request`], and the error of the solver for a tolerance out of range, for data that are
+//! All of them give a [`RouteAnswer`] to a [`Request`], and the error of the solver for a tolerance out of range, for data that are
 //! not finite, and for a problem that the method does not treat. The [`Plan`](crate::plan::Plan) says which ones a scene uses.
 
 use std::ops::ControlFlow;

@@ -13,7 +13,7 @@ use crate::forms::reduction::Reduction;
 use crate::ids::{BlockId, ContactId};
 use crate::material::constitutive;
 use crate::model::{Anchor, Body, ContactPoint, Model};
-use crate::system::kinematics::{Term, shares, stretched, terms};
+use crate::system::kinematics::shares;
 use crate::system::{Direction, System, displaced_nodes};
 
 /// Gaps and slips below this part of the largest displacement, or compression of a joint, are zero; and their rates below this
@@ -179,29 +179,38 @@ pub fn displacement_at(
 
 /// `u_b - u_a` \[m\] at a contact point: across a film, of its two faces as they and their mean
 /// rotations carry the middle between them, and with the gap that the elongation of a strip makes.
+///
+/// It is not made of the terms from which the rows of the problem are built, so that an error there does not hide from the checks.
 pub fn relative_displacement(
     model: &Model,
     displacements: &[Vec<Vector2<f64>>],
     contact: &ContactPoint,
 ) -> Vector2<f64> {
+    let side = |anchor| displacement_at(model, displacements, anchor);
+    let apart = side(contact.b) - contact.a.map_or_else(Vector2::zeros, side);
+    let Some(film) = &contact.film else { return apart };
     let joint = &model.joints[contact.joint.index()];
-    let [mut opened, mut slid] = [0.0; 2];
-    for Term { anchor, normal, tangent } in terms(model, contact) {
-        let u = displacement_at(model, displacements, anchor);
-        opened += u.dot(&normal);
-        slid += u.dot(&tangent);
-    }
-    joint.normal * opened + joint.tangent() * slid
+    let turned = |[start, end]: [Anchor; 2]| (side(end) - side(start)).dot(&joint.normal);
+    let turned = turned(film.b) + film.a.map_or(0.0, turned);
+    let opened = film.gap_per_elongation() * film_elongation(model, displacements, contact);
+    apart + joint.tangent() * (turned * film.half / film.length) + joint.normal * opened
 }
 
-/// Elongation \[m\] of the part of a strip that a contact point stands for, the mean of its two faces; zero in a dry joint.
+/// Elongation \[m\] of the part of a film that a contact point stands for: the mean of its two faces, of which those
+/// on supports and rigid blocks do not stretch. Zero in a dry joint.
 pub fn film_elongation(
     model: &Model,
     displacements: &[Vec<Vector2<f64>>],
     contact: &ContactPoint,
 ) -> f64 {
-    let ends = stretched(model, contact).into_iter();
-    ends.map(|(anchor, along)| displacement_at(model, displacements, anchor).dot(&along)).sum()
+    let Some(film) = &contact.film else { return 0.0 };
+    let tangent = model.joints[contact.joint.index()].tangent();
+    let is_elastic = |face: &[Anchor; 2]| model.blocks[face[0].block.index()].elasticity.is_some();
+    let of_face = |[start, end]: [Anchor; 2]| {
+        let [start, end] = [start, end].map(|end| displacement_at(model, displacements, end));
+        0.5 * (end - start).dot(&tangent)
+    };
+    film.faces().into_iter().flatten().filter(is_elastic).map(of_face).sum()
 }
 
 fn contact_states(

@@ -2,8 +2,8 @@
 //!
 //! Every form has pairs `(t_i, y_i)` of nonnegative, complementary variables: forces on the `t` side and
 //! displacements on the `y` side, unless a form says otherwise. All are dimensionless: forces are
-//! divided by [`Scale::force`] and displacements by [`Scale::length`], so that the coefficients of `A`
-//! are of order one whatever the units and moduli. [`Form::rows`] leads back to forces and
+//! divided by [`FormScale::force`] and displacements by [`FormScale::length`], so that the coefficients of `A`
+//! are of order one whatever the units and moduli. [`DenseForm::rows`] leads back to forces and
 //! relative displacements in SI units.
 //!
 //! The pairs of a problem of `m` points, `m_f` of them with friction, come in groups: first
@@ -156,7 +156,7 @@ impl DenseForm {
     /// Forces and relative displacements of all rows from the dimensionless variables.
     ///
     /// # Panics
-    /// If `t` or `y` is shorter than [`Form::order`].
+    /// If `t` or `y` is shorter than [`DenseForm::order`].
     pub fn rows(&self, t: &[f64], y: &[f64]) -> RowState {
         let (t_weight, y_weight) = self.kind.tangential_weights();
         let FormScale { force, length } = self.scale;

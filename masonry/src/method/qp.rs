@@ -4,6 +4,8 @@
 //! On request soft springs hold the blocks and are re-centred at the last solution until they carry nothing. Their
 //! effect before the first re-centring is reported as their bias.
 
+use std::ops::ControlFlow;
+
 use lcp::qp::SoftConstraints;
 use lcp::{QuadraticProgram, QuadraticProgramSettings, Solver, Status};
 
@@ -26,9 +28,16 @@ pub fn solve(
     let settings =
         QuadraticProgramSettings { tolerance: request.tolerance, soft, ..Default::default() };
     let program = QuadraticProgram::new(settings);
-    let solution = program.solve_observed(problem, &mut |at| observer(at.into()))?;
+    // Springs that carry nothing end the re-centring as solved, even if the observer breaks then.
+    let mut is_cancelled = false;
+    let solution = program.solve_observed(problem, &mut |at| {
+        let next = observer(at.into());
+        is_cancelled = next == ControlFlow::Break(());
+        next
+    })?;
+    let is_over = is_cancelled || solution.status == Status::Cancelled;
     let soft = match request.soft {
-        Some(epsilon) if solution.status != Status::Cancelled => {
+        Some(epsilon) if !is_over => {
             let biased = program.solve_soft(problem, epsilon)?;
             Some(SoftReport {
                 stiffness: epsilon,

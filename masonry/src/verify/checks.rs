@@ -1,6 +1,6 @@
 //! Checks of states: errors in equilibrium and in the laws of the joints, from displacements, forces and data only.
 //! They do not depend on the method that found the state: they use only matrices of single elements, no rows and no
-//! residuals.
+//! residuals. Gaps and slips are formed anew from the displacements by `recover`.
 //!
 //! # What errors are relative to
 //! A force is relative to the sum of the sizes of all forces on the same block: loads, contact forces, and the tensile

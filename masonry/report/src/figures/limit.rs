@@ -144,9 +144,12 @@ pub(crate) fn thickness(it: &Thickness) -> Vec<Figure> {
 /// The least and the largest reactions of supports.
 pub(crate) fn range(range: &Range) -> Option<Table> {
     let units = InUnits(range.model.units);
-    let value = |it: Extreme| match it {
-        // Less than what is left open is nothing.
-        Extreme::Value { value, bound } if value.abs() <= (bound - value).abs() => Value::from("0"),
+    let is_whole = !range.is_interrupted;
+    let value = move |it: Extreme| match it {
+        // Less than what is left open is nothing, if the search came to its end.
+        Extreme::Value { value, bound } if is_whole && value.abs() <= (bound - value).abs() => {
+            Value::from("0")
+        }
         Extreme::Value { value, .. } => value.into(),
         Extreme::Unlimited => "unlimited".into(),
         Extreme::Open => "not found".into(),

@@ -98,8 +98,9 @@ pub fn ranges_observed(scene: &Scene, observer: &mut Observer<'_>) -> Result<Ran
     let sentence = "Reactions lie between the least and the largest that forces within friction allow. Each end of a range \
                     is reached by some forces within friction; all ends are not reached at once.";
     let is_interrupted = is_interrupted.get();
-    let interrupted = if is_interrupted { "Interrupted. " } else { "" };
-    let sentence = format!("{interrupted}{sentence}");
+    let sentence =
+        if is_interrupted { "Interrupted. Ends that were not found are open." } else { sentence };
+    let sentence = sentence.to_owned();
     Ok(Range { title, model, supports: Some(supports), is_interrupted, sentence })
 }
 

@@ -25,8 +25,9 @@ pub(super) fn check(at: &KeyPath, wall: &Wall, joints: JointThickness, size: Wal
                 let both = gap(opening).zip(gap(before));
                 both.is_some_and(|([a, b], [c, d])| a < d - SAME_PLACE && c < b - SAME_PLACE)
             };
+            let lowest = opening.rows().start.max(before.rows().start);
             let highest = opening.rows().end.min(before.rows().end);
-            if let Some(course) = (0..=highest).find(meets) {
+            if let Some(course) = (lowest..=highest).find(meets) {
                 let error = OpeningError::Meets { other, course: course + 1 };
                 return Err(Fault::new(at, error));
             }
