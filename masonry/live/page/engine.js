@@ -34,12 +34,17 @@ class Server {
     throw new Error("the command has ended: start `masonry live` again");
   }
 
-  async load() {
-    return (await this.request("/scene")).json();
+  // A file of the page; without a name the newest.
+  async load(name = null) {
+    return this.post("/load", { name });
   }
 
   async save(file) {
-    return (await this.request("/save", { method: "POST", body: JSON.stringify(file) })).json();
+    return this.post("/save", file);
+  }
+
+  async post(path, body) {
+    return (await this.request(path, { method: "POST", body: JSON.stringify(body) })).json();
   }
 
   async request(path, options = {}) {

@@ -98,15 +98,23 @@ impl Shared {
         };
         match (request.method.as_str(), request.path.as_str()) {
             ("GET", "/") => http::send(stream, &Reply::page(page::served(&guard::secret()?))),
-            ("GET", "/scene") => http::send(stream, &self.scene()),
+            ("POST", "/load") => http::send(stream, &self.load(&request)),
             ("POST", "/save") => http::send(stream, &self.save(&request)),
             ("POST", "/ask") => self.ask(stream, &request),
             _ => http::send(stream, &Reply::error(404, "there is nothing of this name")),
         }
     }
 
-    fn scene(&self) -> Reply {
-        match self.desk.load() {
+    fn load(&self, request: &Request) -> Reply {
+        #[derive(Deserialize)]
+        struct Load {
+            /// The file of the page; nothing for the newest.
+            name: Option<String>,
+        }
+        let Ok(load) = serde_json::from_slice::<Load>(&request.body) else {
+            return Reply::error(400, "the request is no JSON of a name");
+        };
+        match self.desk.load(load.name.as_deref()) {
             Ok(sheet) => Reply::json(&json!(sheet)),
             Err(error) => Reply::json(&json!({ "error": { "message": error.to_string() } })),
         }

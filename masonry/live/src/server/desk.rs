@@ -1,9 +1,11 @@
-//! The file of the scene: the only one that is read, and with new files beside it the only one that is written.
+//! The files of the page: the scene of the command, and the new ones that the page has created beside it. No other file is read or
+//! written.
 
 use std::ffi::OsStr;
 use std::fs::{self, OpenOptions};
 use std::io::{self, Write as _};
 use std::path::{Component, Path, PathBuf};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use masonry::files::write_atomically;
 use serde::Serialize;
@@ -11,11 +13,13 @@ use thiserror::Error;
 
 use crate::engine::LONGEST_TEXT;
 
-/// A directory and the scene in it that is worked on, if there is one.
+/// A directory and the scene files in it that are worked on.
 #[derive(Debug)]
 pub struct Desk {
     directory: PathBuf,
-    name: Option<String>,
+    /// Names of the files of the page, the newest last. The lock also keeps a second save out between the comparison and the
+    /// writing of a first.
+    own: Mutex<Vec<String>>,
 }
 
 /// The scene as its file has it.
@@ -41,6 +45,12 @@ pub enum DeskError {
         /// The name.
         name: String,
     },
+    /// The file exists, and is none of the page.
+    #[error("{} is no file of this page: save under the name of a new file", path.display())]
+    Foreign {
+        /// The file.
+        path: PathBuf,
+    },
     /// The text is too long.
     #[error("{} has {bytes} bytes, and the page treats at most {LONGEST_TEXT}: solve it with `masonry solve`", path.display())]
     TooLong {
@@ -50,7 +60,7 @@ pub enum DeskError {
         bytes: u64,
     },
     /// Another program has changed the file.
-    #[error("{} has changed on the disk: load it, or save under another name", path.display())]
+    #[error("{} has changed on the disk: load it, or keep the text of the page and save again", path.display())]
     Changed {
         /// The file.
         path: PathBuf,
@@ -74,39 +84,64 @@ impl Desk {
         let name = path.file_name().and_then(OsStr::to_str);
         let name = name.ok_or_else(|| DeskError::NoName { path: path.to_owned() })?.to_owned();
         let directory = path.parent().unwrap_or(Path::new("")).to_owned();
-        let desk = Self { directory, name: Some(name) };
-        desk.load()?;
+        let desk = Self { directory, own: Mutex::new(vec![name]) };
+        desk.load(None)?;
         Ok(desk)
     }
 
     /// A desk without a scene yet, in a directory.
     pub fn empty(directory: &Path) -> Self {
-        Self { directory: directory.to_owned(), name: None }
+        Self { directory: directory.to_owned(), own: Mutex::default() }
     }
 
-    pub(super) fn load(&self) -> Result<Sheet, DeskError> {
-        let Some(name) = &self.name else { return Ok(Sheet { name: None, text: None }) };
-        let text = read(&self.directory.join(name))?;
-        Ok(Sheet { name: Some(name.clone()), text: Some(text) })
+    /// Reads a file of the page, or the newest of them if none is named. The ends of lines are those of a text area.
+    pub(super) fn load(&self, name: Option<&str>) -> Result<Sheet, DeskError> {
+        let own = self.own();
+        let Some(name) = name.or(own.last().map(String::as_str)) else {
+            return Ok(Sheet { name: None, text: None });
+        };
+        let path = self.directory.join(name);
+        if !own.iter().any(|it| it == name) {
+            return Err(DeskError::Foreign { path });
+        }
+        let text = read(&path)?.replace("\r\n", "\n");
+        Ok(Sheet { name: Some(name.to_owned()), text: Some(text) })
     }
 
-    /// Writes a text into a file of the directory: over one that has still the text that it `was`, or a new one.
+    /// Writes a text over a file of the page that still has the text that it `was`, or into a new file.
     pub(super) fn save(&self, name: &str, text: &str, was: Option<&str>) -> Result<(), DeskError> {
-        if self.name.as_deref() != Some(name) && !is_plain(name) {
+        let mut own = self.own();
+        let is_own = own.iter().any(|it| it == name);
+        if !is_own && !is_plain(name) {
             return Err(DeskError::NotPlain { name: name.to_owned() });
         }
         let path = self.directory.join(name);
         let system = |source| DeskError::System { path: path.clone(), source };
         match was {
-            Some(was) if read(&path)? == was => {
-                write_atomically(&path, text.as_bytes()).map_err(system)
+            Some(_) if !is_own => Err(DeskError::Foreign { path }),
+            Some(was) => {
+                let old = read(&path)?;
+                if old.replace("\r\n", "\n") != was {
+                    return Err(DeskError::Changed { path });
+                }
+                let text =
+                    if old.contains("\r\n") { text.replace('\n', "\r\n") } else { text.to_owned() };
+                // A link stays: the file that it leads to is written.
+                let target = fs::canonicalize(&path).map_err(system)?;
+                write_atomically(&target, text.as_bytes()).map_err(system)
             }
-            Some(_) => Err(DeskError::Changed { path }),
             None => {
                 let file = OpenOptions::new().write(true).create_new(true).open(&path);
-                file.and_then(|mut file| file.write_all(text.as_bytes())).map_err(system)
+                file.and_then(|mut file| file.write_all(text.as_bytes())).map_err(system)?;
+                own.push(name.to_owned());
+                Ok(())
             }
         }
+    }
+
+    /// The names behind their lock. They are whole at any time, so that a panic elsewhere does no harm to them.
+    fn own(&self) -> MutexGuard<'_, Vec<String>> {
+        self.own.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
 

@@ -60,7 +60,7 @@ fn the_page_itself_needs_the_token_and_is_shown_nowhere_else() {
     let get = |target: &str| {
         sent(host, format!("GET {target} HTTP/1.1\r\nHost: {host}\r\n\r\n").as_bytes())
     };
-    for target in ["/", "/?token=", "/?token=00", "/scene", &format!("/scene?token={token}")] {
+    for target in ["/", "/?token=", "/?token=00", "/load", &format!("/load?token={token}")] {
         let answer = get(target);
         assert_eq!(status(&answer), 403, "{target}");
         assert!(!answer.contains(token) && !answer.contains("Access-Control"), "{target}");
@@ -143,16 +143,87 @@ fn no_file_outside_of_the_directory_is_read_or_written() {
 #[test]
 fn a_file_that_has_changed_is_not_overwritten() {
     let (address, path) = serve_scene("changed", DOOR);
-    let save = |text: &str, was: Option<&str>| {
-        let body = json!({ "name": "scene.toml", "text": text, "was": was }).to_string();
-        said(&posted(&address, "/save", &body))
-    };
+    let save = |text: &str, was: Option<&str>| saved(&address, "scene.toml", text, was);
     assert_eq!(save("# mine", Some(DOOR)), json!({ "saved": "scene.toml" }));
     fs::write(&path, "# theirs").unwrap();
     for was in [Some("# mine"), None] {
         assert!(save("# again", was)["error"]["message"].is_string());
     }
     assert_eq!(fs::read_to_string(&path).unwrap(), "# theirs");
+}
+
+/// What the server says of a save.
+fn saved(address: &str, name: &str, text: &str, was: Option<&str>) -> Value {
+    let body = json!({ "name": name, "text": text, "was": was }).to_string();
+    said(&posted(address, "/save", &body))
+}
+
+/// What the server loads under a name, or the newest of its files.
+fn loaded(address: &str, name: Option<&str>) -> Value {
+    said(&posted(address, "/load", &json!({ "name": name }).to_string()))
+}
+
+#[test]
+fn another_scene_of_the_directory_is_neither_read_nor_written() {
+    let (address, path) = serve_scene("foreign", DOOR);
+    let other = path.with_file_name("other.toml");
+    fs::write(&other, "# theirs").unwrap();
+    for was in [Some("# theirs"), None] {
+        assert!(saved(&address, "other.toml", "# mine", was)["error"]["message"].is_string());
+    }
+    assert_eq!(fs::read_to_string(&other).unwrap(), "# theirs");
+    let message = loaded(&address, Some("other.toml"))["error"]["message"].take();
+    assert!(message.as_str().unwrap().contains("is no file of this page"), "{message}");
+}
+
+#[test]
+fn a_file_that_the_page_has_created_is_a_file_of_the_page() {
+    let (address, path) = serve_scene("created", DOOR);
+    assert_eq!(saved(&address, "new.toml", "# 1", None), json!({ "saved": "new.toml" }));
+    assert_eq!(saved(&address, "new.toml", "# 2", Some("# 1")), json!({ "saved": "new.toml" }));
+    assert_eq!(fs::read_to_string(path.with_file_name("new.toml")).unwrap(), "# 2");
+    // It is what a page that is opened now begins with.
+    assert_eq!(loaded(&address, None), json!({ "name": "new.toml", "text": "# 2" }));
+    assert_eq!(loaded(&address, Some("scene.toml"))["text"], DOOR);
+}
+
+#[cfg(unix)]
+#[test]
+fn a_save_through_a_link_keeps_the_link() {
+    let place = directory("link");
+    let [file, link] = ["file.toml", "link.toml"].map(|it| place.join(it));
+    fs::write(&file, DOOR).unwrap();
+    std::os::unix::fs::symlink("file.toml", &link).unwrap();
+    let address = serve(Desk::with_scene(&link).unwrap());
+    assert_eq!(saved(&address, "link.toml", "# mine", Some(DOOR)), json!({ "saved": "link.toml" }));
+    assert!(fs::symlink_metadata(&link).unwrap().is_symlink());
+    assert_eq!(fs::read_to_string(&file).unwrap(), "# mine");
+}
+
+#[test]
+fn of_saves_at_once_one_succeeds() {
+    let (address, path) = serve_scene("at_once", DOOR);
+    let texts = ["# 0", "# 1", "# 2", "# 3", "# 4", "# 5", "# 6", "# 7"];
+    let answers = std::thread::scope(|scope| {
+        let saves =
+            texts.map(|text| scope.spawn(|| saved(&address, "scene.toml", text, Some(DOOR))));
+        saves.map(|it| it.join().unwrap())
+    });
+    let winners: Vec<&str> = texts
+        .into_iter()
+        .zip(&answers)
+        .filter_map(|(text, answer)| answer["error"].is_null().then_some(text))
+        .collect();
+    assert_eq!(winners, [fs::read_to_string(&path).unwrap()], "{answers:?}");
+}
+
+#[test]
+fn a_file_keeps_its_ends_of_lines() {
+    let (address, path) = serve_scene("ends", &DOOR.replace('\n', "\r\n"));
+    assert_eq!(loaded(&address, None)["text"], DOOR);
+    let text = DOOR.replace("courses = 12", "courses = 14");
+    assert_eq!(saved(&address, "scene.toml", &text, Some(DOOR)), json!({ "saved": "scene.toml" }));
+    assert_eq!(fs::read_to_string(&path).unwrap(), text.replace('\n', "\r\n"));
 }
 
 #[test]
