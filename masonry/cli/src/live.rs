@@ -5,7 +5,7 @@ use std::process::{Command, Stdio};
 
 use clap::Args;
 
-use crate::end::{Failure, SOLVED, print};
+use crate::end::{Failure, print};
 use masonry_live::server::{Desk, Server};
 
 #[derive(Debug, Args)]
@@ -28,8 +28,7 @@ pub(super) fn run(args: &LiveArgs) -> Result<u8, Failure> {
     if !args.no_browser && !is_opened(&address) {
         eprintln!("no browser could be opened: open the address in one");
     }
-    server.run()?;
-    Ok(SOLVED)
+    server.run()
 }
 
 /// Opens an address in the browser of the user, if the system knows one.

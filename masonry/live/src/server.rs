@@ -31,6 +31,8 @@ use crate::page;
 const MOST_CONNECTIONS: usize = 32;
 /// Time between two lines of news, and from the end of a connection to that of its work.
 const NEWS: Duration = Duration::from_millis(100);
+/// Time until the next attempt if the system has no connection or thread to give: some of those in use have ended by then.
+const PAUSE: Duration = Duration::from_millis(100);
 
 /// A server of the page, which listens from its making on.
 #[derive(Debug)]
@@ -65,16 +67,11 @@ impl Server {
     }
 
     /// Serves until the program ends.
-    ///
-    /// # Errors
-    /// The error of the system if it accepts no connections any more.
-    pub fn run(&self) -> io::Result<()> {
+    pub fn run(&self) -> ! {
         loop {
-            let stream = match self.listener.accept() {
-                Ok((stream, _)) => stream,
-                // One that is gone before it was taken is no fault of the server.
-                Err(error) if error.kind() == io::ErrorKind::ConnectionAborted => continue,
-                Err(error) => return Err(error),
+            let Ok((stream, _)) = self.listener.accept() else {
+                thread::sleep(PAUSE);
+                continue;
             };
             // Every connection has its share until it ends, however it does.
             let shared = self.shared.clone();
@@ -85,7 +82,10 @@ impl Server {
                 continue;
             }
             // The page may be gone; then nobody hears that the answer could not be sent.
-            thread::spawn(move || shared.serve(&stream).ok());
+            let serving = thread::Builder::new().spawn(move || shared.serve(&stream).ok());
+            if serving.is_err() {
+                thread::sleep(PAUSE);
+            }
         }
     }
 }

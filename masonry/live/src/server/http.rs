@@ -25,12 +25,12 @@ pub(super) struct Head<'a> {
 }
 
 impl Head<'_> {
-    /// The value of the only header of a name.
+    /// The value of the only header of a name; an empty one for a value that is no UTF-8, which must not count as absent.
     pub(super) fn header(&self, name: &str) -> Option<&str> {
         let mut named = self.headers.iter().filter(|it| it.name.eq_ignore_ascii_case(name));
-        let value = std::str::from_utf8(named.next()?.value).ok();
+        let value = std::str::from_utf8(named.next()?.value).unwrap_or_default();
         // Of two it is unknown which one counts.
-        if named.next().is_some() { Some("") } else { value }
+        if named.next().is_some() { Some("") } else { Some(value) }
     }
 }
 

@@ -146,6 +146,8 @@ impl Page {
     fn call(&self, method: &str, path: &str, body: &Value) -> Value {
         let body = if body.is_null() { String::new() } else { body.to_string() };
         let mut stream = TcpStream::connect(&self.host).unwrap();
+        // The driver itself ends a script that takes longer than its patience.
+        stream.set_read_timeout(Some(2 * PATIENCE)).unwrap();
         let (host, length) = (&self.host, body.len());
         let head = format!(
             "{method} {path} HTTP/1.1\r\nHost: {host}\r\nConnection: close\r\nContent-Length: {length}\r\n\r\n"

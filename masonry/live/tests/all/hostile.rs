@@ -44,12 +44,16 @@ fn only_the_page_of_the_server_gets_answers() {
         ("two tokens", format!("{from_host}{token}{token}")),
         ("no host", token.clone()),
         ("a host that leads here", format!("Host: example.org\r\n{token}")),
-        ("another origin", format!("{good}Origin: http://example.org\r\n")),
+        ("another origin", format!("{from_host}Origin: http://example.org\r\n{token}")),
+        ("two origins", format!("{good}Origin: http://example.org\r\n")),
         ("an opaque origin", format!("{from_host}Origin: null\r\n{token}")),
         ("another site", format!("{good}Sec-Fetch-Site: cross-site\r\n")),
     ] {
         assert_eq!(status(&asked(host, &headers)), 403, "{what}");
     }
+    let head = format!("POST /ask HTTP/1.1\r\n{from_host}{token}Origin: http://");
+    let no_text = [head.as_bytes(), b"\xe9.example\r\n\r\n"].concat();
+    assert_eq!(status(&sent(host, &no_text)), 403, "an origin that is no UTF-8");
     assert_eq!(status(&asked(host, &good)), 200, "it goes on");
 }
 
@@ -201,7 +205,7 @@ fn a_save_through_a_link_keeps_the_link() {
 }
 
 #[test]
-fn of_saves_at_once_one_succeeds() {
+fn one_of_several_saves_at_once_succeeds() {
     let (address, path) = serve_scene("at_once", DOOR);
     let texts = ["# 0", "# 1", "# 2", "# 3", "# 4", "# 5", "# 6", "# 7"];
     let answers = std::thread::scope(|scope| {
