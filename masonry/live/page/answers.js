@@ -20,7 +20,8 @@ export class Answers {
     // What is seen, and the answer to the last text that could be solved.
     this.seen = { show: "answer", step: null };
     this.last = null;
-    this.isMistaken = false;
+    // Why the picture is that of an earlier text, if it is so after a solve.
+    this.reason = null;
     // The solve that runs, and the event that the next one answers.
     this.running = null;
     this.next = null;
@@ -42,7 +43,7 @@ export class Answers {
     while (this.next !== null) {
       const [event, text] = [this.next, this.editor.text];
       this.next = null;
-      this.running = { began: performance.now(), controller: new AbortController() };
+      this.running = { text, began: performance.now(), controller: new AbortController() };
       this.age();
       const ageing = setInterval(() => this.age(), AT_ONCE);
       try {
@@ -64,22 +65,22 @@ export class Answers {
   // Keeps the last good picture, with its age. A solve of an older text ends with the patience for it.
   age() {
     const time = this.running === null ? 0 : performance.now() - this.running.began;
-    if (time > PATIENCE && this.next !== null) this.running.controller.abort();
-    const isOld = time > AT_ONCE || this.isMistaken;
+    if (time > PATIENCE && this.running.text !== this.editor.text) this.running.controller.abort();
+    const isOld = time > AT_ONCE || this.reason !== null;
     one("#shown").classList.toggle("stale", isOld);
     one("#shown").setAttribute("aria-busy", this.running !== null);
     one("#age").hidden = !isOld;
     one("#age").textContent = time > AT_ONCE
       ? `Solving for ${(time / 1000).toFixed(1)} s: ${this.running.news ?? "begun"}. Verdict and picture are those of the text before.`
-      : "The text has a mistake: verdict and picture are those of the text before.";
+      : this.reason;
   }
 
   show(answer, text) {
-    this.isMistaken = answer.error != null;
+    this.reason = answer.error ? "The text has a mistake: verdict and picture are those of the text before." : null;
     if (answer.numbers) this.parts(answer, text);
     this.showFault(answer.error, text === this.editor.text);
     // What was dragged too far can be dragged back.
-    if (this.isMistaken) return this.handles.show(answer.handles ?? [], this.picture.svg, text);
+    if (answer.error) return this.handles.show(answer.handles ?? [], this.picture.svg, text);
     this.last = { ...answer, text };
     const { verdict, sentence, warnings, seconds, picture, report } = answer.shown;
     setVerdict(verdict, sentence);
@@ -106,7 +107,7 @@ export class Answers {
   // The program, not the scene, is at fault.
   fail(error) {
     setVerdict("", error.message);
-    this.isMistaken = true;
+    this.reason = "There is no answer: the picture is that of the text before.";
   }
 
   showTabs({ choices, steps }) {

@@ -19,7 +19,8 @@ export class Completion {
 
   async open() {
     const [text, at] = [this.editor.text, this.area.selectionStart];
-    const { entries, before } = await this.engine.ask({ task: "complete", text, at });
+    // Without an answer there is nothing to list; the solve of the same text says why.
+    const { entries, before } = await this.engine.ask({ task: "complete", text, at }).catch(() => ({}));
     if (text !== this.editor.text || at !== this.area.selectionStart) return;
     this.close();
     if (!entries?.length) return;
