@@ -15,15 +15,17 @@ const EXPORTS = {
 export class Files {
   constructor(engine, editor, picture) {
     Object.assign(this, { engine, editor, picture });
-    // The name of the file, and the text that it has.
-    [this.name, this.saved] = [null, null];
+    // The name of the file, and the text that it has; of a new scene no name, and the text that it began with.
+    [this.name, this.saved] = [null, editor.text];
+    // The save that runs, and the text on the disk that differs from the one here and the one before.
+    [this.saving, this.conflict] = [null, null];
     one("#save").addEventListener("click", () => this.save());
     one("#begin").addEventListener("change", ({ target }) => this.take(target));
     one("#export").addEventListener("change", ({ target }) => this.export(target));
     addEventListener("keydown", (event) => {
       if (!(event.ctrlKey || event.metaKey) || event.key.toLowerCase() !== "s") return;
       event.preventDefault();
-      this.save();
+      if (!event.repeat) this.save();
     });
     addEventListener("beforeunload", (event) => {
       if (this.isChanged) event.preventDefault();
@@ -31,7 +33,7 @@ export class Files {
   }
 
   get isChanged() {
-    return this.name !== null && this.editor.text !== this.saved;
+    return this.editor.text !== this.saved;
   }
 
   changed() {
@@ -49,43 +51,75 @@ export class Files {
     const [scenes, { name, text, error }] = await Promise.all([this.engine.ask({ task: "begin" }), this.engine.load()]);
     this.scenes = scenes;
     one("#begin").append(...scenes.map((it) => made("option", { value: it.name, textContent: it.meaning })));
-    if (error) notice(error.message);
-    if (!name) return this.editor.begin(scenes[0].text);
-    this.rename(name, text);
-    this.editor.begin(text);
-    setInterval(() => this.lookAtDisk(), LOOK);
+    if (error) tell(one("#notice"), error.message);
+    this.editor.begin(text ?? scenes[0].text);
+    this.rename(name, this.editor.text);
+    if (this.engine.hasFiles) setInterval(() => this.lookAtDisk(), LOOK);
   }
 
-  take(select) {
+  async take(select) {
     const { text } = this.scenes.find((it) => it.name === select.value);
     select.value = "";
-    this.rename(null, null);
+    // A save that ended later would give its name to the new scene.
+    await this.saving;
+    if (this.isChanged && !confirm("The changes of this scene are not saved. Begin another one?")) return;
+    this.settle();
     this.editor.set(text);
+    this.rename(null, text);
   }
 
+  // Saves, one at a time. A save that is refused since the file has changed shows the conflict at once.
   async save() {
+    if (this.saving !== null) return;
+    this.saving = this.write();
+    await this.saving;
+    this.saving = null;
+    await this.lookAtDisk();
+  }
+
+  async write() {
     const { text } = this.editor;
-    if (!this.engine.hasFiles) return download(this.name ?? "scene.toml", text, "application/toml");
+    if (!this.engine.hasFiles) {
+      download("scene.toml", text, "application/toml");
+      return this.rename(null, text);
+    }
     const name = this.name ?? prompt("Name of the new scene file", "scene.toml");
     if (name === null) return;
-    const { error } = await this.engine.save({ name, text, was: this.saved }).catch((failure) => ({ error: failure }));
-    if (error) return notice(error.message);
-    this.rename(name, text);
-    notice("");
+    // A file of a new scene must not exist yet.
+    const was = this.name === null ? null : this.saved;
+    const { error } = await this.engine.save({ name, text, was }).catch(failed);
+    if (!error) this.rename(name, text);
+    tell(one("#notice"), error?.message ?? "");
   }
 
   // A change on the disk is loaded, if nothing was changed here.
   async lookAtDisk() {
-    const { name, text } = await this.engine.load().catch(() => ({}));
-    if (!name || name !== this.name || text === this.saved) return;
-    const load = () => {
+    const { name, saved } = this;
+    if (name === null || this.saving !== null) return;
+    const { text } = await this.engine.load(name).catch(failed);
+    // A file that was saved or chosen in the meantime is not the one that was read.
+    if (text === undefined || this.saving !== null || name !== this.name || saved !== this.saved) return;
+    if (text === saved) return this.settle();
+    const keep = () => {
       this.rename(name, text);
+      this.settle();
+    };
+    const load = () => {
+      keep();
       this.editor.set(text);
     };
-    if (!this.isChanged) load();
-    else if (one("#notice").hidden) {
-      notice("The file has changed on the disk.", { "Load it": load, "Keep this text": () => this.rename(name, text) });
-    }
+    if (!this.isChanged) return load();
+    if (text === this.conflict) return;
+    this.conflict = text;
+    tell(one("#conflict"), "The file has changed on the disk.", { "Load it": load, "Keep this text": keep });
+  }
+
+  // Ends a conflict, and with it the notice of the save that it has stopped.
+  settle() {
+    if (this.conflict === null) return;
+    this.conflict = null;
+    tell(one("#conflict"), "");
+    tell(one("#notice"), "");
   }
 
   async export(select) {
@@ -96,22 +130,22 @@ export class Files {
       if (svg) download("picture.svg", new XMLSerializer().serializeToString(svg), "image/svg+xml");
       return;
     }
-    const { file, error } = await this.engine.ask({ task: "export", text: this.editor.text, format });
+    const { file, error } = await this.engine.ask({ task: "export", text: this.editor.text, format }).catch(failed);
     const [name, type] = EXPORTS[format];
-    if (error) notice(error.message);
+    if (error) tell(one("#notice"), error.message);
     else download(name, file, type);
   }
 }
 
-function notice(message, actions = {}) {
-  const place = one("#notice");
+// What stands for the answer of an engine that has failed.
+const failed = (error) => ({ error });
+
+// Shows a message with buttons, or hides its place if the message is empty.
+function tell(place, message, actions = {}) {
   place.hidden = message === "";
   place.replaceChildren(`${message} `);
   for (const [name, action] of Object.entries(actions)) {
-    place.append(button(name, () => {
-      notice("");
-      action();
-    }), " ");
+    place.append(button(name, action), " ");
   }
 }
 

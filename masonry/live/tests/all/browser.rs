@@ -190,6 +190,80 @@ fn a_scene_is_saved_and_changes_on_the_disk_are_loaded() {
 }
 
 #[test]
+fn a_conflict_on_the_disk_is_settled_by_a_choice() {
+    let (address, path) = serve_scene("conflict", DOOR);
+    let Some(page) = Page::open(&address, 1280) else { return };
+    page.wait(SETTLED);
+    name_number(&page, "courses = ", "courses");
+    page.drag("#courses", [4.0, 0.0], 2);
+    let mine = DOOR.replace("courses = 12", "courses = 14");
+    let theirs = DOOR.replace("0.981", "0.5");
+    let conflict = "!document.getElementById('conflict').hidden";
+    fs::write(&path, &theirs).unwrap();
+    page.keys(CONTROL, "s");
+    page.wait(conflict);
+    assert_eq!(fs::read_to_string(&path).unwrap(), theirs);
+    page.click("#conflict button:last-of-type");
+    page.wait(
+        "document.querySelector('#conflict[hidden]') && document.querySelector('#notice[hidden]')",
+    );
+    assert_eq!(text(&page), mine, "the text is kept");
+    page.keys(CONTROL, "s");
+    page.wait("!document.querySelector('#name.changed')");
+    assert_eq!(fs::read_to_string(&path).unwrap(), mine);
+
+    name_number(&page, "courses = ", "courses");
+    page.drag("#courses", [4.0, 0.0], 2);
+    fs::write(&path, &theirs).unwrap();
+    page.wait(conflict);
+    page.click("#conflict button");
+    page.wait(&format!("{TEXT}.includes('acceleration = [0.5, 0.0]')"));
+    page.wait("document.querySelector('#conflict[hidden]')");
+    assert_eq!(text(&page), theirs);
+}
+
+#[test]
+fn changes_are_not_dropped_without_a_question() {
+    let place = directory("unsaved");
+    let Some(page) = Page::open(&serve(Desk::empty(&place)), 1280) else { return };
+    page.wait(SETTLED);
+    page.run("window.asked = 0; window.confirm = () => { window.asked += 1; return false; }");
+    let choose = "const it = document.getElementById('begin'); it.value = 'door'; it.dispatchEvent(new Event('change'))";
+    let leave = "return dispatchEvent(new Event('beforeunload', { cancelable: true }))";
+    assert_eq!(page.run(leave), true, "nothing is lost yet");
+    name_number(&page, "courses = ", "courses");
+    page.drag("#courses", [4.0, 0.0], 2);
+    let mine = text(&page);
+    assert_eq!(page.run(leave), false);
+    page.run(choose);
+    assert_eq!(page.run("return window.asked"), 1);
+    assert_eq!(text(&page), mine);
+    page.run("window.prompt = () => 'mine.toml'");
+    page.keys(CONTROL, "s");
+    page.wait("document.getElementById('name').textContent === 'mine.toml'");
+    // The file is now that of the server: it is watched, and a page that is opened anew begins with it.
+    fs::write(place.join("mine.toml"), DOOR).unwrap();
+    page.wait(&format!("{TEXT}.startsWith('title = \"Wall with a door\"')"));
+    page.run(choose);
+    assert_eq!(page.run("return window.asked"), 1, "nothing is lost");
+    assert_ne!(text(&page), DOOR);
+}
+
+#[test]
+fn the_end_of_the_command_is_no_mistake_of_the_text() {
+    let Some(page) = opened("ended", DOOR) else { return };
+    page.run("window.fetch = () => Promise.reject(new TypeError('no connection'))");
+    name_number(&page, "courses = ", "courses");
+    page.drag("#courses", [4.0, 0.0], 2);
+    page.wait(&format!("{SENTENCE}.startsWith('the command has ended')"));
+    page.wait("document.getElementById('age').textContent.startsWith('There is no answer')");
+    page.run(
+        "const it = document.getElementById('export'); it.value = 'json'; it.dispatchEvent(new Event('change'))",
+    );
+    page.wait("document.getElementById('notice').textContent.startsWith('the command has ended')");
+}
+
+#[test]
 fn two_pages_have_each_its_own_text() {
     let scene = DOOR.replace("0.981", "1.962");
     let (address, _) = serve_scene("two", &scene);
@@ -241,10 +315,15 @@ fn pictures_follow_the_hand() {
     ] {
         let Some(page) = opened(&format!("times_{name}"), &scene) else { return };
         name_number(&page, words, "number");
+        let before = text(&page);
         page.run("performance.clearMeasures()");
         page.drag("#number", [-60.0, 0.0], 60);
         page.wait(SETTLED);
         page.wait("performance.getEntriesByName('answer').length > 0");
+        assert_ne!(text(&page), before, "{name}");
+        page.wait(
+            "document.getElementById('fault').hidden && !document.querySelector('#shown.stale')",
+        );
         let mut times = times(&page);
         times.sort_by(|a, b| a[0].total_cmp(&b[0]));
         let [[median, solve], [slow, _]] =
