@@ -1,5 +1,6 @@
 """The package ``masonry`` against published answers and closed forms."""
 
+import concurrent.futures
 import copy
 import pathlib
 import pickle
@@ -142,3 +143,36 @@ def test_many_scenes_go_on_behind_one_that_fails():
     assert isinstance(done[3].error, masonry.SceneError) and done[3].result is None
     verdicts = [done[k].result.verdict for k in range(19) if k != 3]
     assert verdicts == ["stands"] * 11 + ["falls"] * 7
+
+
+class Careless(concurrent.futures.Executor):
+    """An executor that cancels the second of all works."""
+
+    def __init__(self):
+        self.asked = 0
+
+    def submit(self, what, scene):
+        self.asked += 1
+        future = concurrent.futures.Future()
+        if self.asked == 2:
+            future.cancel()
+            future.set_running_or_notify_cancel()
+        else:
+            future.set_result(what(scene))
+        return future
+
+
+def test_many_scenes_go_on_behind_one_that_is_cancelled():
+    executor = Careless()
+    done = {it.index: it for it in masonry.map([pushed(0.1)] * 3, executor=executor)}
+    assert isinstance(done[1].error, concurrent.futures.CancelledError) and done[1].result is None
+    assert "cancelled" in str(done[1].error)
+    assert [done[k].result.verdict for k in (0, 2)] == ["stands", "stands"]
+
+
+def test_many_scenes_begin_with_the_first_result():
+    executor = Careless()
+    results = masonry.map([pushed(0.1)] * 3, executor=executor)
+    assert executor.asked == 0
+    next(results)
+    assert executor.asked == 3

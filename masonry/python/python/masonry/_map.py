@@ -44,9 +44,9 @@ def map(
 ) -> Iterator[Done]:
     """Work on scenes on all cores, and give each as soon as it is done.
 
-    A scene that raises an exception does not stop the others. Solves release the lock of the interpreter, so that threads suffice on
-    one machine. If the caller asks for no more, or after Ctrl-C, scenes that run go on to their end in the background, and no other
-    begins.
+    The work begins when the caller asks for the first result. A scene that raises an exception does not stop the others. Solves
+    release the lock of the interpreter, so that threads suffice on one machine. If the caller asks for no more, or after Ctrl-C,
+    no other scene begins, but scenes that run go on to their end in the background, and the process does not end before them.
 
     Parameters
     ----------
@@ -55,12 +55,17 @@ def map(
     what : callable
         The work on a scene, by default :meth:`Scene.solve`.
     workers : int, optional
-        Threads, by default one for each core.
+        Threads, at least one; by default one for each core. An ``executor`` has workers of its own.
     executor : concurrent.futures.Executor, optional
         What works in place of threads, such as the ``get_executor()`` of a client of dask. Results of other processes have to be
         data: what ``what`` gives is then made of numbers, texts and arrays, not an :class:`Outcome`.
     progress : bool
         Show a bar, as :meth:`Scene.solve` does.
+
+    Raises
+    ------
+    ValueError
+        If there are no workers.
 
     Examples
     --------
@@ -79,8 +84,19 @@ def map(
     >>> [round(it.result.details["associative"]["load_factor"], 3) for it in done]
     [2.0, 4.0, 6.0]
     """
+    if workers is not None and workers < 1:
+        raise ValueError(f"workers is {workers}: give at least 1, or leave it out for one on each core")
+    return _done(list(scenes), what, workers, executor, progress)
 
-    given = list(scenes)
+
+def _done(
+    given: list[Scene],
+    what: Callable[[Scene], Any],
+    workers: int | None,
+    executor: concurrent.futures.Executor | None,
+    progress: bool,
+) -> Iterator[Done]:
+    """Give each scene as soon as it is done."""
     pool = executor or concurrent.futures.ThreadPoolExecutor(workers or os.cpu_count())
     waiting = {pool.submit(what, scene): index for index, scene in enumerate(given)}
     try:
@@ -90,7 +106,7 @@ def map(
                 index = waiting.pop(future)
                 if shown is not None:
                     shown.at(count)
-                error = future.exception()
+                error = _error(future)
                 result = None if error is not None else future.result()
                 yield Done(index, given[index], result, error)
     finally:
@@ -99,3 +115,10 @@ def map(
         # After Ctrl-C nobody waits for the scenes that run.
         if executor is None:
             pool.shutdown(wait=False)
+
+
+def _error(future: concurrent.futures.Future[Any]) -> BaseException | None:
+    """Give the exception of the work, or that its executor has cancelled it."""
+    if future.cancelled():
+        return concurrent.futures.CancelledError("the executor has cancelled the work on this scene")
+    return future.exception()

@@ -183,7 +183,8 @@ class Scene:
         both : bool
             Also take the opposite direction.
         callback : callable, optional
-            Called with a number and the largest factor that was found to stand; something true that it returns ends the search.
+            Called with a number and the largest factor that was found to stand, NaN as long as none was; something true that it
+            returns ends the search.
         progress : bool
             Show a bar, as :meth:`solve` does.
         """
@@ -215,7 +216,8 @@ class Scene:
         arch : str
             Its name.
         callback : callable, optional
-            Called with a number and the smallest thickness that was found to stand; something true that it returns ends the search.
+            Called with a number and the smallest thickness that was found to stand, NaN as long as none was; something true that it
+            returns ends the search.
         progress : bool
             Show a bar, as :meth:`solve` does.
         """
