@@ -56,6 +56,13 @@ def test_points_are_added_and_changed_between_solves():
     assert state.t_n.tolist() == pytest.approx([0.0, 2.2])
 
 
+def test_integers_of_numpy_name_displacements():
+    box = lcp.Contact2d(np.diag([3.0, 1.0]), [1.4, -2.0])
+    x, y = np.arange(2)
+    foot = box.add_point({y: 1.0}, {x: 1.0}, mu=0.5)
+    assert box.solve().raise_if_unsolved().t_n[foot] == pytest.approx(2.0)
+
+
 def test_gaps_and_slips_are_those_of_the_displacements():
     stack = pile(3, k=2.0)
     stack.f[0] = 5.0

@@ -28,9 +28,9 @@ def matrix(given: Any) -> Matrix:
             "by_rows": compressed.format == "csr",
             "starts": compressed.indptr,
             "indices": compressed.indices,
-            "values": np.asarray(compressed.data, dtype=np.float64),
+            "values": real(compressed.data, "a matrix"),
         }
-    dense = np.asarray(given, dtype=np.float64)
+    dense = real(given, "a matrix")
     if dense.ndim != 2:
         raise ValueError(f"a matrix has two dimensions, and this one has {dense.ndim}")
     return dense
@@ -40,7 +40,7 @@ def vector(given: ArrayLike) -> Vector:
     """Give a vector as an array of floats."""
     if type(given) is np.ndarray and given.dtype == np.float64 and given.ndim == 1:
         return given
-    array = np.asarray(given, dtype=np.float64)
+    array = real(given, "a vector")
     if array.ndim != 1:
         raise ValueError(f"a vector has one dimension, and this one has {array.ndim}")
     return array
@@ -50,5 +50,15 @@ def filled(given: ArrayLike | None, length: int, value: float) -> Vector:
     """Give a vector that may be left out, or be one number for all entries."""
     if given is None:
         return np.full(length, value)
-    array = np.asarray(given, dtype=np.float64)
+    array = real(given, "a vector")
     return np.full(length, float(array)) if array.ndim == 0 else vector(array)
+
+
+def real(given: Any, what: str) -> Vector:
+    """Give an array of floats, of any dimension."""
+    array = np.asarray(given)
+    # A conversion to floats would leave the imaginary parts out. Each entry of an array of objects has a type of its own.
+    entries = array.flat if array.dtype == object else [array]
+    if any(np.iscomplexobj(entry) for entry in entries):
+        raise ValueError(f"{what} has complex entries, and must have real ones, such as those of numpy.real")
+    return np.asarray(array, dtype=np.float64)

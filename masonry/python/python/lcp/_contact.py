@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import operator
 from collections.abc import Callable, Mapping
 from typing import Any
 
@@ -9,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _native
-from ._arrays import matrix, vector
+from ._arrays import matrix, real, vector
 from ._options import options
 from ._solution import ContactSolution
 
@@ -51,7 +52,7 @@ class Contact2d:
         self._native: _native.Contact | None = None
         self._is_changed = False
         #: Loads, which may be changed between solves.
-        self.f: NDArray[np.float64] = np.array(f, dtype=np.float64)
+        self.f: NDArray[np.float64] = vector(f).copy()
         self._rows: list[tuple[Row, Row]] = []
         self._data: list[tuple[float, float, float, float, float]] = []
 
@@ -83,7 +84,7 @@ class Contact2d:
         int
             The number of the point, its index in the solution.
         """
-        self._rows.append((dict(normal), dict(tangent)))
+        self._rows.append((_row(normal), _row(tangent)))
         self._data.append((gap, slip, mu, *compliance))
         self._is_changed = True
         return len(self._rows) - 1
@@ -131,7 +132,7 @@ class Contact2d:
 
     def _points(self) -> dict[str, Any]:
         """Give the points as the native half takes them."""
-        data = np.array(self._data, dtype=np.float64).reshape(-1, 5)
+        data = real(self._data, "a contact point").reshape(-1, 5)
         gap, slip, mu = (np.ascontiguousarray(data[:, k]) for k in range(3))
         return {
             "c_n": self._sparse(0),
@@ -143,20 +144,33 @@ class Contact2d:
         }
 
     def _sparse(self, side: int) -> dict[str, Any]:
-        """Give the rows of all points by their columns."""
+        """Give the rows of all points by compressed columns."""
         entries = sorted(
             (column, row, value)
             for row, sides in enumerate(self._rows)
             for column, value in sides[side].items()
         )
         size = len(self.f)
-        columns = np.array([column for column, _, _ in entries], dtype=np.int64)
-        if len(columns) and not 0 <= columns[0] <= columns[-1] < size:
+        if entries and not 0 <= entries[0][0] <= entries[-1][0] < size:
             raise ValueError(f"a contact point refers to a displacement that is not from 0 to {size - 1}")
+        columns = np.array([column for column, _, _ in entries], dtype=np.int64)
         return {
             "shape": [len(self._rows), size],
             "by_rows": False,
             "starts": np.searchsorted(columns, np.arange(size + 1)),
             "indices": np.array([row for _, row, _ in entries], dtype=np.int64),
-            "values": np.array([value for _, _, value in entries], dtype=np.float64),
+            "values": vector([value for _, _, value in entries]),
         }
+
+
+def _row(given: Row) -> dict[int, float]:
+    """Give a row with its displacements as integers of Python."""
+    row = {}
+    for displacement, entry in given.items():
+        try:
+            row[operator.index(displacement)] = entry
+        except TypeError:
+            raise TypeError(
+                f"a contact point refers to displacement {displacement!r}: give its number as an integer"
+            ) from None
+    return row
