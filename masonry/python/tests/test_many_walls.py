@@ -38,14 +38,14 @@ def slow_strength(scene):
 def test_walls_that_fail_and_processes_that_die_do_not_stop_the_rest(client):
     scenes = [many_walls.random_wall(seed) for seed in range(16)]
     scenes[5]["joints.bed.mu"] = "smooth"
-    done, killed = {}, False
+    done, processes = {}, client.run(os.getpid)
     for it in masonry.map(scenes, slow_strength, executor=client.get_executor(retries=2)):
         done[it.index] = it
-        if not killed:
-            # Results come as they are, so that there is work left when the first is here.
-            assert len(done) == 1
-            os.kill(next(iter(client.run(os.getpid).values())), signal.SIGKILL)
-            killed = True
+        if len(done) == 1:
+            # Results come as they are, so that both processes have work left when the first is here.
+            working = client.processing()
+            assert all(working[address] for address in processes)
+            os.kill(next(iter(processes.values())), signal.SIGKILL)
     assert sorted(done) == list(range(16))
     assert isinstance(done[5].error, masonry.SceneError) and "mu" in str(done[5].error)
     for index in set(done) - {5}:
