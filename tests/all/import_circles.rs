@@ -25,6 +25,7 @@ fn the_files_of_lcp_import_one_another_in_one_direction() {
     assert_no_circles("masonry/report/src", &[usize::MAX, 1]);
     assert_no_circles("masonry/cli/src", &[usize::MAX, 1]);
     assert_no_circles("masonry/live/src", &[usize::MAX, 1]);
+    assert_no_circles("masonry/python/src", &[usize::MAX, 1]);
 }
 
 #[test]

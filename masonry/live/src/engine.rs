@@ -30,7 +30,7 @@ mod work;
 
 use std::sync::{Arc, Mutex, PoisonError};
 
-use masonry::Scene;
+use masonry::{Laws, Scene};
 use serde::{Deserialize, Serialize};
 
 use crate::beginnings::BEGINNINGS;
@@ -39,7 +39,6 @@ use fault::Fault;
 use solved::{Format, Show, Solved};
 use text::Text;
 pub use watch::Watch;
-use work::Law;
 
 /// The longest text of a scene \[bytes\]: that of a wall of 10 000 single blocks.
 pub const LONGEST_TEXT: usize = 4 << 20;
@@ -54,7 +53,7 @@ pub struct Engine {
 #[serde(tag = "task", rename_all = "lowercase")]
 enum Task {
     Solve { text: String, show: Show, step: Option<usize> },
-    Limit { text: String, law: Law },
+    Limit { text: String, law: Laws },
     Range { text: String },
     Thickness { text: String, arch: String },
     Study { text: String },

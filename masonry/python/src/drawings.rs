@@ -5,7 +5,8 @@ use masonry_import::{Joints, Options, import};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
-use crate::scene::{PyScene, SceneError, wrong};
+use crate::failure::{SceneError, wrong};
+use crate::scene::PyScene;
 use crate::watch::detached;
 
 /// How a drawing becomes a scene; `None` is the default.

@@ -6,7 +6,7 @@ use masonry::{Plan, Range, Thickness};
 use masonry_report::{self as report, page};
 use pyo3::prelude::*;
 
-use crate::scene::failed;
+use crate::failure::failed;
 
 /// What an analysis has found, as text, JSON and a page.
 #[pyclass(frozen, get_all)]

@@ -5,6 +5,7 @@ mod answer;
 mod arrays;
 mod contact;
 mod drawings;
+mod failure;
 mod forms;
 mod found;
 mod many;
@@ -25,6 +26,8 @@ mod _native {
     #[pymodule_export]
     use crate::drawings::{Imported, import_drawing};
     #[pymodule_export]
+    use crate::failure::SceneError;
+    #[pymodule_export]
     use crate::forms::{solve_boxed, solve_horizontal, solve_mixed, solve_program, solve_standard};
     #[pymodule_export]
     use crate::found::{Found, Studied};
@@ -33,5 +36,5 @@ mod _native {
     #[pymodule_export]
     use crate::outcome::{Mesh, Outcome};
     #[pymodule_export]
-    use crate::scene::{PyScene, SceneError};
+    use crate::scene::PyScene;
 }

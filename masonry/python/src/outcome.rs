@@ -8,7 +8,7 @@ use numpy::{PyArray1, PyArray2};
 use pyo3::exceptions::{PyOSError, PyValueError};
 use pyo3::prelude::*;
 
-use crate::scene::failed;
+use crate::failure::failed;
 
 /// What became of a scene.
 #[pyclass(frozen)]

@@ -10,31 +10,14 @@ use masonry::analysis::limit::Directions;
 use masonry::analysis::study::{self, StudyError};
 use masonry::{Bracket, Event, Laws, LimitError, Plan};
 use masonry_report::svg;
-use pyo3::create_exception;
-use pyo3::exceptions::{PyRuntimeError, PyValueError};
+use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use serde_json::Value;
 
+use crate::failure::{failed, wrong};
 use crate::found::{Found, Studied};
 use crate::outcome::Outcome;
 use crate::watch::{Watch, detached};
-
-create_exception!(
-    lcp._native,
-    SceneError,
-    PyValueError,
-    "A scene that is wrong, with the place and the remedy."
-);
-
-/// A mistake of the scene.
-pub(crate) fn wrong(error: impl std::fmt::Display) -> PyErr {
-    SceneError::new_err(error.to_string())
-}
-
-/// A fault of what writes results, which no data can cause.
-pub(crate) fn failed(error: impl std::fmt::Display) -> PyErr {
-    PyRuntimeError::new_err(error.to_string())
-}
 
 /// A scene that was read and checked.
 #[pyclass(frozen, name = "Scene")]

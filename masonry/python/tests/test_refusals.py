@@ -11,6 +11,7 @@ import scipy.sparse
 import lcp
 import masonry
 from lcp import _native
+from walls import block
 
 EYE = np.eye(2)
 NAN, INFINITE = float("nan"), float("inf")
@@ -21,20 +22,6 @@ def foot(**changed):
     box = lcp.Contact2d(np.zeros((2, 2)), [0.0, -1.0])
     box.add_point(**{"normal": {1: 1.0}, "tangent": {0: 1.0}, **changed})
     return box
-
-
-def block(**more):
-    """A block on a floor, of whose keys something is wrong."""
-    keys = dict(
-        thickness=1.0,
-        gravity=[0, -10],
-        units={"length": "m", "force": "kN"},
-        materials={"stone": {"density": 1000}},
-        joints={"floor": {"mu": 0.6}},
-        blocks=[{"name": "block", "material": "stone", "corners": [[0, 0], [0.4, 0], [0.4, 0.5], [0, 0.5]]}],
-        supports=[{"name": "ground", "from": [-1, 0], "to": [1, 0], "joint": "floor"}],
-    )
-    return masonry.Scene(**{**keys, **more})
 
 
 def endless():

@@ -36,6 +36,7 @@ mod sentence;
 mod thickness;
 mod watch;
 
+use serde::{Deserialize, Serialize};
 use std::ops::ControlFlow;
 use web_time::Instant;
 
@@ -62,7 +63,8 @@ use watch::Watch;
 const NOTHING: f64 = 1e-6;
 
 /// The laws of friction of a limit load.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
 pub enum Laws {
     /// Joints that open by `mu` times their slip: one linear program, with a proof.
     Associative,

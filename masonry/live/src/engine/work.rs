@@ -8,29 +8,10 @@ use masonry::{
     Bracket, Laws, LimitError, Scene, least_thickness_observed, limit_observed, ranges_observed,
 };
 use masonry_report::{limit as output, study as study_output, svg};
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 use super::fault::Fault;
 use super::watch::Watch;
-
-/// The laws of friction of a limit load.
-#[derive(Debug, Clone, Copy, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub(super) enum Law {
-    Associative,
-    Path,
-    Both,
-}
-
-impl From<Law> for Laws {
-    fn from(law: Law) -> Self {
-        match law {
-            Law::Associative => Self::Associative,
-            Law::Path => Self::Path,
-            Law::Both => Self::Both,
-        }
-    }
-}
 
 /// What the work has come to.
 #[derive(Debug, Serialize)]
@@ -57,8 +38,8 @@ impl Found {
     }
 }
 
-pub(super) fn limit(scene: &Scene, law: Law, watch: &mut Watch<'_>) -> Result<Found, LimitError> {
-    let limit = limit_observed(scene, law.into(), &mut |at| watch(&Known(at)))?;
+pub(super) fn limit(scene: &Scene, law: Laws, watch: &mut Watch<'_>) -> Result<Found, LimitError> {
+    let limit = limit_observed(scene, law, &mut |at| watch(&Known(at)))?;
     let (title, mut pictures) = (limit.title.as_str(), Vec::new());
     if let Some(path) = &limit.path {
         let rates = path.mechanism.as_ref();
