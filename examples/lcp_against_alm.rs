@@ -19,7 +19,7 @@ use bandwidth::semi_bandwidth;
 use lcp::Status;
 use masonry::analysis::solve::solve;
 use masonry::model::Model;
-use masonry::paper::alm::{AlmSettings, Iteration, MortaredWall};
+use masonry::paper::alm::{AlmIteration, AlmSettings, MortaredWall};
 use masonry::scene::{Route, Scene};
 
 const PANELS: [&str; 4] = [
@@ -54,7 +54,7 @@ fn main() -> Result<(), Box<dyn Error>> {
 }
 
 /// The lines of one panel; the iterations of the augmented Lagrangian method.
-fn compare(name: &str) -> Result<Vec<Iteration>, Box<dyn Error>> {
+fn compare(name: &str) -> Result<Vec<AlmIteration>, Box<dyn Error>> {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes").join(name);
     let scene = Scene::read(&path.with_extension("toml"))?.tolerance(TOLERANCE);
     let line = |method: &str, order: usize, numbers: usize, iterations: usize, seconds, ratio| {

@@ -25,14 +25,14 @@ impl Line {
         // A proof makes its verdict another one.
         let proof = if solution.certificate.is_some() { ", proved" } else { "" };
         let is_proved = solution.status != Status::Solved && !proof.is_empty();
-        let routes = &solution.info.routes;
+        let runs = &solution.info.runs;
         Self {
             case,
             end: format!("{}{}", solution.status, if is_proved { proof } else { "" }),
             residual: solution.residuals.worst(),
             method: method(&solution.info),
-            pivots: routes.iter().map(|route| route.pivots).sum(),
-            factorisations: routes.iter().map(|route| route.factorisations).sum(),
+            pivots: runs.iter().map(|route| route.pivots).sum(),
+            factorisations: runs.iter().map(|route| route.factorisations).sum(),
         }
     }
 

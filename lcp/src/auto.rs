@@ -25,7 +25,7 @@ use crate::{Error, Method, Observer, Solution, Solver};
 ///
 /// The choice needs no factorisation. It depends on the order, whether matrices are stored sparse, signs, and the number
 /// of contact points, not on units. [`plan`](Self::plan) gives the choice and the reasons, and
-/// [`Info::routes`](crate::Info::routes) the methods that were tried and how they ended.
+/// [`Info::runs`](crate::Info::runs) the methods that were tried and how they ended.
 ///
 /// | problem | chain |
 /// |---|---|
@@ -48,7 +48,7 @@ use crate::{Error, Method, Observer, Solution, Solver};
 /// # Independent parts
 /// Rows and variables that no entry connects are independent problems. Each has its own chain, so a body that touches
 /// no other costs the same as alone, and small parts are treated as small problems. A part without a solution proves
-/// that the whole has none. A plan and its [`Route`](crate::Route)s have one line for all parts with the same course.
+/// that the whole has none. A plan and its [`MethodRun`](crate::MethodRun)s have one line for all parts with the same course.
 /// More than 256 parts are first tried as one problem. The smallest part comes first, and each has an equal share of the
 /// time that is left.
 ///
@@ -80,7 +80,7 @@ use crate::{Error, Method, Observer, Solution, Solver};
 /// let solution = auto.solve(&problem)?;
 /// assert!(solution.is_solved());
 /// assert_eq!(solution.info.method, Method::Newton);
-/// assert_eq!(solution.info.routes.len(), 1);
+/// assert_eq!(solution.info.runs.len(), 1);
 /// # Ok::<(), lcp::Error>(())
 /// ```
 #[derive(Debug, Clone, PartialEq, Default)]

@@ -187,7 +187,7 @@ pub use qp::{QuadraticProgram, QuadraticProgramSettings};
 pub use random::SplitMix;
 pub use sequence::Sequence;
 pub use settings::{Covering, LemkeSettings, WarmStart};
-pub use solution::{Info, Route, RouteEnd, Solution, Unsolved};
+pub use solution::{Info, MethodRun, RunEnd, Solution, Unsolved};
 pub use solve::{Iteration, Named, Observer, Solver, Step, StepKind};
 pub use status::Status;
 pub use vector::Vector;

@@ -16,7 +16,7 @@ use crate::{Basis, Certificate, ContactState, HorizontalLcp, Method, Residuals, 
     serde(rename_all = "lowercase")
 )]
 #[non_exhaustive]
-pub enum RouteEnd {
+pub enum RunEnd {
     /// It ended with a status.
     Ended {
         /// Its status.
@@ -32,7 +32,7 @@ pub enum RouteEnd {
     },
 }
 
-impl std::fmt::Display for RouteEnd {
+impl std::fmt::Display for RunEnd {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
             Self::Ended { status, residual } => write!(f, "{status}, residual {residual:.1e}"),
@@ -45,14 +45,14 @@ impl std::fmt::Display for RouteEnd {
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
-pub struct Route {
+pub struct MethodRun {
     /// The method.
     #[cfg_attr(feature = "serde", serde(rename = "solver"))]
     pub method: Method,
     /// Why it was chosen.
     pub reason: String,
     /// How it ended.
-    pub end: RouteEnd,
+    pub end: RunEnd,
     /// Its pivots, as in [`Info::pivots`].
     #[cfg_attr(feature = "serde", serde(default))]
     pub pivots: usize,
@@ -86,7 +86,7 @@ pub struct Info {
     /// The methods that [`Auto`](crate::Auto) ran, in order. The point and the other numbers here, except for the
     /// time, come from one of them. For a problem with independent parts these are the methods of all parts, the
     /// other numbers are sums, and [`method`](Self::method) is that of the largest part.
-    pub routes: Vec<Route>,
+    pub runs: Vec<MethodRun>,
     /// Wall-clock time \[s\].
     pub seconds: f64,
     /// The part of it spent on pivots; the rest of a pivoting method is start bases, scaling, final

@@ -98,7 +98,7 @@ fn factor_of(stage: &Stage, load: &Load) -> Option<f64> {
 
 /// One step of the load history.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Step {
+pub struct HistoryStep {
     /// Name of the stage; empty for a scene without stages.
     pub stage: String,
     /// The step within its stage, from 1.
@@ -122,7 +122,7 @@ pub struct Step {
 /// let factors: Vec<f64> = history::steps(&scene).iter().map(|step| step.actions.loads[0]).collect();
 /// assert_eq!(factors, [0.0, 0.5, 1.0]);
 /// ```
-pub fn steps(scene: &Scene) -> Vec<Step> {
+pub fn steps(scene: &Scene) -> Vec<HistoryStep> {
     let mut steps = Vec::new();
     let mut actions = Actions::before(scene);
     for stage in &scene.stages {
@@ -133,12 +133,12 @@ pub fn steps(scene: &Scene) -> Vec<Step> {
             let fraction = number as f64 / of as f64;
             let within = || actions.towards(&end, fraction);
             let actions = if number == of { end.clone() } else { within() };
-            Step { stage: stage.name.clone(), number, of, actions }
+            HistoryStep { stage: stage.name.clone(), number, of, actions }
         }));
         actions = end;
     }
     if steps.is_empty() {
-        steps.push(Step { stage: String::new(), number: 1, of: 1, actions });
+        steps.push(HistoryStep { stage: String::new(), number: 1, of: 1, actions });
     }
     steps
 }
@@ -197,7 +197,7 @@ impl Model {
 #[non_exhaustive]
 pub struct StepRecord {
     /// The step.
-    pub step: Step,
+    pub step: HistoryStep,
     /// The route that solved it.
     pub route: Route,
     /// How the state at rest was found.
@@ -235,7 +235,7 @@ pub struct History {
     /// The steps that were solved.
     pub records: Vec<StepRecord>,
     /// The step that could not be solved, if there is one: the state is that of the step before.
-    pub failed: Option<Step>,
+    pub failed: Option<HistoryStep>,
     /// Number of steps of the scene.
     pub steps: usize,
     /// Names of the loads, in the order of the factors.

@@ -130,4 +130,4 @@ impl From<&lcp::Iteration> for Event {
 }
 
 /// Follows the progress of a solve; `Break` cancels it.
-pub type Observer<'a> = &'a mut dyn FnMut(Event) -> ControlFlow<()>;
+pub type EventObserver<'a> = &'a mut dyn FnMut(Event) -> ControlFlow<()>;

@@ -50,7 +50,7 @@ pub struct Model {
     /// Where two blocks, or a block and a support, can touch.
     pub joints: Vec<PlacedJoint>,
     /// The points at which the contact law is enforced, joint by joint.
-    pub contacts: Vec<ContactPoint>,
+    pub contacts: Vec<JointPoint>,
     /// The frictional classes that the joints refer to.
     pub joint_classes: Vec<JointClass>,
     /// Plane stress or plane strain.
@@ -267,7 +267,7 @@ pub struct Anchor {
 
 /// A point at which the contact law is enforced.
 #[derive(Debug, Clone)]
-pub struct ContactPoint {
+pub struct JointPoint {
     /// The joint on which it lies.
     pub joint: JointId,
     /// Its place \[m\]; in a film half way between the faces, at which the film's forces act.
@@ -292,7 +292,7 @@ pub struct ContactPoint {
     pub film: Option<FilmPoint>,
 }
 
-impl ContactPoint {
+impl JointPoint {
     /// Compression and shear under a unit of force \[m/N\], of the joint and of a film in it, one after the other.
     pub fn gives(&self) -> [f64; 2] {
         let film = self.film.map_or([0.0; 2], |film| film.compliance);

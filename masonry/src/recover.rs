@@ -12,7 +12,7 @@ use crate::forms::Sparse;
 use crate::forms::reduction::Reduction;
 use crate::ids::{BlockId, ContactId};
 use crate::material::constitutive;
-use crate::model::{Anchor, Body, ContactPoint, Model};
+use crate::model::{Anchor, Body, JointPoint, Model};
 use crate::system::kinematics::shares;
 use crate::system::{Direction, System, displaced_nodes};
 
@@ -152,7 +152,7 @@ pub fn film_stresses(
     contacts: &[PointState],
 ) -> Vec<FilmStress> {
     let points = model.contacts.iter().zip(contacts).enumerate();
-    let of_point = |(k, (point, state)): (usize, (&ContactPoint, &PointState))| {
+    let of_point = |(k, (point, state)): (usize, (&JointPoint, &PointState))| {
         let film = model.joints[point.joint.index()].film?;
         let part = point.film?;
         // Adding zero turns a stress of -0.0 into 0.0.
@@ -184,7 +184,7 @@ pub fn displacement_at(
 pub fn relative_displacement(
     model: &Model,
     displacements: &[Vec<Vector2<f64>>],
-    contact: &ContactPoint,
+    contact: &JointPoint,
 ) -> Vector2<f64> {
     let side = |anchor| displacement_at(model, displacements, anchor);
     let apart = side(contact.b) - contact.a.map_or_else(Vector2::zeros, side);
@@ -201,7 +201,7 @@ pub fn relative_displacement(
 pub fn film_elongation(
     model: &Model,
     displacements: &[Vec<Vector2<f64>>],
-    contact: &ContactPoint,
+    contact: &JointPoint,
 ) -> f64 {
     let Some(film) = &contact.film else { return 0.0 };
     let tangent = model.joints[contact.joint.index()].tangent();
@@ -322,7 +322,7 @@ pub fn forces_at_rest(model: &Model, rows: &[f64]) -> Vec<PointState> {
 }
 
 /// The force \[N\] that a contact point exerts on the block in front.
-pub fn contact_force(model: &Model, contact: &ContactPoint, state: &PointState) -> Vector2<f64> {
+pub fn contact_force(model: &Model, contact: &JointPoint, state: &PointState) -> Vector2<f64> {
     let joint = &model.joints[contact.joint.index()];
     joint.normal * state.t_n + joint.tangent() * state.t_t
 }

@@ -17,22 +17,22 @@ pub fn largest(values: impl IntoIterator<Item = impl Borrow<f64>>) -> f64 {
 
 /// The side of a number on which its text is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Side {
+pub enum BoundSide {
     Below,
     Above,
 }
 
 /// The text of a bound, which lies on its own side when it is rounded: the nearest one that does.
-pub fn outwards(bound: f64, side: Side, text: impl Fn(f64) -> String) -> String {
+pub fn outwards(bound: f64, side: BoundSide, text: impl Fn(f64) -> String) -> String {
     let is_outside = |text: &str| {
         text.parse().is_ok_and(|read: f64| match side {
-            Side::Below => read <= bound,
-            Side::Above => read >= bound,
+            BoundSide::Below => read <= bound,
+            BoundSide::Above => read >= bound,
         })
     };
     let mut step = 0.0;
     loop {
-        let shifted = if side == Side::Below { bound - step } else { bound + step };
+        let shifted = if side == BoundSide::Below { bound - step } else { bound + step };
         let candidate = text(shifted);
         if is_outside(&candidate) || !shifted.is_finite() {
             return candidate;
@@ -61,11 +61,11 @@ mod tests {
             (0.0, "0.0000", "0.0000"),
             (9.999_99, "9.9999", "10.0000"),
         ] {
-            assert_eq!(outwards(bound, Side::Below, text), below);
-            assert_eq!(outwards(bound, Side::Above, text), above);
+            assert_eq!(outwards(bound, BoundSide::Below, text), below);
+            assert_eq!(outwards(bound, BoundSide::Above, text), above);
         }
         for bound in [f64::NAN, f64::INFINITY] {
-            assert_eq!(outwards(bound, Side::Above, text), text(bound));
+            assert_eq!(outwards(bound, BoundSide::Above, text), text(bound));
         }
     }
 }

@@ -59,7 +59,7 @@ pub use self::key_path::KeyPath;
 pub use self::load::{EdgeStress, Load, LoadError, LoadKind};
 pub use self::materials::{Between, Joint, Material};
 pub use self::opening::{Bond, Opening, OpeningError};
-pub use self::solver::{Form, RouteSetting, Solver};
+pub use self::solver::{Form, RouteSetting, SolverSettings};
 use self::source::Source;
 pub use self::stages::{Movement, Stage};
 pub use self::wall::{Brick, Courses, Wall, WallJoints};
@@ -68,7 +68,7 @@ pub use crate::material::Plane;
 use crate::units::Units;
 
 strict::tables!(Arch, Between, Block, Brick, Contact, Joint, LimitLoad, Load, Material, Movement);
-strict::tables!(Opening, Output, Piers, Solver, Stage, Support, Units, Wall, WallJoints);
+strict::tables!(Opening, Output, Piers, SolverSettings, Stage, Support, Units, Wall, WallJoints);
 
 /// Name of the class of the joints between blocks whose normal is closer to the vertical.
 pub(crate) const BED: &str = "bed";
@@ -142,7 +142,7 @@ pub struct Scene {
     pub contact: Contact,
     /// How the complementarity problem is solved.
     #[serde(default, deserialize_with = "strict::read")]
-    pub solver: Solver,
+    pub solver: SolverSettings,
     /// Output.
     #[serde(default, deserialize_with = "strict::read")]
     pub output: Output,

@@ -29,7 +29,7 @@ use case::{Case, End, Theme};
 use common::{all_displacements, all_reactions, difference};
 use masonry::analysis::outcome::{Outcome, PointStatus, State};
 use masonry::ids::BlockId;
-use masonry::model::{ContactPoint, Model};
+use masonry::model::{JointPoint, Model};
 use masonry::verify::checks::Checks;
 use nalgebra::Vector2;
 
@@ -181,9 +181,8 @@ fn above_dropped_bricks(course: &Outcome, panel: &Model) -> State {
         let place = course.model.blocks.iter().find(is_brick).filter(|_| row.ends_with("/3"));
         place.map(|it| common::block_named(&course.model, &it.name))
     };
-    let blocks = |contact: &ContactPoint| {
-        [Some(contact.b), contact.a].map(|it| it.map(|anchor| anchor.block))
-    };
+    let blocks =
+        |contact: &JointPoint| [Some(contact.b), contact.a].map(|it| it.map(|anchor| anchor.block));
     let none = masonry::analysis::outcome::PointState {
         t_n: 0.0,
         t_t: 0.0,
@@ -191,7 +190,7 @@ fn above_dropped_bricks(course: &Outcome, panel: &Model) -> State {
         y_t: 0.0,
         status: PointStatus::Open,
     };
-    let of_contact = |contact: &ContactPoint| {
+    let of_contact = |contact: &JointPoint| {
         let between = blocks(contact).map(|it| it.map(in_course));
         let mut pairs = course.model.contacts.iter().zip(&found.contacts);
         let same = pairs.find(|(other, _)| {

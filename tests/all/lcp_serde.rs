@@ -99,7 +99,7 @@ fn answers_of_every_end() {
     // Pushed up, with a chain of methods and their evidence.
     let falls = Lcp::new([[1.0, -1.0], [-1.0, 1.0]], vec![-1.0, -1.0]).unwrap();
     let solution = Auto::default().solve(&falls).unwrap();
-    assert!(solution.info.routes.len() > 1);
+    assert!(solution.info.runs.len() > 1);
     assert_comes_back!(Solution<Lcp>, solution);
 }
 

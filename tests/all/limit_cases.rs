@@ -5,7 +5,7 @@ use crate::common;
 
 use common::routes::{OF_RIGID_BLOCKS, answer_by, solved_by};
 use common::{M_KN, all_displacements, all_reactions, all_stresses, difference, rectangle, state};
-use masonry::analysis::outcome::{Attempt, Outcome};
+use masonry::analysis::outcome::{Outcome, RouteAttempt};
 use masonry::model::Plane;
 use masonry::scene::{Brick, Joint, Load, Material, Route, Scene, Support, Wall};
 
@@ -64,7 +64,7 @@ fn flat_bricks_are_refined_after_pivots() {
         )
     });
     let outcome = solved_by(&column, Route::Lemke);
-    assert!(matches!(outcome.solve.attempts.last(), Some(Attempt::Refinement { .. })));
+    assert!(matches!(outcome.solve.attempts.last(), Some(RouteAttempt::Refinement { .. })));
     let sinks = -state(&outcome).displacements[2].iter().map(|u| u.y).fold(0.0, f64::min);
     assert!((sinks / (3e-3 * HEIGHT) - 1.0).abs() < 1e-9, "{sinks}");
 }

@@ -11,7 +11,7 @@ use common::panels;
 use masonry::analysis::outcome::{Outcome, State};
 use masonry::analysis::solve::solve;
 use masonry::data::verdict::Verdict;
-use masonry::model::{Body, ContactPoint};
+use masonry::model::{Body, JointPoint};
 use masonry::scene::{Route, Scene};
 
 static OPEN: LazyLock<Outcome> = LazyLock::new(|| {
@@ -160,8 +160,8 @@ fn the_default_contact_points_are_the_nodal_pairs_here() {
         let model = |scene: &Scene| masonry::model::Model::from_scene(scene).unwrap();
         let (points, pairs) = (model(&scene).contacts, model(&pairs).contacts);
         assert_eq!(points.len(), pairs.len());
-        let has_its_pair = |point: &ContactPoint| {
-            let close = |p: &&ContactPoint| (p.position - point.position).norm() < 1e-9;
+        let has_its_pair = |point: &JointPoint| {
+            let close = |p: &&JointPoint| (p.position - point.position).norm() < 1e-9;
             let mut same = pairs.iter().filter(|p| p.joint == point.joint).filter(close);
             same.next().is_some_and(|p| (p.weight / point.weight - 1.0).abs() < 1e-9)
         };

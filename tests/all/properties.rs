@@ -9,7 +9,7 @@ use masonry::analysis::solve::solve;
 use masonry::data::state::RowState;
 use masonry::forms::reduction::Reduction;
 use masonry::forms::{DenseForm, FormKind};
-use masonry::model::{Body, ContactPoint, Model, Plane};
+use masonry::model::{Body, JointPoint, Model, Plane};
 use masonry::scene::bond;
 use masonry::scene::{Block, Brick, Joint, Load, Material, Scene, Support, Wall};
 use masonry::system::System;
@@ -154,7 +154,7 @@ fn points(model: &Model, side: f64) -> Vec<([&str; 2], Vector2<f64>)> {
         Body::Block(id) => model.blocks[id.index()].name.as_str(),
         Body::Support(id) => model.supports[id.index()].name.as_str(),
     };
-    let point = |contact: &ContactPoint| {
+    let point = |contact: &JointPoint| {
         let joint = &model.joints[contact.joint.index()];
         let mut sides = [name(joint.a), name(Body::Block(joint.b))];
         sides.sort_unstable();

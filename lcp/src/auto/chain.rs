@@ -5,7 +5,7 @@ use web_time::{Duration, Instant};
 use super::AutoSettings;
 use super::constants::{FEW_ATTEMPTS, KEPT};
 use super::method::{Budget, Planned, chain_of};
-use crate::{Certificate, Error, Method, Observer, Route, RouteEnd, Solution, Status};
+use crate::{Certificate, Error, Method, MethodRun, Observer, RunEnd, Solution, Status};
 
 /// How much an answer says; what comes first says more.
 #[derive(Debug, Clone, Copy, PartialEq, PartialOrd)]
@@ -25,7 +25,7 @@ pub(super) fn run<P: Planned>(
     observer: &mut Observer<'_>,
 ) -> Result<Solution, Error> {
     let began = Instant::now();
-    let mut routes = Vec::new();
+    let mut runs = Vec::new();
     let mut best: Option<Solution> = None;
     let mut cut = None;
     let steps = chain_of(problem, settings.max_attempts);
@@ -51,12 +51,12 @@ pub(super) fn run<P: Planned>(
         };
         let end = match &answer {
             Ok(Solution { status, residuals, .. }) => {
-                RouteEnd::Ended { status: *status, residual: residuals.worst() }
+                RunEnd::Ended { status: *status, residual: residuals.worst() }
             }
-            Err(reason) => RouteEnd::Refused { reason: reason.clone() },
+            Err(reason) => RunEnd::Refused { reason: reason.clone() },
         };
         let info = answer.as_ref().map(|it| &it.info);
-        routes.push(Route {
+        runs.push(MethodRun {
             method: step.method,
             reason: step.told(problem).reason,
             end,
@@ -74,7 +74,7 @@ pub(super) fn run<P: Planned>(
             break;
         }
     }
-    let mut solution = best.ok_or_else(|| all_refused(&routes))?;
+    let mut solution = best.ok_or_else(|| all_refused(&runs))?;
     let (rank, _) = rank(&solution, settings.tolerance);
     let is_open = matches!(rank, Rank::Near | Rank::Open);
     if let Some(status) = cut
@@ -83,7 +83,7 @@ pub(super) fn run<P: Planned>(
     {
         solution.status = status;
     }
-    solution.info.routes = routes;
+    solution.info.runs = runs;
     solution.info.seconds = began.elapsed().as_secs_f64();
     Ok(solution)
 }
@@ -124,10 +124,10 @@ pub(super) fn rank(solution: &Solution, tolerance: f64) -> (Rank, f64) {
     (rank, residual)
 }
 
-fn all_refused(routes: &[Route]) -> Error {
-    let reasons = routes.iter().filter_map(|route| match &route.end {
-        RouteEnd::Refused { reason } => Some(format!("{}: {reason}", route.method.full_name())),
-        RouteEnd::Ended { .. } => None,
+fn all_refused(runs: &[MethodRun]) -> Error {
+    let reasons = runs.iter().filter_map(|run| match &run.end {
+        RunEnd::Refused { reason } => Some(format!("{}: {reason}", run.method.full_name())),
+        RunEnd::Ended { .. } => None,
     });
     let reasons: Vec<String> = reasons.collect();
     let reason = format!("no method of its chain does. {}", reasons.join("; "));
@@ -143,16 +143,16 @@ mod tests {
 
     #[test]
     fn where_all_refuse_all_reasons_are_given() {
-        let route = |method, reason: &str| Route {
+        let run = |method, reason: &str| MethodRun {
             method,
             reason: "a test".to_owned(),
-            end: RouteEnd::Refused { reason: reason.to_owned() },
+            end: RunEnd::Refused { reason: reason.to_owned() },
             pivots: 0,
             factorisations: 0,
             seconds: 0.0,
         };
-        let routes = [route(Method::Lemke, "no memory"), route(Method::Newton, "no diagonal")];
-        let message = all_refused(&routes).to_string();
+        let runs = [run(Method::Lemke, "no memory"), run(Method::Newton, "no diagonal")];
+        let message = all_refused(&runs).to_string();
         assert!(message.contains("Lemke's method: no memory; semismooth Newton: no diagonal"));
     }
 

@@ -7,7 +7,9 @@ use super::chain::{self, Rank};
 use super::constants::MANY_PARTS;
 use super::method::{Choice, Planned, chain_of};
 use crate::divide::{Joined, Part, put};
-use crate::{Basis, Certificate, Error, Method, Observer, Route, RouteEnd, Side, Solution, Status};
+use crate::{
+    Basis, Certificate, Error, Method, MethodRun, Observer, RunEnd, Side, Solution, Status,
+};
 
 /// A part and its answer.
 type PartAnswer<P> = (Part<P>, Solution);
@@ -86,21 +88,21 @@ fn merged<T>(
     places.into_iter().flatten().collect()
 }
 
-fn is_same_end(a: &Route, b: &Route) -> bool {
-    let status = |route: &Route| match &route.end {
-        RouteEnd::Ended { status, .. } => Some(*status),
-        RouteEnd::Refused { .. } => None,
+fn is_same_end(a: &MethodRun, b: &MethodRun) -> bool {
+    let status = |run: &MethodRun| match &run.end {
+        RunEnd::Ended { status, .. } => Some(*status),
+        RunEnd::Refused { .. } => None,
     };
     a.method == b.method && status(a) == status(b)
 }
 
 /// The work of both, and the larger residual.
-fn add_route(first: &mut Route, other: &Route) {
+fn add_run(first: &mut MethodRun, other: &MethodRun) {
     first.pivots += other.pivots;
     first.factorisations += other.factorisations;
     first.seconds += other.seconds;
-    if let RouteEnd::Ended { residual: largest, .. } = &mut first.end
-        && let RouteEnd::Ended { residual, .. } = &other.end
+    if let RunEnd::Ended { residual: largest, .. } = &mut first.end
+        && let RunEnd::Ended { residual, .. } = &other.end
     {
         *largest = largest.max(*residual);
     }
@@ -163,10 +165,10 @@ fn join<P: Planned>(problem: &P, mut answers: Vec<PartAnswer<P>>, tolerance: f64
         whole.info.add_work(&mut answer.info);
     }
     let count = answers.len();
-    let routes = answers.into_iter().map(|(_, answer)| answer.info.routes);
-    for (mut route, of_parts) in merged(routes, is_same_end, add_route) {
-        route.reason = named(&route.reason, of_parts, count);
-        whole.info.routes.push(route);
+    let runs = answers.into_iter().map(|(_, answer)| answer.info.runs);
+    for (mut run, of_parts) in merged(runs, is_same_end, add_run) {
+        run.reason = named(&run.reason, of_parts, count);
+        whole.info.runs.push(run);
     }
     whole
 }

@@ -7,7 +7,7 @@ use std::time::Duration;
 use faer::{Mat, mat};
 use lcp::{
     Auto, AutoSettings, BoxedLcp, Contact2d, Error, Friction2d, HorizontalLcp, Lcp, Lemke, Matrix,
-    Method, RouteEnd, Solution, Solver, Status, WarmStart,
+    Method, RunEnd, Solution, Solver, Status, WarmStart,
 };
 use lcp_problems::families::{self, Ground, Instance, Known, Obstacle};
 use proptest::prelude::*;
@@ -39,19 +39,19 @@ macro_rules! plan {
 // Below the macro, which it needs.
 mod plans;
 
-/// That the routes are those of the plan, as far as they go, and say what the solution says.
+/// That the runs are those of the plan, as far as they go, and say what the solution says.
 fn assert_routes<P>(solution: &Solution<P>, plan: &[Method]) {
-    let routes = &solution.info.routes;
-    let names: Vec<_> = routes.iter().map(|route| route.method).collect();
+    let runs = &solution.info.runs;
+    let names: Vec<_> = runs.iter().map(|run| run.method).collect();
     assert_eq!(names, plan[..names.len()]);
-    assert!(routes.iter().map(|route| route.seconds).sum::<f64>() <= solution.info.seconds);
+    assert!(runs.iter().map(|run| run.seconds).sum::<f64>() <= solution.info.seconds);
     // The whole is measured by itself where its parts were solved one by one.
-    let is_divided = routes.iter().any(|route| route.reason.contains("independent parts"));
-    let is_from = |end: &RouteEnd| {
-        matches!(end, RouteEnd::Ended { status, residual } if *status == solution.status
+    let is_divided = runs.iter().any(|run| run.reason.contains("independent parts"));
+    let is_from = |end: &RunEnd| {
+        matches!(end, RunEnd::Ended { status, residual } if *status == solution.status
             && (is_divided || residual.total_cmp(&solution.residuals.worst()).is_eq()))
     };
-    let source = routes.iter().rfind(|route| route.method == solution.info.method).unwrap();
+    let source = runs.iter().rfind(|run| run.method == solution.info.method).unwrap();
     assert!(is_from(&source.end), "{source:?} but {}", solution.status);
 }
 
@@ -221,10 +221,10 @@ fn an_infeasible_problem_falls_through_to_a_proof() {
     let m = mat![[1.0, -1.0], [-1.0, 1.0]];
     let problem = Lcp::new(m, vec![-1.0, -1.0]).unwrap();
     let solution = auto().solve(&problem).unwrap();
-    let names: Vec<_> = solution.info.routes.iter().map(|route| route.method).collect();
+    let names: Vec<_> = solution.info.runs.iter().map(|run| run.method).collect();
     assert_eq!(names, [NEWTON, LEMKE]);
     assert_eq!((solution.status, solution.info.method), (Status::Infeasible, LEMKE));
-    let RouteEnd::Ended { status, .. } = solution.info.routes[0].end else { panic!("refused") };
+    let RunEnd::Ended { status, .. } = solution.info.runs[0].end else { panic!("refused") };
     assert!(!matches!(status, Status::Solved | Status::Infeasible), "{status}");
     let pi = solution.farkas().unwrap();
     assert!(pi[0] < 0.0 && (pi[0] - pi[1]).abs() < 1e-12 * -pi[0]);
@@ -261,13 +261,13 @@ fn without_equilibrium_the_chain_looks_for_a_proof() {
     for count in [2, 60, 600] {
         let problem = sliding(count);
         let solution = auto().solve(&problem).unwrap();
-        let routes = &solution.info.routes;
-        assert_eq!(solution.status, Status::Infeasible, "{count}: {routes:?}");
+        let runs = &solution.info.runs;
+        assert_eq!(solution.status, Status::Infeasible, "{count}: {runs:?}");
         let pi = solution.farkas().unwrap();
         let general = problem.to_general();
         let gain: f64 = general.c().iter().zip(pi).map(|(c, pi)| c * pi).sum();
         assert!(gain > 0.0);
-        assert!(count <= 500 || routes.iter().all(|route| route.method != LEMKE));
+        assert!(count <= 500 || runs.iter().all(|run| run.method != LEMKE));
     }
 }
 
@@ -292,10 +292,10 @@ fn methods_that_fail_are_followed_by_pivots() {
     let solution = auto().solve(&problem).unwrap();
     assert_eq!((solution.status, solution.info.method), (Status::Solved, LEMKE));
     assert_routes(&solution, &[NEWTON, INTERIOR, LEMKE]);
-    let routes = &solution.info.routes;
+    let runs = &solution.info.runs;
     let failed =
-        |end: &RouteEnd| matches!(end, RouteEnd::Ended { status, .. } if *status != Status::Solved);
-    assert!(failed(&routes[0].end) && failed(&routes[1].end));
+        |end: &RunEnd| matches!(end, RunEnd::Ended { status, .. } if *status != Status::Solved);
+    assert!(failed(&runs[0].end) && failed(&runs[1].end));
 }
 
 #[test]
@@ -304,7 +304,7 @@ fn a_tiny_time_limit_is_kept_and_said() {
     let limited = with(AutoSettings { time_limit, ..AutoSettings::default() });
     let problem = families::positive_definite(200, 1).problem;
     let solution = limited.solve(&problem).unwrap();
-    assert_eq!((solution.status, solution.info.routes.len()), (Status::TimeLimit, 1));
+    assert_eq!((solution.status, solution.info.runs.len()), (Status::TimeLimit, 1));
     assert!(solution.t.iter().chain(&solution.y).all(|v| v.is_finite()));
     let contact = limited.solve(&masses(300, 0.5, 4.0)).unwrap();
     assert_eq!(contact.status, Status::TimeLimit);

@@ -104,5 +104,5 @@ fn the_chain_goes_on_behind_the_attempts() {
     let solution = Auto::new(settings).solve(&problem).unwrap();
     assert!(solution.is_solved());
     assert_eq!(solution.info.method, Method::Enumeration);
-    assert_eq!(solution.info.routes[0].method, Method::Lemke);
+    assert_eq!(solution.info.runs[0].method, Method::Lemke);
 }

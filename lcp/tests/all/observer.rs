@@ -71,7 +71,7 @@ fn check<P>(solver: &dyn Solver<P>, problem: &P) {
     });
     let stopped = stopped.unwrap();
     assert_eq!((stopped.status, calls), (Status::Cancelled, 1), "{name}");
-    let source = observed.info.routes.last().map_or(name, |route| route.method);
+    let source = observed.info.runs.last().map_or(name, |run| run.method);
     assert_eq!(observed.info.method, source);
     assert!(seen.iter().any(|at| at.method == source), "{name}: {seen:?}");
     for pair in seen.windows(2).filter(|pair| pair[1].method == Method::Interior) {
@@ -162,7 +162,7 @@ fn auto_hands_the_observer_from_method_to_method() {
         ControlFlow::Continue(())
     });
     let solution = solution.unwrap();
-    assert_eq!((solution.status, solution.info.routes.len()), (Status::Infeasible, 2));
+    assert_eq!((solution.status, solution.info.runs.len()), (Status::Infeasible, 2));
     assert!(starts >= 2);
     let mut starts = 0;
     let stopped = Auto::default().solve_observed(&problem, &mut |at| {
@@ -170,7 +170,7 @@ fn auto_hands_the_observer_from_method_to_method() {
         if starts < 2 { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
     });
     let stopped = stopped.unwrap();
-    assert_eq!((stopped.status, stopped.info.routes.len()), (Status::Cancelled, 2));
+    assert_eq!((stopped.status, stopped.info.runs.len()), (Status::Cancelled, 2));
 }
 
 #[test]

@@ -41,7 +41,7 @@ fn each_part_has_its_own_units() {
             assert!((3.0 * z / expected - 1.0).abs() < 1e-15, "{z}");
         }
         assert!(solution.basis.is_some_and(|basis| basis.len() == 4));
-        assert!(solution.info.routes[0].reason.starts_with("2 of 2 independent parts"));
+        assert!(solution.info.runs[0].reason.starts_with("2 of 2 independent parts"));
     }
 }
 
@@ -77,7 +77,7 @@ fn many_small_parts_are_solved_together() {
         let expected = (-q[i] / (1.0 + (i % 7) as f64)).max(0.0);
         assert!((z - expected).abs() <= 1e-15 * expected, "{z} {expected}");
     }
-    assert_eq!(solution.info.routes.len(), 1);
+    assert_eq!(solution.info.runs.len(), 1);
 }
 
 /// A box far away keeps its digits: the answer has them by its variables.
@@ -153,7 +153,7 @@ where
 {
     let (parts, whole) = (auto(problem), Lemke::default().solve(problem).unwrap());
     assert!(parts.is_solved() && whole.is_solved());
-    let reason = &parts.info.routes[0].reason;
+    let reason = &parts.info.runs[0].reason;
     assert!(reason.contains(&format!("of {count} independent parts")), "{reason}");
     assert_close(&parts.t, &whole.t);
     assert_close(&parts.y, &whole.y);

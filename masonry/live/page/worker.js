@@ -3,7 +3,7 @@
 let ready;
 onmessage = async ({ data }) => {
   if (data.module) {
-    ready = wasm_bindgen({ module_or_path: data.module }).then(() => new wasm_bindgen.Solver());
+    ready = wasm_bindgen({ module_or_path: data.module }).then(() => new wasm_bindgen.LiveEngine());
     return;
   }
   try {

@@ -26,7 +26,7 @@ pub fn served(nonce: &str) -> String {
 
 /// The solver for a browser, as the single file contains it.
 #[derive(Debug, Clone, Copy)]
-pub struct Solver<'a> {
+pub struct BrowserSolver<'a> {
     /// The script that starts the module, without modules of its own, and defines `wasm_bindgen`.
     pub glue: &'a str,
     /// The module of WebAssembly, as gzip in base64.
@@ -34,8 +34,8 @@ pub struct Solver<'a> {
 }
 
 /// The page with its solver, which works without a server and without a network.
-pub fn single(nonce: &str, solver: Solver<'_>) -> String {
-    let Solver { glue, module } = solver;
+pub fn single(nonce: &str, solver: BrowserSolver<'_>) -> String {
+    let BrowserSolver { glue, module } = solver;
     // Scripts of this type are not run by the page itself.
     let extra = format!(
         "<script type=\"text/plain\" id=\"worker\">\n{glue}\n{WORKER}</script>\n\

@@ -17,10 +17,10 @@ const NEWS: Duration = Duration::from_millis(100);
 /// The engine, as scripts see it.
 #[wasm_bindgen]
 #[derive(Debug, Default)]
-pub struct Solver(Engine);
+pub struct LiveEngine(Engine);
 
 #[wasm_bindgen]
-impl Solver {
+impl LiveEngine {
     /// An engine that has solved nothing yet.
     #[wasm_bindgen(constructor)]
     pub fn new() -> Self {

@@ -48,7 +48,7 @@ struct Page {
     /// Pictures without a switch are curves, which are always shown.
     pictures: Vec<Pictures>,
     /// The steps that pictures have; empty or one without a history.
-    steps: Vec<Step>,
+    steps: Vec<PictureStep>,
     /// One below the other.
     tables: String,
     /// The report as text.
@@ -57,7 +57,7 @@ struct Page {
 
 /// A step that has pictures.
 #[derive(Debug)]
-struct Step {
+struct PictureStep {
     name: String,
     /// Its position among all steps, from zero: the curves have them all.
     position: usize,

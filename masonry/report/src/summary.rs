@@ -6,7 +6,7 @@ use masonry::analysis::outcome::Outcome;
 use masonry::data::state::{FilmStress, State};
 use masonry::data::verdict::Evidence;
 use masonry::geometry;
-use masonry::history::Step;
+use masonry::history::HistoryStep;
 use masonry::ids::BlockId;
 use masonry::model::{Body, Cause, EdgeLoad, LoadCase, Model, PlacedBlock};
 
@@ -256,7 +256,7 @@ pub fn reason(outcome: &Outcome) -> Option<String> {
     }
     let history = outcome.history.as_ref().filter(|history| !history.records.is_empty());
     Some(match history.and_then(|history| history.failed.as_ref()) {
-        Some(Step { stage, number, of, .. }) => {
+        Some(HistoryStep { stage, number, of, .. }) => {
             let is_cancelled = outcome.solve.status == lcp::Status::Cancelled;
             let end = if is_cancelled { "was not finished" } else { "could not be solved" };
             format!(

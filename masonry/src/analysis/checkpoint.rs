@@ -13,7 +13,7 @@ use crate::forms::Start;
 use crate::history::StepRecord;
 use crate::model::Model;
 use crate::recover;
-use crate::scene::{Output, Scene, SceneError, Solver};
+use crate::scene::{Output, Scene, SceneError, SolverSettings};
 
 /// The version of the format.
 const VERSION: u32 = 5;
@@ -180,7 +180,7 @@ impl Checkpoint {
     pub(crate) fn origin_of(scene: &Scene) -> Result<String, SceneError> {
         let mut origin = scene.clone();
         origin.stages = Vec::new();
-        origin.solver = Solver::default();
+        origin.solver = SolverSettings::default();
         origin.output = Output::default();
         origin.to_toml()
     }

@@ -2,12 +2,12 @@
 
 use nalgebra::Vector2;
 
-pub use crate::data::info::{Attempt, PhaseTime, RouteEnd, SoftReport, SolveInfo};
+pub use crate::data::info::{PhaseTime, RouteAttempt, RouteRecord, SoftReport, SolveInfo};
 pub use crate::data::state::{
     ElementStress, FilmStress, PointState, PointStatus, Principal, Reaction, State,
 };
 use crate::data::verdict::{Judgement, Verdict};
-use crate::history::{History, Step};
+use crate::history::{History, HistoryStep};
 use crate::model::Model;
 use crate::plan::Plan;
 use crate::verify::checks::Checks;
@@ -56,7 +56,7 @@ impl Outcome {
 #[non_exhaustive]
 pub struct Frame {
     /// The step.
-    pub step: Step,
+    pub step: HistoryStep,
     /// The position of the step among all, from zero.
     pub position: usize,
     /// The model under the actions of the step.

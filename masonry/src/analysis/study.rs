@@ -50,7 +50,7 @@ pub use figures::Errors;
 pub use machine::machine;
 pub use mesh::{Mesh, MeshErrors, Values, refined};
 pub use reference::{Confirmation, Reference};
-pub use verified::{Exact, Verified};
+pub use verified::{Exact, Verification};
 
 use crate::model::Model;
 use crate::scene::{Route, Scene, SceneError};

@@ -5,10 +5,10 @@ use std::fmt::{Display, Formatter, Result};
 use lcp::lemke::{self, AttemptCovering, AttemptEnd};
 use lcp::{Ending, Status};
 
-use crate::data::info::Attempt;
+use crate::data::info::RouteAttempt;
 use crate::data::route::Route;
 
-impl Display for Attempt {
+impl Display for RouteAttempt {
     fn fmt(&self, f: &mut Formatter<'_>) -> Result {
         match self {
             Self::Pivots { form, start, path } => {

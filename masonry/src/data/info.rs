@@ -35,14 +35,14 @@ pub struct SolveInfo {
     /// Why the route was tried at its place in the order.
     pub because: String,
     /// All routes that were tried, in order.
-    pub routes: Vec<RouteEnd>,
+    pub routes: Vec<RouteRecord>,
     /// The form that was solved: `coulomb`, `stewart-trinkle` or `mixed`
     /// ([`FormKind`](crate::forms::FormKind)) of the pivoting route, `contact` of the others.
     pub form: String,
     /// Order of the complementarity problem; of the augmented Lagrangian method, of its linear systems.
     pub order: usize,
     /// All attempts of all routes, in order.
-    pub attempts: Vec<Attempt>,
+    pub attempts: Vec<RouteAttempt>,
     /// Pivots over all attempts.
     pub pivots: usize,
     /// Steps of the interior-point method, programs, re-centrings of springs, or iterations of the
@@ -50,7 +50,7 @@ pub struct SolveInfo {
     pub iterations: usize,
     /// Every iteration of the augmented Lagrangian method; empty on the other routes.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub convergence: Vec<Iteration>,
+    pub convergence: Vec<AlmIteration>,
     /// Matrices factorised.
     pub factorisations: usize,
     /// Whether the status `Infeasible` is proved, by a vector that was checked in the data.
@@ -92,7 +92,7 @@ impl SolveInfo {
 /// One attempt to find a state.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
-pub enum Attempt {
+pub enum RouteAttempt {
     /// A path of pivots.
     Pivots {
         /// The form, by its name.
@@ -150,7 +150,7 @@ pub enum Attempt {
 /// One iteration of the augmented Lagrangian method.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
-pub struct Iteration {
+pub struct AlmIteration {
     /// The attempt, from 1.
     pub attempt: usize,
     /// Largest unbalanced force after the projection, relative to the largest load \[-\].
@@ -172,7 +172,7 @@ fn or_infinite<'de, D: Deserializer<'de>>(from: D) -> Result<f64, D::Error> {
 /// How a route ended.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
-pub struct RouteEnd {
+pub struct RouteRecord {
     /// The route.
     pub route: Route,
     /// Why the route was tried at its place in the order.

@@ -18,7 +18,7 @@ use lcp::Status;
 use crate::data::info::SolveInfo;
 use crate::data::route::Route;
 use crate::forms::FormKind;
-use crate::scene::{Form, RouteSetting, Solver};
+use crate::scene::{Form, RouteSetting, SolverSettings};
 
 /// Pivots on dense matrices of this order take about a second; the time grows with the cube.
 const FEW: usize = 2000;
@@ -35,7 +35,7 @@ pub(crate) struct Facts {
 }
 
 /// The routes of a scene in the order in which they are tried, each with the reason for its place.
-pub(crate) fn routes(solver: &Solver, facts: Facts) -> Vec<(Route, String)> {
+pub(crate) fn routes(solver: &SolverSettings, facts: Facts) -> Vec<(Route, String)> {
     let given = |route: Route| format!("solver.route = \"{}\"", route.name());
     match solver.route {
         RouteSetting::Auto if solver.form != Form::Auto => {

@@ -6,7 +6,7 @@
 use lcp::{ContactState, Residuals, Status};
 
 use super::{RouteAnswer, sparse};
-use crate::data::info::{Attempt, SolveInfo};
+use crate::data::info::{RouteAttempt, SolveInfo};
 use crate::data::statics::Statics;
 use crate::forms::Sparse;
 use crate::method::statics::Decision;
@@ -40,7 +40,7 @@ pub fn answer(
     let info = SolveInfo {
         form: FORM.to_owned(),
         order: 3 * system.bodies.len() + system.points() + system.friction.len(),
-        attempts: vec![Attempt::Forces { status, are_found, factorisations: decision.steps }],
+        attempts: vec![RouteAttempt::Forces { status, are_found, factorisations: decision.steps }],
         iterations: decision.steps,
         factorisations: decision.steps,
         proved: status == Status::Infeasible,

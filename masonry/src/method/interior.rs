@@ -9,8 +9,8 @@ use lcp::{
 };
 
 use super::loading::{self, Led, Loading};
-use super::{Event, Observer, Request, RouteAnswer, sparse};
-use crate::data::info::{Attempt, SolveInfo, Way};
+use super::{Event, EventObserver, Request, RouteAnswer, sparse};
+use crate::data::info::{RouteAttempt, SolveInfo, Way};
 use crate::data::motion::Motion;
 use crate::forms::Sparse;
 use crate::scene::Route;
@@ -36,7 +36,7 @@ impl Interior<'_> {
     pub fn solve(
         &self,
         request: &Request,
-        observer: Observer<'_>,
+        observer: EventObserver<'_>,
     ) -> Result<RouteAnswer, lcp::Error> {
         let problem = &self.sparse.problem;
         let Request { tolerance, max_steps, .. } = *request;
@@ -63,7 +63,7 @@ impl Interior<'_> {
         &self,
         path: Option<RouteAnswer>,
         request: &Request,
-        observer: Observer<'_>,
+        observer: EventObserver<'_>,
     ) -> Result<RouteAnswer, lcp::Error> {
         let Self { sparse, before, mass, reach } = *self;
         let problem = &sparse.problem;
@@ -95,7 +95,7 @@ impl Interior<'_> {
             ..SolveInfo::new(Route::Interior, ending.status(), residuals)
         };
         let mut answer = sparse::answer(self.sparse, info, state);
-        answer.info.attempts = vec![Attempt::Motion { ending, factorisations }];
+        answer.info.attempts = vec![RouteAttempt::Motion { ending, factorisations }];
         answer.account = Some(*evolution.account());
         answer.moved = Some(self.sparse.by_rows(slips));
         if answer.info.status == Status::NoEquilibrium {

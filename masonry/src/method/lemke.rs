@@ -9,8 +9,8 @@
 use lcp::lemke::{self, AttemptStart};
 use lcp::{Basis, Covering, Lemke, LemkeSettings, Residuals, Side, Status, WarmStart};
 
-use super::{Event, Observer, Request, RouteAnswer, auto};
-use crate::data::info::{Attempt, SolveInfo};
+use super::{Event, EventObserver, Request, RouteAnswer, auto};
+use crate::data::info::{RouteAttempt, SolveInfo};
 use crate::data::motion::Motion;
 use crate::data::route::Route;
 use crate::data::state::RowState;
@@ -47,7 +47,7 @@ impl Pivots<'_> {
     pub fn solve(
         &self,
         request: &Request,
-        observer: Observer<'_>,
+        observer: EventObserver<'_>,
     ) -> Result<RouteAnswer, lcp::Error> {
         let Self { system, reduction, start } = *self;
         let mut search = Pivoting {
@@ -76,7 +76,7 @@ impl Pivots<'_> {
 struct Pivoting<'a> {
     request: &'a Request,
     start: Option<&'a Start>,
-    attempts: Vec<Attempt>,
+    attempts: Vec<RouteAttempt>,
     pivots: usize,
     factorisations: usize,
     /// The paper's form, once it was tried: any answer is measured against it.
@@ -84,14 +84,18 @@ struct Pivoting<'a> {
 }
 
 impl Pivoting<'_> {
-    fn run(&mut self, form: DenseForm, observer: Observer<'_>) -> Result<RouteAnswer, lcp::Error> {
+    fn run(
+        &mut self,
+        form: DenseForm,
+        observer: EventObserver<'_>,
+    ) -> Result<RouteAnswer, lcp::Error> {
         let mut last = None;
         for (settings, start) in self.settings(&form) {
             let solution = Lemke::new(settings)
                 .solve_with_progress(&form.problem, &mut |at| observer(Event::Pivots(*at)))?;
             self.pivots += solution.info.pivots;
             self.factorisations += solution.info.factorisations;
-            self.attempts.extend(solution.info.attempts.iter().map(|path| Attempt::Pivots {
+            self.attempts.extend(solution.info.attempts.iter().map(|path| RouteAttempt::Pivots {
                 form: form.kind.name().to_owned(),
                 start: start.filter(|_| is_given(path)).map(str::to_owned),
                 path: path.clone(),

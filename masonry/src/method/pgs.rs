@@ -13,7 +13,7 @@ use lcp::{
     Residuals, Solver, Status, WarmStart,
 };
 
-use super::{Event, Observer, Request, RouteAnswer, sparse};
+use super::{Event, EventObserver, Request, RouteAnswer, sparse};
 use crate::data::info::{SoftReport, SolveInfo};
 use crate::forms::Sparse;
 use crate::scene::Route;
@@ -50,7 +50,7 @@ const IDLE: usize = 20;
 pub fn solve(
     sparse: &Sparse,
     request: &Request,
-    observer: Observer<'_>,
+    observer: EventObserver<'_>,
 ) -> Result<RouteAnswer, lcp::Error> {
     let stiffness = request.soft.unwrap_or(SOFT);
     let bedding = Bedding::new(&sparse.problem, stiffness)?;
@@ -142,7 +142,7 @@ impl<'a> Rounds<'a> {
         }
     }
 
-    fn stop(&self, observer: Observer<'_>) -> Option<Status> {
+    fn stop(&self, observer: EventObserver<'_>) -> Option<Status> {
         let is_cancelled = observer(self.step()).is_break();
         let residual = self.residual();
         let is_settled = self.idle >= SETTLED || self.done >= MAX_ROUNDS;
@@ -157,7 +157,7 @@ impl<'a> Rounds<'a> {
         }
     }
 
-    fn next(&mut self, observer: Observer<'_>) -> Result<ControlFlow<()>, lcp::Error> {
+    fn next(&mut self, observer: EventObserver<'_>) -> Result<ControlFlow<()>, lcp::Error> {
         let centre = &self.state.u;
         let sprung = self.bedding.attached(self.problem, centre)?;
         let (t, y) = self.problem.to_pairs(&self.state);

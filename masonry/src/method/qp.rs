@@ -9,7 +9,7 @@ use std::ops::ControlFlow;
 use lcp::qp::SoftConstraints;
 use lcp::{QuadraticProgram, QuadraticProgramSettings, Solver, Status};
 
-use super::{Observer, Request, RouteAnswer, sparse};
+use super::{EventObserver, Request, RouteAnswer, sparse};
 use crate::data::info::SoftReport;
 use crate::forms::Sparse;
 use crate::scene::Route;
@@ -21,7 +21,7 @@ use crate::scene::Route;
 pub fn solve(
     sparse: &Sparse,
     request: &Request,
-    observer: Observer<'_>,
+    observer: EventObserver<'_>,
 ) -> Result<RouteAnswer, lcp::Error> {
     let problem = &sparse.problem;
     let soft = request.soft.map(|epsilon| SoftConstraints { epsilon, ..Default::default() });

@@ -3,7 +3,7 @@
 use lcp::{Contact2d, ContactState, Residuals, Solution, Status};
 
 use super::RouteAnswer;
-use crate::data::info::{Attempt, SolveInfo};
+use crate::data::info::{RouteAttempt, SolveInfo};
 use crate::data::motion::Motion;
 use crate::forms::Sparse;
 use crate::scene::Route;
@@ -39,7 +39,7 @@ pub(crate) fn solved(route: Route, sparse: &Sparse, solution: Solution<Contact2d
 
 /// The answer that a state is, with what is known of its route.
 pub(crate) fn answer(sparse: &Sparse, info: SolveInfo, state: ContactState) -> RouteAnswer {
-    let attempt = Attempt::Sparse {
+    let attempt = RouteAttempt::Sparse {
         route: info.route,
         status: info.status,
         iterations: info.iterations,

@@ -1,6 +1,6 @@
 //! The stiffness of dry joints between rigid blocks, which alone would not say how forces are shared.
 
-use super::{Body, ContactPoint, Model};
+use super::{Body, JointPoint, Model};
 
 /// Stiffness of dry joints across and along them \[Pa/m\]. Block models of dry stone use 1e9 to 1e10 Pa/m across and about a
 /// half along; see the review of J. V. Lemos, Discrete element modeling of masonry structures, International Journal of
@@ -18,7 +18,7 @@ impl Model {
 
     /// Joints that have the stiffness of dry ones although their class has none.
     pub fn dry_joints(&self) -> usize {
-        let has_default = |point: &&ContactPoint| {
+        let has_default = |point: &&JointPoint| {
             let class = &self.joint_classes[self.joints[point.joint.index()].class];
             class.law.stiffness.is_none() && point.compliance[0] > 0.0
         };
@@ -41,7 +41,7 @@ impl Model {
     /// The advice to give joints a stiffness, if none has one.
     pub(crate) fn of_hard_joints(&self) -> Option<String> {
         let [across, along] = DRY_JOINT;
-        let is_hard = |point: &ContactPoint| point.gives().iter().all(|c| *c <= 0.0);
+        let is_hard = |point: &JointPoint| point.gives().iter().all(|c| *c <= 0.0);
         (!self.contacts.is_empty() && self.contacts.iter().all(is_hard)).then(|| {
             format!(
                 "The joints do not give way at all, which makes steps hard to solve. Dry ones have about {across:.0e} Pa/m \
@@ -51,7 +51,7 @@ impl Model {
     }
 
     /// Whether neither the joint nor what is on its sides gives way.
-    fn is_hard(&self, point: &ContactPoint) -> bool {
+    fn is_hard(&self, point: &JointPoint) -> bool {
         let joint = &self.joints[point.joint.index()];
         let is_rigid = |body: Body| match body {
             Body::Block(id) => self.blocks[id.index()].elasticity.is_none(),

@@ -4,7 +4,7 @@ use nalgebra::Vector2;
 
 use super::classes::Classes;
 use super::{
-    ContactPoint, Healed, JointClass, Model, Movement, PlacedBlock, PlacedJoint, PlacedSupport,
+    Healed, JointClass, JointPoint, Model, Movement, PlacedBlock, PlacedJoint, PlacedSupport,
     Plane, heal, place_loads, placement,
 };
 use crate::geometry::{self, PolygonError};
@@ -188,7 +188,7 @@ fn support(support: &scene::Support, units: Units) -> PlacedSupport {
 /// Joints, their contact points and the classes that they refer to.
 struct Meetings {
     joints: Vec<PlacedJoint>,
-    contacts: Vec<ContactPoint>,
+    contacts: Vec<JointPoint>,
     classes: Vec<JointClass>,
 }
 

@@ -17,7 +17,7 @@ pub(crate) use self::search::near_pairs;
 use crate::geometry::{self, SAME_PLACE, SegmentOverlap};
 use crate::ids::{BlockId, FilmId, JointId, SupportId};
 use crate::model::{
-    Anchor, Body, ContactPoint, Film, FilmPoint, JointClass, Mortar, PlacedBlock, PlacedJoint,
+    Anchor, Body, Film, FilmPoint, JointClass, JointPoint, Mortar, PlacedBlock, PlacedJoint,
     PlacedSupport,
 };
 pub use crate::scene::{ContactError, Films, PointRule};
@@ -66,7 +66,7 @@ pub fn find(
     class_of: impl Fn(JointKind, Body, BlockId) -> usize,
     thickness: f64,
     options: &JointSearch,
-) -> Result<(Vec<PlacedJoint>, Vec<ContactPoint>), ContactError> {
+) -> Result<(Vec<PlacedJoint>, Vec<JointPoint>), ContactError> {
     let mut joints: Vec<PlacedJoint> = Vec::new();
     let mut contacts = Vec::new();
     let mut films = 0;
@@ -251,7 +251,7 @@ impl Meeting<'_> {
         points::place(rule, a_side.as_ref(), &b_side, length, slack)
     }
 
-    fn contact(&self, place: &points::PointPlace, joint: JointId) -> ContactPoint {
+    fn contact(&self, place: &points::PointPlace, joint: JointId) -> JointPoint {
         let Sides { a, a_edge, b, b_edge } = self.sides;
         let on_a = |at| match a {
             Body::Block(block) => Some(Anchor { block, edge: a_edge, at }),
@@ -270,7 +270,7 @@ impl Meeting<'_> {
             stretch: has_strips.then(|| mortar.stretch(place.weight, self.thickness)),
         });
         let half = self.overlap.normal * film.map_or(0.0, |film| film.half);
-        ContactPoint {
+        JointPoint {
             joint,
             position: self.on_b(place.on_b) - half,
             weight,

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use nalgebra::{Point2, Vector2};
 
-use super::{Acceleration, ContactPoint, EdgeLoad, LoadCase, PlacedBlock, PlacedJoint, PointLoad};
+use super::{Acceleration, EdgeLoad, JointPoint, LoadCase, PlacedBlock, PlacedJoint, PointLoad};
 use crate::geometry::{self, SAME_PLACE};
 use crate::ids::LoadId;
 use crate::rounding::rounded;
@@ -23,7 +23,7 @@ pub(super) fn place(
     scene: &Scene,
     blocks: &mut [PlacedBlock],
     joints: &[PlacedJoint],
-    contacts: &[ContactPoint],
+    contacts: &[JointPoint],
     moved: f64,
 ) -> Result<(Vec<LoadCase>, Vec<Acceleration>), Fault> {
     let joined = joined_parts(blocks, joints, contacts);
@@ -212,7 +212,7 @@ fn free_parts(covered: EdgePart, joined: &[EdgePart]) -> Vec<EdgePart> {
 fn joined_parts(
     blocks: &[PlacedBlock],
     joints: &[PlacedJoint],
-    contacts: &[ContactPoint],
+    contacts: &[JointPoint],
 ) -> Vec<Vec<Vec<EdgePart>>> {
     let mut joined: Vec<_> =
         blocks.iter().map(|block| vec![Vec::new(); block.corners.len()]).collect();

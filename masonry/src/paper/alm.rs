@@ -30,7 +30,7 @@ mod structure;
 
 use std::ops::ControlFlow;
 
-pub use crate::data::info::Iteration;
+pub use crate::data::info::AlmIteration;
 pub use films::Segment;
 use lcp::{Contact2d, ContactState, Residuals, Status};
 pub use mortared::{MortaredState, MortaredWall, Parts};
@@ -70,7 +70,7 @@ pub struct AlmAnswer {
     /// The residuals of the state, from the data.
     pub residuals: Residuals,
     /// Every iteration.
-    pub convergence: Vec<Iteration>,
+    pub convergence: Vec<AlmIteration>,
     /// Numeric factorisations; the symbolic one is done once.
     pub factorisations: usize,
 }
@@ -171,7 +171,7 @@ pub enum AlmError {
 pub fn solve(
     problem: &Contact2d,
     settings: &AlmSettings,
-    observer: &mut dyn FnMut(&Iteration) -> ControlFlow<()>,
+    observer: &mut dyn FnMut(&AlmIteration) -> ControlFlow<()>,
 ) -> Result<AlmAnswer, AlmError> {
     run::solve(&Structure::new(problem, &[])?, settings, observer)
 }

@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use crate::forms::FormKind;
 use crate::method::auto;
-use crate::model::{Anchor, ContactPoint, Model, PlacedBlock};
+use crate::model::{Anchor, JointPoint, Model, PlacedBlock};
 use crate::scene::{Form, Route};
 
 /// A route of a plan.
@@ -60,7 +60,7 @@ pub(super) struct Point {
 }
 
 impl Point {
-    fn of(point: &ContactPoint) -> Self {
+    fn of(point: &JointPoint) -> Self {
         Self {
             presses: true,
             coulomb: point.law.mu > 0.0,

@@ -6,7 +6,7 @@ use super::STILL;
 use crate::data::motion::Motion;
 use crate::forms::Sparse;
 use crate::ids::BlockId;
-use crate::model::{ContactPoint, Model, PlacedBlock};
+use crate::model::{JointPoint, Model, PlacedBlock};
 use crate::system::rigid::Modes;
 use crate::system::{System, displaced_nodes};
 
@@ -83,7 +83,7 @@ fn of_amplitudes(
     }
     // Two blocks meet at a contact, and both may be deformed.
     let zero = STILL * largest + 3.0 * deformation;
-    let closes = |(gap, contact): (f64, &ContactPoint)| contact.gap <= 0.0 && gap < -zero;
+    let closes = |(gap, contact): (f64, &JointPoint)| contact.gap <= 0.0 && gap < -zero;
     if system.gap_rates(amplitudes).into_iter().zip(&model.contacts).any(closes) {
         return None;
     }

@@ -6,8 +6,8 @@ use super::setters::setters;
 use super::source::Source;
 use super::{
     Arch, Between, Block, Bond, Brick, Contact, Courses, Films, Form, Joint, LimitLoad, Load,
-    Material, Opening, Output, Plane, PointRule, RouteSetting, Scene, Solver, Stage, Support, Wall,
-    WallJoints,
+    Material, Opening, Output, Plane, PointRule, RouteSetting, Scene, SolverSettings, Stage,
+    Support, Wall, WallJoints,
 };
 use crate::units::Units;
 
@@ -39,7 +39,7 @@ impl Scene {
             stages: Vec::new(),
             limit: LimitLoad::default(),
             contact: Contact::default(),
-            solver: Solver::default(),
+            solver: SolverSettings::default(),
             output: Output::default(),
             source: Source::default(),
         }

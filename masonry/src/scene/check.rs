@@ -10,7 +10,7 @@ use super::rules::{
 };
 use super::{
     Block, Courses, Fault, Form, KeyPath, Material, Route, RouteSetting, Scene, SceneError,
-    SceneErrorKind, Solver, Support, Wall,
+    SceneErrorKind, SolverSettings, Support, Wall,
 };
 use crate::geometry::{self, PolygonError};
 use crate::scene::bond::JointThickness;
@@ -187,7 +187,7 @@ impl Scene {
         not_negative(contact.key("gap_limit"), self.contact.gap_limit)?;
         not_negative(contact.key("tolerance"), self.contact.tolerance.unwrap_or(0.0))?;
         self.check_films(&contact)?;
-        let Solver { tolerance, max_pivots, max_steps, soft, .. } = self.solver;
+        let SolverSettings { tolerance, max_pivots, max_steps, soft, .. } = self.solver;
         let at = KeyPath::of("solver");
         let wanted = "the tolerance is a relative residual between 0 and 1, both excluded";
         value(at.key("tolerance"), tolerance, tolerance > 0.0 && tolerance < 1.0, wanted)?;
@@ -207,7 +207,7 @@ impl Scene {
 
     /// Refuses keys of the solver that the route does not use.
     fn check_route(&self, at: &KeyPath) -> Check {
-        let Solver { route, form, max_pivots, max_steps, soft, .. } = self.solver;
+        let SolverSettings { route, form, max_pivots, max_steps, soft, .. } = self.solver;
         let refuse = |given: bool, is_used: bool, key, because, otherwise| {
             unwanted(given && !is_used, at, key, because, otherwise)
         };

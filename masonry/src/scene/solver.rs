@@ -8,7 +8,7 @@ use crate::data::route::Route;
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(default, deny_unknown_fields)]
-pub struct Solver {
+pub struct SolverSettings {
     /// Tolerance: the largest residual of a solution \[-\].
     pub tolerance: f64,
     /// The route to the solution.
@@ -25,7 +25,7 @@ pub struct Solver {
     pub soft: Option<f64>,
 }
 
-impl Default for Solver {
+impl Default for SolverSettings {
     fn default() -> Self {
         let (route, form) = (RouteSetting::default(), Form::default());
         Self { tolerance: 1e-10, route, form, max_pivots: None, max_steps: None, soft: None }

@@ -3,7 +3,7 @@
 
 use nalgebra::Vector2;
 
-use crate::model::{Anchor, ContactPoint, Model, PlacedBlock};
+use crate::model::{Anchor, JointPoint, Model, PlacedBlock};
 
 /// The part of a place in the gap and in the slip of a contact point.
 pub(crate) struct Term {
@@ -13,7 +13,7 @@ pub(crate) struct Term {
 }
 
 /// All places that move a contact point.
-pub(crate) fn terms(model: &Model, contact: &ContactPoint) -> Vec<Term> {
+pub(crate) fn terms(model: &Model, contact: &JointPoint) -> Vec<Term> {
     let joint = &model.joints[contact.joint.index()];
     let (n, t) = (joint.normal, joint.tangent());
     let mut list = vec![Term { anchor: contact.b, normal: n, tangent: t }];
@@ -39,7 +39,7 @@ pub(crate) fn terms(model: &Model, contact: &ContactPoint) -> Vec<Term> {
 
 /// The parts of the ends of a part of a strip in its elongation, the mean of both faces, of which those on supports and rigid
 /// blocks do not stretch. None in a dry joint.
-pub(crate) fn stretched(model: &Model, contact: &ContactPoint) -> Vec<(Anchor, Vector2<f64>)> {
+pub(crate) fn stretched(model: &Model, contact: &JointPoint) -> Vec<(Anchor, Vector2<f64>)> {
     let Some(film) = contact.film.filter(|film| film.stretch.is_some()) else { return Vec::new() };
     let half = model.joints[contact.joint.index()].tangent() * 0.5;
     let is_elastic = |face: &[Anchor; 2]| model.blocks[face[0].block.index()].elasticity.is_some();

@@ -20,7 +20,7 @@ use crate::data::verdict::{Evidence, Judgement, Verdict};
 use crate::geometry;
 use crate::history::History;
 use crate::ids::BlockId;
-use crate::model::{Body, ContactPoint, Model};
+use crate::model::{Body, JointPoint, Model};
 use crate::recover;
 use crate::system::displaced_nodes;
 use crate::system::mass;
@@ -157,7 +157,7 @@ impl Drift {
 }
 
 /// How far the sides of a contact have moved against each other \[m\], beyond what a support was moved.
-fn apart(model: &Model, state: &State, contact: &ContactPoint) -> f64 {
+fn apart(model: &Model, state: &State, contact: &JointPoint) -> f64 {
     let moved = match model.joints[contact.joint.index()].a {
         Body::Support(id) => model.supports[id.index()].displacement_at(contact.position),
         Body::Block(_) => Vector2::zeros(),

@@ -9,7 +9,7 @@ use masonry::analysis::outcome::State;
 use masonry::forms::reduction::Reduction;
 use masonry::ids::BlockId;
 use masonry::model::joints::{JointSearch, PointRule};
-use masonry::model::{ContactPoint, Model};
+use masonry::model::{JointPoint, Model};
 use masonry::recover::{reactions, recover};
 use masonry::system::System;
 use masonry::system::rigid::{FreeMotion, RigidError};
@@ -163,7 +163,7 @@ fn every_block_balances() {
 
 /// The sum of the sizes of all forces on a block.
 fn forces_on(model: &Model, state: &State, block: BlockId) -> f64 {
-    let touches = |contact: &ContactPoint| {
+    let touches = |contact: &JointPoint| {
         contact.b.block == block || contact.a.is_some_and(|a| a.block == block)
     };
     let both = model.contacts.iter().zip(&state.contacts);

@@ -29,7 +29,7 @@ fn every_method_solves_what_is_for_all_of_them() {
         assert_eq!(answer["pivots"].is_u64(), option == "lemke");
         assert_eq!(answer["iterations"].is_u64(), option != "lemke");
         assert_eq!(answer["factorisations"].is_u64(), option != "lemke");
-        assert!(answer.get("routes").is_none());
+        assert!(answer.get("runs").is_none());
         let report = Run::of(&["solve", &file, "--solver", option]).out;
         let unit = if option == "lemke" { "pivot" } else { "iteration" };
         let line = report.lines().nth(1).unwrap();
@@ -98,9 +98,9 @@ fn auto_says_what_it_chose_and_why() {
     let folder = Folder::new("auto");
     let file = folder.file("problem.txt", TRIDIAGONAL);
     let answer = Run::of(&["solve", &file, "--json"]).json();
-    let routes = answer["routes"].as_array().unwrap();
-    assert_eq!((&answer["solver"], routes.len()), (&"newton".into(), 1));
-    assert_eq!(routes[0]["end"]["ended"]["status"], "Solved");
+    let runs = answer["runs"].as_array().unwrap();
+    assert_eq!((&answer["solver"], runs.len()), (&"newton".into(), 1));
+    assert_eq!(runs[0]["end"]["ended"]["status"], "Solved");
     let report = Run::of(&["solve", &file]).out;
     assert!(
         report.contains("auto chose semismooth Newton: order 3, dense: no entry off the positive diagonal is positive"),
@@ -111,7 +111,7 @@ fn auto_says_what_it_chose_and_why() {
     let run = Run::of(&["solve", &file, "--json"]);
     let answer = run.json();
     let solvers: Vec<&Value> =
-        answer["routes"].as_array().unwrap().iter().map(|route| &route["solver"]).collect();
+        answer["runs"].as_array().unwrap().iter().map(|run| &run["solver"]).collect();
     assert_eq!((run.code, solvers), (1, vec![&"newton".into(), &"lemke".into()]));
     assert_eq!(answer["certificate"]["kind"], "farkas");
     let report = Run::of(&["solve", &file]).out;

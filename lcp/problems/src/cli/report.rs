@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use super::output::residual_lines;
 use super::solve::{Answer, Work};
 use lcp::lemke::Attempt;
-use lcp::{Route, Status};
+use lcp::{MethodRun, Status};
 
 impl Answer<'_> {
     pub(super) fn report(&self, format: &str) -> String {
@@ -49,7 +49,7 @@ fn counted(count: usize, what: &str) -> String {
 
 /// The meaning of a status for the user, if its name does not say it.
 fn meaning(answer: &Answer<'_>) -> Option<&'static str> {
-    let is_auto = !answer.routes.is_empty();
+    let is_auto = !answer.runs.is_empty();
     Some(match answer.status {
         Status::AlmostSolved => {
             "The residuals are above the tolerance; the best point is printed with --json."
@@ -82,11 +82,11 @@ fn meaning(answer: &Answer<'_>) -> Option<&'static str> {
 /// The methods that were chosen, and how each ended if there were several.
 fn route_lines(answer: &Answer<'_>) -> String {
     let mut lines = String::new();
-    for (number, route) in answer.routes.iter().enumerate() {
+    for (number, run) in answer.runs.iter().enumerate() {
         let verb = if number == 0 { "auto chose" } else { "then" };
-        let Route { method, reason, end, seconds, .. } = route;
+        let MethodRun { method, reason, end, seconds, .. } = run;
         let _ = writeln!(lines, "{verb} {}: {reason}", method.full_name());
-        if answer.routes.len() > 1 {
+        if answer.runs.len() > 1 {
             let _ = writeln!(lines, "  {end}, {seconds:.3} s");
         }
     }

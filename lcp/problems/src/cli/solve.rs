@@ -11,8 +11,8 @@ use super::output::{Failure, NOT_SOLVED, SOLVED, in_file, show};
 use crate::io::Problem;
 use lcp::lemke::Attempt;
 use lcp::{
-    Certificate, ContactForces, ContactState, Info, Method, QpPoint, Residuals, Route, Solution,
-    Status,
+    Certificate, ContactForces, ContactState, Info, Method, MethodRun, QpPoint, Residuals,
+    Solution, Status,
 };
 
 /// The object that `--json` prints.
@@ -39,8 +39,8 @@ pub(super) struct Answer<'a> {
     pub(super) program: Option<QpPoint>,
     certificate: Option<&'a Certificate>,
     pub(super) attempts: &'a [Attempt],
-    #[serde(skip_serializing_if = "<[Route]>::is_empty")]
-    pub(super) routes: &'a [Route],
+    #[serde(skip_serializing_if = "<[MethodRun]>::is_empty")]
+    pub(super) runs: &'a [MethodRun],
 }
 
 /// The work of the method, in its own unit.
@@ -105,6 +105,6 @@ fn answer<'a>(problem: &Problem, solution: &'a Solution, cpu_s: Option<f64>) -> 
         program,
         certificate: solution.certificate.as_ref(),
         attempts: &info.attempts,
-        routes: &info.routes,
+        runs: &info.runs,
     }
 }

@@ -9,7 +9,7 @@ use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
 use flate2::Compression;
 use flate2::write::GzEncoder;
-use masonry_live::page::{self, Solver};
+use masonry_live::page::{self, BrowserSolver};
 use wasm_bindgen_cli_support::Bindgen;
 
 const TARGET: &str = "wasm32-unknown-unknown";
@@ -49,7 +49,7 @@ fn write(path: &Path) -> Result<usize, Box<dyn Error>> {
     let mut bytes = [0; 16];
     getrandom::fill(&mut bytes)?;
     let nonce = format!("{:032x}", u128::from_le_bytes(bytes));
-    let page = page::single(&nonce, Solver { glue: &glue, module: &module });
+    let page = page::single(&nonce, BrowserSolver { glue: &glue, module: &module });
     std::fs::write(path, &page)
         .map_err(|error| format!("cannot write {}: {error}", path.display()))?;
     Ok(page.len())

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::schema::{Key, Schema, Step};
+use super::schema::{Entry, Key, Schema};
 use super::text::{Text, text_of};
 
 /// What may be written at a place.
@@ -26,7 +26,7 @@ pub(super) fn complete(until: &str, whole: &Text<'_>) -> Completion {
     let entries = match context.trim_end().strip_suffix('=') {
         Some(key) => {
             let key = key.trim_end().rsplit(|c: char| !is_in_word(c) && c != '.').next();
-            path.extend(key.unwrap_or_default().split('.').map(Step::Key));
+            path.extend(key.unwrap_or_default().split('.').map(Entry::Key));
             values(&path, whole)
         }
         // In a comment or a header nothing is a key.
@@ -41,27 +41,27 @@ pub(super) fn complete(until: &str, whole: &Text<'_>) -> Completion {
 }
 
 /// The table that the last header opens.
-fn header(above: &str) -> Vec<Step<'_>> {
+fn header(above: &str) -> Vec<Entry<'_>> {
     let Some(line) = above.lines().rev().map(str::trim).find(|it| it.starts_with('[')) else {
         return Vec::new();
     };
     let name = line.split(']').next().unwrap_or_default().trim_start_matches('[');
-    let mut path: Vec<Step<'_>> = name.split('.').map(|it| Step::Key(it.trim())).collect();
+    let mut path: Vec<Entry<'_>> = name.split('.').map(|it| Entry::Key(it.trim())).collect();
     if line.starts_with("[[") {
-        path.push(Step::Item);
+        path.push(Entry::Item);
     }
     path
 }
 
 /// The tables in braces of a line that are still open, with the keys that have them.
-fn braces(line: &str) -> Vec<Step<'_>> {
-    let mut open: Vec<Vec<Step<'_>>> = Vec::new();
+fn braces(line: &str) -> Vec<Entry<'_>> {
+    let mut open: Vec<Vec<Entry<'_>>> = Vec::new();
     for (at, letter) in line.char_indices() {
         let key =
             || line[..at].trim_end().strip_suffix('=').and_then(|it| it.split_whitespace().last());
         match letter {
-            '[' => open.push(key().map(Step::Key).into_iter().chain([Step::Item]).collect()),
-            '{' => open.push(key().map(Step::Key).into_iter().collect()),
+            '[' => open.push(key().map(Entry::Key).into_iter().chain([Entry::Item]).collect()),
+            '{' => open.push(key().map(Entry::Key).into_iter().collect()),
             ']' | '}' => drop(open.pop()),
             _ => {}
         }
@@ -70,9 +70,9 @@ fn braces(line: &str) -> Vec<Step<'_>> {
 }
 
 /// The words of the schema, or the names to which a key refers, as they are written.
-fn values(path: &[Step<'_>], whole: &Text<'_>) -> Vec<Key> {
+fn values(path: &[Entry<'_>], whole: &Text<'_>) -> Vec<Key> {
     let mut list = Schema::words(path);
-    let Some(Step::Key(key)) = path.last() else { return list };
+    let Some(Entry::Key(key)) = path.last() else { return list };
     let mut refer = |names: Vec<&str>, what: &str| {
         let key =
             |name: &str| Key { name: name.to_owned(), meaning: format!("{what} of this scene") };

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::schema::Step;
+use super::schema::Entry;
 use super::text::{Number, Text, Value, text_of};
 
 /// A slider.
@@ -50,7 +50,7 @@ fn friction(text: &Text<'_>) -> Vec<Control> {
     for (class, table) in text.named("joints") {
         for (key, sign, most) in [("mu", "μ", MOST_FRICTION), ("phi_deg", "φ [°]", MOST_ANGLE)] {
             let value = table.get_ref().as_table().and_then(|it| it.get(key));
-            let path = [Step::Key("joints"), Step::Key(class), Step::Key(key)];
+            let path = [Entry::Key("joints"), Entry::Key(class), Entry::Key(key)];
             let number = value.and_then(|it| text.number(it, &path));
             list.extend(number.map(|it| Control {
                 label: format!("{sign} of {class}"),
@@ -90,7 +90,7 @@ fn factors(text: &Text<'_>) -> Vec<Control> {
 
 /// The factor of a load, and where it is or would be written.
 fn factor(text: &Text<'_>, load: &Value<'_>) -> Option<(f64, Edit)> {
-    if let Some(number) = text.number_in("loads", load, &[Step::Key("factor")]) {
+    if let Some(number) = text.number_in("loads", load, &[Entry::Key("factor")]) {
         return Some((number.value, Edit::of(number)));
     }
     let name = load.get_ref().as_table()?.get("name")?;
@@ -100,7 +100,7 @@ fn factor(text: &Text<'_>, load: &Value<'_>) -> Option<(f64, Edit)> {
 
 fn thicknesses(text: &Text<'_>) -> Vec<Control> {
     let of = |arch: &&Value<'_>| {
-        let number = text.number_in("arches", arch, &[Step::Key("thickness")])?;
+        let number = text.number_in("arches", arch, &[Entry::Key("thickness")])?;
         let label = format!("thickness of {}", text_of(arch, "name")?);
         Some(Control {
             label,

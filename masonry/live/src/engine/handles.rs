@@ -4,7 +4,7 @@
 use serde::Serialize;
 
 use super::controls::Edit;
-use super::schema::Step;
+use super::schema::Entry;
 use super::text::{Number, Text, Value, text_of, value_of};
 
 /// Something in the picture that changes numbers of the text when it is dragged. Lengths are in units of the scene.
@@ -76,8 +76,9 @@ fn opening(
     course: f64,
     name: &str,
 ) -> Option<Vec<Handle>> {
-    let path = [Step::Key("walls"), Step::Item, Step::Key("openings"), Step::Item];
-    let number = |key| text.number(value_of(table, key)?, &[&path[..], &[Step::Key(key)]].concat());
+    let path = [Entry::Key("walls"), Entry::Item, Entry::Key("openings"), Entry::Item];
+    let number =
+        |key| text.number(value_of(table, key)?, &[&path[..], &[Entry::Key(key)]].concat());
     let (x, width, first, courses) =
         (number("x")?, number("width")?, number("course"), number("courses")?);
     let left = origin[0] + x.value;
@@ -112,5 +113,5 @@ fn support(text: &Text<'_>, table: &Value<'_>) -> Vec<Handle> {
 /// Two numbers.
 fn pair(text: &Text<'_>, value: &Value<'_>) -> Option<[Number; 2]> {
     let [x, y] = value.get_ref().as_array()?.as_ref() else { return None };
-    Some([text.number(x, &[Step::Item])?, text.number(y, &[Step::Item])?])
+    Some([text.number(x, &[Entry::Item])?, text.number(y, &[Entry::Item])?])
 }

@@ -8,7 +8,7 @@ use serde_json::Value;
 
 /// One step into the data of a scene.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Step<'a> {
+pub(super) enum Entry<'a> {
     Key(&'a str),
     Item,
 }
@@ -21,14 +21,14 @@ static ROOT: LazyLock<Value> =
 
 impl Schema {
     /// Whether the number at a place counts something.
-    pub(super) fn is_whole(path: &[Step<'_>]) -> bool {
+    pub(super) fn is_whole(path: &[Entry<'_>]) -> bool {
         let places = at(path);
         let has = |name: &str| places.iter().any(|it| types(it).any(|it| it == name));
         has("integer") && !has("number")
     }
 
     /// The keys of the table at a place.
-    pub(super) fn keys(path: &[Step<'_>]) -> Vec<Key> {
+    pub(super) fn keys(path: &[Entry<'_>]) -> Vec<Key> {
         let properties = at(path).into_iter().filter_map(|it| it["properties"].as_object());
         let key = |(name, inner): (&String, &Value)| Key {
             name: name.clone(),
@@ -38,7 +38,7 @@ impl Schema {
     }
 
     /// The words of which the value at a place is one.
-    pub(super) fn words(path: &[Step<'_>]) -> Vec<Key> {
+    pub(super) fn words(path: &[Entry<'_>]) -> Vec<Key> {
         let mut list = Vec::new();
         for place in at(path) {
             let meaning = place["description"].as_str().unwrap_or_default();
@@ -59,14 +59,14 @@ pub(super) struct Key {
 }
 
 /// The alternatives that the schema has at a place.
-fn at(path: &[Step<'_>]) -> Vec<&'static Value> {
+fn at(path: &[Entry<'_>]) -> Vec<&'static Value> {
     let mut places = alternatives(&ROOT);
     for step in path {
         let inner = places.into_iter().filter_map(|place| match step {
-            Step::Key(key) => place["properties"]
+            Entry::Key(key) => place["properties"]
                 .get(key)
                 .or_else(|| place.get("additionalProperties").filter(|it| it.is_object())),
-            Step::Item => place.get("items"),
+            Entry::Item => place.get("items"),
         });
         places = inner.flat_map(alternatives).collect();
     }

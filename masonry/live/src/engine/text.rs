@@ -6,7 +6,7 @@ use serde::Serialize;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-use super::schema::{Schema, Step};
+use super::schema::{Entry, Schema};
 
 /// A value and the bytes of the text that it takes.
 pub(super) type Value<'a> = Spanned<DeValue<'a>>;
@@ -67,15 +67,15 @@ impl<'a> Text<'a> {
         let mut list = Vec::new();
         let top = self.root.get_ref().iter();
         for (key, value) in top {
-            let mut path = vec![Step::Key(key.get_ref())];
+            let mut path = vec![Entry::Key(key.get_ref())];
             self.collect(value, &mut path, &mut list);
         }
         list.sort_by_key(|it| it.from);
         list
     }
 
-    fn collect<'b>(&self, value: &'b Value<'a>, path: &mut Vec<Step<'b>>, list: &mut Vec<Number>) {
-        let mut inside = |step: Step<'b>, inner: &'b Value<'a>, list: &mut Vec<Number>| {
+    fn collect<'b>(&self, value: &'b Value<'a>, path: &mut Vec<Entry<'b>>, list: &mut Vec<Number>) {
+        let mut inside = |step: Entry<'b>, inner: &'b Value<'a>, list: &mut Vec<Number>| {
             path.push(step);
             self.collect(inner, path, list);
             path.pop();
@@ -83,12 +83,12 @@ impl<'a> Text<'a> {
         match value.get_ref() {
             DeValue::Table(table) => {
                 for (key, inner) in table {
-                    inside(Step::Key(key.get_ref()), inner, list);
+                    inside(Entry::Key(key.get_ref()), inner, list);
                 }
             }
             DeValue::Array(array) => {
                 for inner in array {
-                    inside(Step::Item, inner, list);
+                    inside(Entry::Item, inner, list);
                 }
             }
             _ => list.extend(self.number(value, path)),
@@ -96,14 +96,14 @@ impl<'a> Text<'a> {
     }
 
     /// A number with what the schema says of its place.
-    pub(super) fn number(&self, value: &Value<'a>, path: &[Step<'_>]) -> Option<Number> {
+    pub(super) fn number(&self, value: &Value<'a>, path: &[Entry<'_>]) -> Option<Number> {
         let number = match value.get_ref() {
             DeValue::Integer(it) if it.radix() == 10 => it.as_str().parse::<f64>().ok()?,
             DeValue::Float(it) => it.as_str().parse().ok()?,
             _ => return None,
         };
         let whole = Schema::is_whole(path);
-        let is_component = path.last() == Some(&Step::Item);
+        let is_component = path.last() == Some(&Entry::Item);
         let least = match whole {
             true => Some(1.0),
             false if is_component || number < 0.0 => None,
@@ -119,14 +119,14 @@ impl<'a> Text<'a> {
         &self,
         list: &str,
         table: &Value<'a>,
-        path: &[Step<'_>],
+        path: &[Entry<'_>],
     ) -> Option<Number> {
         let mut value = table;
         for step in path {
-            let Step::Key(key) = step else { return None };
+            let Entry::Key(key) = step else { return None };
             value = value.get_ref().as_table()?.get(*key)?;
         }
-        self.number(value, &[&[Step::Key(list), Step::Item], path].concat())
+        self.number(value, &[&[Entry::Key(list), Entry::Item], path].concat())
     }
 
     /// The line of a byte, from 1.

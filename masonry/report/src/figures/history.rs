@@ -5,7 +5,7 @@ use super::tables::{counts, reactions};
 use super::{Columns, Table, Value, members};
 use crate::format::InUnits;
 use crate::format::Quantity::{Energy, Force, Length, Pure, Radians};
-use masonry::history::{History, Step, StepRecord};
+use masonry::history::{History, HistoryStep, StepRecord};
 use masonry::model::Model;
 
 /// Keys of JSON before and after the factors and movements of a step.
@@ -86,7 +86,7 @@ fn columns<'a>(model: &'a Model, history: &'a History) -> Columns<'a, Row<'a>> {
 }
 
 /// The number of a step and of all of its stage.
-pub(crate) fn place(step: &Step) -> String {
+pub(crate) fn place(step: &HistoryStep) -> String {
     format!("{}/{}", step.number, step.of)
 }
 
@@ -132,7 +132,7 @@ pub(crate) fn in_json(model: &Model, history: &History) -> Result<Value, serde_j
         });
         records.push(Value::Object(members));
     }
-    let at = |it: &Step| members! { "stage": &it.stage, "step": it.number, "of": it.of };
+    let at = |it: &HistoryStep| members! { "stage": &it.stage, "step": it.number, "of": it.of };
     Ok(Value::Object(members! {
         "steps": history.steps,
         "solved": history.records.len(),

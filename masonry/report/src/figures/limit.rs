@@ -11,9 +11,9 @@ use masonry::analysis::limit::{
 };
 use masonry::data::statics::Extreme;
 use masonry::model::Model;
-use masonry::rounding::{Side, outwards};
+use masonry::rounding::{BoundSide, outwards};
 
-fn bound(it: Option<f64>, side: Side, digits: usize) -> String {
+fn bound(it: Option<f64>, side: BoundSide, digits: usize) -> String {
     it.map_or("none".to_owned(), |it| outwards(it, side, |it| significant(it, digits)))
 }
 
@@ -25,15 +25,15 @@ pub(crate) fn associative(found: &Associative, model: &Model) -> Vec<Figure> {
         None => "none".to_owned(),
     };
     let gap = limit.zip(load_factor).map(|(bound, factor)| bound - factor);
-    let factor = meant(load_factor, Side::Below, "carried by forces within friction");
-    let above = meant(limit, Side::Above, "above which a motion proves that none do");
+    let factor = meant(load_factor, BoundSide::Below, "carried by forces within friction");
+    let above = meant(limit, BoundSide::Above, "above which a motion proves that none do");
     let mut list = vec![
         Figure::new("load_factor", load_factor)
             .text("load factor", factor)
-            .page("factor, associative flow", bound(load_factor, Side::Below, 5)),
+            .page("factor, associative flow", bound(load_factor, BoundSide::Below, 5)),
         Figure::new("bound", limit)
             .text("bound", above)
-            .page("cannot stand above", bound(limit, Side::Above, 5)),
+            .page("cannot stand above", bound(limit, BoundSide::Above, 5)),
         Figure::new("gap", gap)
             .text("gap", gap.map_or("none".to_owned(), |gap| significant(gap, 2))),
         Figure::new("proved", found.proved).both("proved", yes_or_no(found.proved)),
@@ -57,13 +57,15 @@ fn carried_by_rest(Rest { load_factor, bound }: Rest) -> String {
     let if_held = "if the blocks that move are held (they may support others)";
     match (load_factor, bound) {
         (Some(carried), Some(bound)) => {
-            let (carried, bound) = (told(carried, Side::Below), told(bound, Side::Above));
+            let (carried, bound) = (told(carried, BoundSide::Below), told(bound, BoundSide::Above));
             format!("carries {carried} and not {bound}, {if_held}")
         }
         (Some(carried), None) => {
-            format!("carries {} at least, {if_held}", told(carried, Side::Below))
+            format!("carries {} at least, {if_held}", told(carried, BoundSide::Below))
         }
-        (None, Some(bound)) => format!("does not carry {}, {if_held}", told(bound, Side::Above)),
+        (None, Some(bound)) => {
+            format!("does not carry {}, {if_held}", told(bound, BoundSide::Above))
+        }
         (None, None) => format!("has no limit that was found, {if_held}"),
     }
 }
@@ -71,15 +73,15 @@ fn carried_by_rest(Rest { load_factor, bound }: Rest) -> String {
 /// The limit load along a path.
 pub(crate) fn path(path: &Path) -> Vec<Figure> {
     let units = InUnits(path.model.units);
-    let factor = bound(path.load_factor, Side::Below, 10);
+    let factor = bound(path.load_factor, BoundSide::Below, 10);
     let factor = format!("{factor}, the last at which blocks rest");
     let mut list = vec![
         Figure::new("load_factor", path.load_factor)
             .text("load factor", factor)
-            .page("factor along a path", bound(path.load_factor, Side::Below, 5)),
+            .page("factor along a path", bound(path.load_factor, BoundSide::Below, 5)),
         Figure::new("falls", path.falls)
-            .text("falls at", bound(path.falls, Side::Above, 10))
-            .page("falls at", bound(path.falls, Side::Above, 5)),
+            .text("falls at", bound(path.falls, BoundSide::Above, 10))
+            .page("falls at", bound(path.falls, BoundSide::Above, 5)),
         Figure::new("decided", path.decided).text("decided", yes_or_no(path.decided)),
         Figure::new("", path.curve.len()).text("states at rest", path.curve.len().to_string()),
     ];
@@ -135,8 +137,8 @@ pub(crate) fn thickness(it: &Thickness) -> Vec<Figure> {
         Figure::new(key, value).text(name, or_none(text)).page(name, or_none(short))
     };
     vec![
-        figure("stands", "stands at", it.stands, Side::Above),
-        figure("falls", "falls at", it.falls, Side::Below),
+        figure("stands", "stands at", it.stands, BoundSide::Above),
+        figure("falls", "falls at", it.falls, BoundSide::Below),
         Figure::new("proved", it.proved).both("proved", yes_or_no(it.proved)),
     ]
 }

@@ -10,7 +10,7 @@ use crate::hinges::{YieldingJoint, yielding};
 use crate::joints::{self, JointForce, JointOpening};
 use crate::summary::{LoadGroup, Resultant};
 use masonry::data::state::{FilmStress, PointState, PointStatus, Reaction, State};
-use masonry::model::{Body, ContactPoint, Model, PlacedJoint};
+use masonry::model::{Body, JointPoint, Model, PlacedJoint};
 
 /// Forces with names.
 pub(crate) fn forces<'a>(
@@ -129,7 +129,7 @@ pub(crate) fn hinges(model: &Model, rates: &[Vec<Vector2<f64>>]) -> Table {
 /// A contact point and what happens there.
 struct PointRow<'a> {
     index: usize,
-    contact: &'a ContactPoint,
+    contact: &'a JointPoint,
     joint: &'a PlacedJoint,
     state: &'a PointState,
     film: Option<&'a FilmStress>,

@@ -1,7 +1,7 @@
 //! The page of a scene that was solved, or was not.
 
 use super::tables::{self, section};
-use super::{Page, Step, size, taken};
+use super::{Page, PictureStep, size, taken};
 use crate::figures::history::place;
 use crate::figures::{self, Said, on_page};
 use crate::format::{InUnits, significant};
@@ -50,12 +50,12 @@ pub(super) fn verdict(verdict: Verdict) -> &'static str {
 }
 
 /// The steps that have pictures: those before the last one that was solved, and that one.
-fn steps(outcome: &Outcome, frames: &[Frame]) -> Vec<Step> {
+fn steps(outcome: &Outcome, frames: &[Frame]) -> Vec<PictureStep> {
     let records = outcome.history.iter().flat_map(|history| &history.records);
     let Some((last, record)) = records.enumerate().last() else { return Vec::new() };
-    let step = |it: &history::Step, position| {
+    let step = |it: &history::HistoryStep, position| {
         let name = format!("{} {}", it.stage, place(it));
-        Step { name, position }
+        PictureStep { name, position }
     };
     let earlier = frames.iter().take_while(|frame| frame.position < last);
     let earlier = earlier.map(|frame| step(&frame.step, frame.position));
@@ -66,7 +66,7 @@ fn steps(outcome: &Outcome, frames: &[Frame]) -> Vec<Step> {
 fn pictures(
     outcome: &Outcome,
     frames: &[Frame],
-    steps: &[Step],
+    steps: &[PictureStep],
     reference: Option<&ReferenceLines>,
 ) -> Vec<Pictures> {
     let title = &outcome.title;

@@ -3,7 +3,7 @@
 use lcp::Status;
 
 use crate::format::significant;
-use masonry::analysis::study::{End, Record, Study, Verified};
+use masonry::analysis::study::{End, Record, Study, Verification};
 use masonry::rounding::largest;
 use masonry::scene::Route;
 
@@ -182,7 +182,7 @@ fn reference(study: &Study) -> Option<String> {
     ))
 }
 
-fn refined(verified: Option<&Verified>) -> String {
+fn refined(verified: Option<&Verification>) -> String {
     let Some(it) = verified else { return String::new() };
     let margin = it
         .margin

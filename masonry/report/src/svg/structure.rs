@@ -10,7 +10,7 @@ use super::sheet::{Bounds, Frame, Sheet};
 use super::style::{LARGEST_BRICK, STATUS};
 use masonry::data::state::{PointState, PointStatus};
 use masonry::ids::{JointId, SupportId};
-use masonry::model::{Body, ContactPoint, Model, PlacedBlock, PlacedSupport};
+use masonry::model::{Body, JointPoint, Model, PlacedBlock, PlacedSupport};
 
 /// Length of the strokes of a hatch, and most that is between them.
 const TICK: f64 = 7.0;
@@ -167,7 +167,7 @@ fn draw_mark(canvas: &mut Canvas, status: PointStatus, at: Pixel, radius: f64) {
     canvas.path(&closed(corners.map(|[x, y]| Pixel::new(at.x + x, at.y + y))), "");
 }
 
-fn mark_place(model: &Model, contact: &ContactPoint, frame: &Frame, radius: f64) -> Pixel {
+fn mark_place(model: &Model, contact: &JointPoint, frame: &Frame, radius: f64) -> Pixel {
     let joint = &model.joints[contact.joint.index()];
     let at = frame.at(contact.position);
     let middle: Point2<f64> = nalgebra::center(&joint.from, &joint.to);

@@ -1,7 +1,8 @@
 //! A running-bond wall with an invented state: reports are tested whatever solvers find.
 
 use masonry::analysis::outcome::{
-    Attempt, ElementStress, Outcome, PhaseTime, PointState, PointStatus, Principal, Reaction, State,
+    ElementStress, Outcome, PhaseTime, PointState, PointStatus, Principal, Reaction, RouteAttempt,
+    State,
 };
 use masonry::analysis::solve::solve;
 use masonry::data::verdict::{Evidence, Verdict};
@@ -9,7 +10,7 @@ use masonry::ids::{BlockId, JointId, LoadId, SupportId};
 use masonry::law::JointLaw;
 use masonry::model::mesh::BlockMesh;
 use masonry::model::{
-    Anchor, Body, ContactPoint, EdgeLoad, Elasticity, JointClass, LoadCase, Model, Movement,
+    Anchor, Body, EdgeLoad, Elasticity, JointClass, JointPoint, LoadCase, Model, Movement,
     PlacedBlock, PlacedJoint, PlacedSupport, Plane,
 };
 use masonry::plan::{Effect, Plan, PlannedRoute};
@@ -110,7 +111,7 @@ fn seed() -> Scene {
 pub(crate) fn unsolved(wall: Wall) -> Outcome {
     let mut outcome = solved(wall);
     outcome.solve.status = lcp::Status::RayTermination;
-    let left = Attempt::Left { route: Route::Lemke, iterations: 412 };
+    let left = RouteAttempt::Left { route: Route::Lemke, iterations: 412 };
     outcome.solve.attempts.push(left);
     outcome.state = None;
     outcome.checks = None;
@@ -267,7 +268,7 @@ fn add_joint(model: &mut Model, (a, b, class): (Body, BlockId, usize), ends: [[f
     model.joints.push(PlacedJoint { a, b, class, from, to, normal, film: None });
     for position in [from, to] {
         let anchor = |block| Anchor { block, edge: 0, at: 0.0 };
-        model.contacts.push(ContactPoint {
+        model.contacts.push(JointPoint {
             joint,
             position,
             weight: 0.5 * (to - from).norm() * model.thickness,
@@ -315,7 +316,7 @@ fn state(model: &Model, wall: Wall) -> State {
     }
 }
 
-fn contact_state(contact: &ContactPoint, wall: Wall) -> PointState {
+fn contact_state(contact: &JointPoint, wall: Wall) -> PointState {
     let p = contact.position;
     if hangs(p, wall) {
         let status = PointStatus::Open;

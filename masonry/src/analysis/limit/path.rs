@@ -16,7 +16,7 @@ use crate::forms::Sparse;
 use crate::method::loading;
 use crate::model::Model;
 use crate::recover;
-use crate::scene::Solver;
+use crate::scene::SolverSettings;
 use crate::system::{System, mass};
 
 /// Steps up to the bound of associated flow. Measured on the walls of Ferris and Tin-Loi, whose published limits are met to
@@ -104,7 +104,7 @@ pub(super) fn of(
     let growth: Vec<f64> = loads.map(|(grown, stays)| grown - stays).collect();
     let mass = mass::lumped(&stays, &system);
     // That of scenes without a tolerance.
-    let Solver { tolerance, .. } = Solver::default();
+    let SolverSettings { tolerance, .. } = SolverSettings::default();
     let steps = Steps {
         sparse: &sparse,
         growth: &growth,

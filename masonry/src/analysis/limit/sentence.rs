@@ -1,7 +1,7 @@
 //! Limit loads in the words of an engineer.
 
 use super::{Answer, Associative, Path};
-use crate::rounding::{Side, outwards};
+use crate::rounding::{BoundSide, outwards};
 
 /// The sentence of the answers of both laws, or of one.
 pub(super) fn of(group: &str, associative: Option<&Associative>, path: Option<&Path>) -> String {
@@ -114,12 +114,12 @@ fn of_associative(group: &str, found: &Associative) -> String {
 
 /// A load factor that is carried, rounded down.
 fn at_least(it: f64) -> String {
-    outwards(it, Side::Below, factor)
+    outwards(it, BoundSide::Below, factor)
 }
 
 /// A load factor that is not carried, rounded up.
 fn at_most(it: f64) -> String {
-    outwards(it, Side::Above, factor)
+    outwards(it, BoundSide::Above, factor)
 }
 
 /// A load factor with four decimals, if these say enough.

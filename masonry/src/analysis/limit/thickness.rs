@@ -11,7 +11,7 @@ use crate::data::statics::Statics;
 use crate::method::statics;
 use crate::model::Model;
 use crate::recover;
-use crate::rounding::{Side, outwards};
+use crate::rounding::{BoundSide, outwards};
 use crate::scene::{Known, Scene};
 use crate::system::System;
 
@@ -151,8 +151,10 @@ impl Bisection<'_> {
             falls.zip(stands).is_some_and(|(falls, stands)| stands - falls <= NEAR * stands);
         let is_interrupted = self.watch.is_ended;
         let length = |it: f64, side| outwards(it, side, |it| format!("{it:.6}"));
-        let (thinner, thicker) =
-            (falls.map(|it| length(it, Side::Below)), stands.map(|it| length(it, Side::Above)));
+        let (thinner, thicker) = (
+            falls.map(|it| length(it, BoundSide::Below)),
+            stands.map(|it| length(it, BoundSide::Above)),
+        );
         let sentence = match (thinner, thicker) {
             (Some(falls), Some(stands)) if proved => format!(
                 "Arch \"{arch}\" needs a thickness of {stands} {name}: forces within friction balance the loads \

@@ -8,7 +8,7 @@ use lcp::{Contact2d, Status};
 
 use super::{Event, SolveError, named};
 use crate::analysis::clock::Clock;
-use crate::data::info::{Attempt, RouteEnd, SolveInfo};
+use crate::data::info::{RouteAttempt, RouteRecord, SolveInfo};
 use crate::data::state::State;
 use crate::data::statics::Statics;
 use crate::forms::reduction::Reduction;
@@ -19,7 +19,7 @@ use crate::method::interior::Interior;
 use crate::method::lemke::Pivots;
 use crate::method::loading;
 use crate::method::statics::{self, Decision};
-use crate::method::{Observer, Request, RouteAnswer, pgs, qp};
+use crate::method::{EventObserver, Request, RouteAnswer, pgs, qp};
 use crate::model::Model;
 #[cfg(feature = "paper")]
 use crate::paper::alm;
@@ -105,7 +105,7 @@ impl<'a> Chain<'a> {
                 Err(error) => format!("refused: {error}"),
             };
             let (because, seconds) = (because.clone(), began.elapsed().as_secs_f64());
-            ends.push(RouteEnd { route: *route, because: because.clone(), end, seconds });
+            ends.push(RouteRecord { route: *route, because: because.clone(), end, seconds });
             let mut tried = match tried {
                 Ok(tried) => tried,
                 // The next route may treat what this one does not.
@@ -261,7 +261,7 @@ impl<'a> Chain<'a> {
             if checks.hold(tolerance) {
                 let info = &mut result.info;
                 (info.status, info.residuals) = (Status::Solved, residuals);
-                info.attempts.push(Attempt::Refinement { residual: residuals.worst() });
+                info.attempts.push(RouteAttempt::Refinement { residual: residuals.worst() });
                 (result.state, result.checks) = (Some(state), Some(checks));
             }
         }
@@ -309,7 +309,7 @@ impl<'a> Chain<'a> {
         {
             let SolveInfo { status, attempts, iterations, .. } = &mut answer.info;
             *status = Status::Stalled;
-            *attempts = vec![Attempt::Left { route, iterations: *iterations }];
+            *attempts = vec![RouteAttempt::Left { route, iterations: *iterations }];
         }
         let is_at_rest = answer.account.is_some() && answer.info.status == Status::Solved;
         answer.moved = answer.moved.take().map(|moved| self.by_contact(moved));
@@ -387,7 +387,7 @@ impl<'a> Chain<'a> {
 
     fn timed<E: Into<SolveError>>(
         &mut self,
-        solve: impl FnOnce(&Request, Observer<'_>) -> Result<RouteAnswer, E>,
+        solve: impl FnOnce(&Request, EventObserver<'_>) -> Result<RouteAnswer, E>,
     ) -> Result<RouteAnswer, SolveError> {
         let (model, system, observer) = (self.model, self.system, &mut *self.observer);
         let _ = observer(Event::Phase("solve"));

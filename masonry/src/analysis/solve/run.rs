@@ -15,14 +15,14 @@ use crate::data::verdict::Judgement;
 use crate::forms::Sparse;
 use crate::history::energy::{self, FrictionWork, Snapshot};
 use crate::history::spread::AtEnd;
-use crate::history::{self, History, SecondLoading, Step, StepRecord};
+use crate::history::{self, History, HistoryStep, SecondLoading, StepRecord};
 use crate::method::Request;
 use crate::method::sparse::UNKNOWN;
 use crate::model::Model;
 use crate::plan::Plan;
 use crate::recover;
 use crate::rounding::cleared;
-use crate::scene::{Scene, Solver};
+use crate::scene::{Scene, SolverSettings};
 use crate::system::System;
 use crate::verify::checks::Checks;
 use crate::verify::step::StepResult;
@@ -65,7 +65,7 @@ pub struct Run {
     model: Model,
     plan: Plan,
     system: System,
-    steps: Vec<Step>,
+    steps: Vec<HistoryStep>,
     loads: Vec<String>,
     /// Unusual magnitudes of the scene.
     unusual: Vec<String>,
@@ -121,7 +121,7 @@ impl Run {
         };
         let build = if plan.dense_numbers() > 0 { System::new } else { System::without_factors };
         let system = clock.time("system", observer, || build(&model))?;
-        let Solver { tolerance, form, max_pivots, max_steps, soft, .. } = scene.solver;
+        let SolverSettings { tolerance, form, max_pivots, max_steps, soft, .. } = scene.solver;
         let [max_pivots, max_steps] =
             [max_pivots, max_steps].map(|limit| limit.map(|it| it as usize));
         Ok(Self {
@@ -166,7 +166,7 @@ impl Run {
         if let Some(position) =
             records.iter().zip(planned).position(|(record, step)| Some(&record.step) != step)
         {
-            let StepRecord { step: Step { stage, number, .. }, .. } = &records[position];
+            let StepRecord { step: HistoryStep { stage, number, .. }, .. } = &records[position];
             return Err(CheckpointError::OtherSteps { stage: stage.clone(), step: *number }.into());
         }
         let Some(record) = records.last() else { return Ok(self) };
@@ -235,14 +235,14 @@ impl Run {
             Err(error) if solved == 0 => Err(error),
             Err(error) => {
                 self.failed = Some(self.without_state(Status::NumericalTrouble));
-                let Step { stage, number, .. } = step;
+                let HistoryStep { stage, number, .. } = step;
                 Err(SolveError::Step { stage, step: number, error: Box::new(error) })
             }
         }
     }
 
     /// A step as it follows the last one that was solved.
-    fn situation(&self, step: &Step) -> Situation {
+    fn situation(&self, step: &HistoryStep) -> Situation {
         let state = self.solved.as_ref().and_then(|solved| solved.state.as_ref());
         let slips: Vec<f64> = match state {
             Some(state) => state.contacts.iter().map(|contact| contact.y_t).collect(),
@@ -270,7 +270,7 @@ impl Run {
     /// Keeps a result. An only step has nothing else to remember.
     fn take(
         &mut self,
-        step: Step,
+        step: HistoryStep,
         situation: Option<Situation>,
         before: Option<&Snapshot>,
         mut tried: StepResult,
@@ -289,7 +289,7 @@ impl Run {
     /// if there is no earlier one.
     fn remember(
         &mut self,
-        step: Step,
+        step: HistoryStep,
         situation: Situation,
         before: Option<&Snapshot>,
         tried: &mut StepResult,
@@ -309,7 +309,7 @@ impl Run {
     /// The situation of a state, whose slips become those of all steps.
     fn reached_by(
         &self,
-        step: &Step,
+        step: &HistoryStep,
         situation: Situation,
         tried: &mut StepResult,
     ) -> Option<Situation> {
@@ -330,7 +330,7 @@ impl Run {
     /// The record of a step after the last one that was solved.
     fn record(
         &self,
-        step: Step,
+        step: HistoryStep,
         friction: FrictionWork,
         result: &StepResult,
         model: &Model,

@@ -4,7 +4,7 @@ use lcp::Status;
 use serde::Serialize;
 
 use super::runs::{Ran, Runner};
-use super::verified::{Exact, Verified};
+use super::verified::{Exact, Verification};
 use super::{End, Errors, Figures, Progress};
 use crate::analysis::outcome::Outcome;
 use crate::scene::{Route, Scene};
@@ -32,8 +32,8 @@ pub struct Reference {
     /// Wall-clock time \[s\].
     pub seconds: f64,
     /// Its verification in double-double arithmetic. Errors are relative to the refined solution if that [is
-    /// better](Verified::is_better).
-    pub verified: Option<Verified>,
+    /// better](Verification::is_better).
+    pub verified: Option<Verification>,
     /// The solution of another route; `None` if no other has one.
     pub confirmed: Option<Confirmation>,
 }

@@ -14,7 +14,7 @@ use crate::system::System;
 /// The verification of a solution in double-double arithmetic: see [`lcp::Contact2d::verify`]. For a load history it
 /// is that of the last step, with the slips of the previous ones.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Verified {
+pub struct Verification {
     /// The largest residual of an equation of the refined solution, relative to the terms of its row \[-\].
     pub residual: f64,
     /// The contradiction between the gaps of redundant contacts, relative to the terms of a row \[-\]: rounding
@@ -41,7 +41,7 @@ const EXACT: f64 = f64::EPSILON;
 /// Inequalities violated by less are rounded.
 const ROUNDED: f64 = 4.0 * f64::EPSILON;
 
-impl Verified {
+impl Verification {
     /// Whether the refined point is a solution and better than any in `f64`.
     pub fn is_better(&self) -> bool {
         self.holds && self.residual < EXACT
@@ -52,7 +52,7 @@ impl Verified {
 #[derive(Debug, Clone)]
 pub struct Exact {
     /// The verification.
-    pub verified: Verified,
+    pub verified: Verification,
     /// The problem.
     pub sparse: Sparse,
     /// The states of all contacts.
@@ -78,11 +78,11 @@ impl Exact {
     }
 }
 
-fn judged(sparse: &Sparse, given: &ContactState, refined: &Refined) -> Verified {
+fn judged(sparse: &Sparse, given: &ContactState, refined: &Refined) -> Verification {
     let Refined { residual, shift, correction, passes, seconds, .. } = *refined;
     let least = refined.margin.least;
     let uncertain = residual.max(shift).max(correction).max(f64::EPSILON * f64::EPSILON);
-    Verified {
+    Verification {
         residual,
         shift,
         margin: refined.margin.contact.map(|_| least),

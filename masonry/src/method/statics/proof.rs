@@ -10,7 +10,7 @@ use nalgebra::{Point2, Vector2};
 use crate::data::statics::Proof;
 use crate::geometry;
 use crate::ids::BlockId;
-use crate::model::{Anchor, ContactPoint, Model};
+use crate::model::{Anchor, JointPoint, Model};
 use crate::recover;
 use crate::system::rigid::Modes;
 
@@ -75,7 +75,7 @@ impl<'a> RigidMotion<'a> {
     }
 
     /// How far a contact opens and slides.
-    fn apart(&self, model: &Model, contact: &ContactPoint) -> [f64; 2] {
+    fn apart(&self, model: &Model, contact: &JointPoint) -> [f64; 2] {
         let joint = &model.joints[contact.joint.index()];
         let side = |Anchor { block, edge, at }: Anchor| {
             // Both faces of a film feel its force in the middle between them.

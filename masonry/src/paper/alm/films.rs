@@ -6,7 +6,7 @@ use nalgebra::{Matrix2, Point2, RowVector3, Vector2, Vector3};
 use super::AlmError;
 use crate::data::state::PointStatus;
 use crate::law::JointLaw;
-use crate::model::{Anchor, ContactPoint, Model, PlacedJoint};
+use crate::model::{Anchor, JointPoint, Model, PlacedJoint};
 use crate::paper::film::law::FilmState;
 use crate::paper::film::pointwise::{FilmResponse, PointwiseFilm};
 use crate::paper::film::strip::Strip;
@@ -37,8 +37,7 @@ pub struct Segment {
 
 /// The segments of all films of a model; `start` is the first unknown of every block.
 pub(super) fn attached(model: &Model, start: &[usize]) -> Result<Vec<Segment>, AlmError> {
-    let in_films: Vec<&ContactPoint> =
-        model.contacts.iter().filter(|it| it.film.is_some()).collect();
+    let in_films: Vec<&JointPoint> = model.contacts.iter().filter(|it| it.film.is_some()).collect();
     in_films
         .chunks(2)
         .map(|points| match points {
@@ -52,8 +51,8 @@ impl Segment {
     /// The film between the start of what one point stands for and the end of what the next one does.
     fn of(
         model: &Model,
-        first: &ContactPoint,
-        last: &ContactPoint,
+        first: &JointPoint,
+        last: &JointPoint,
         start: &[usize],
     ) -> Result<Self, AlmError> {
         let joint = &model.joints[first.joint.index()];
@@ -106,7 +105,7 @@ impl Segment {
     }
 
     /// Initial gaps and slips at its two Gauss points; gaps are linear between them.
-    fn start_from(&mut self, first: &ContactPoint, last: &ContactPoint) {
+    fn start_from(&mut self, first: &JointPoint, last: &JointPoint) {
         let strip = self.film.strip();
         let places: Vec<f64> = self.film.places().collect();
         let slope = (last.gap - first.gap) / (places[1] - places[0]);

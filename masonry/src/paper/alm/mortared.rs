@@ -11,7 +11,7 @@ use lcp::{Contact2d, Matrix};
 
 use super::films::{Segment, attached};
 use super::structure::Structure;
-use super::{AlmAnswer, AlmError, AlmSettings, Iteration, run};
+use super::{AlmAnswer, AlmError, AlmIteration, AlmSettings, run};
 use crate::data::state::{Reaction, State};
 use crate::forms::Sparse;
 use crate::model::{Body, Model};
@@ -116,7 +116,7 @@ impl MortaredWall {
     pub fn solve(
         &self,
         settings: &AlmSettings,
-        observer: &mut dyn FnMut(&Iteration) -> ControlFlow<()>,
+        observer: &mut dyn FnMut(&AlmIteration) -> ControlFlow<()>,
     ) -> Result<AlmAnswer, AlmError> {
         run::solve(&Structure::new(&self.sparse.problem, &self.films)?, settings, observer)
     }

@@ -2,10 +2,10 @@
 
 use lcp::{ContactState, Status};
 
-use super::{AlmAnswer, AlmError, AlmSettings, Iteration, MortaredWall, solve};
+use super::{AlmAnswer, AlmError, AlmIteration, AlmSettings, MortaredWall, solve};
 use crate::data::info::SolveInfo;
 use crate::forms::Sparse;
-use crate::method::{self, Event, Observer, Request, sparse};
+use crate::method::{self, Event, EventObserver, Request, sparse};
 use crate::model::Model;
 use crate::scene::Route;
 use crate::system::System;
@@ -21,7 +21,7 @@ const BETTER: f64 = 0.1;
 pub fn by_multipliers(
     sparse: &Sparse,
     request: &Request,
-    observer: Observer<'_>,
+    observer: EventObserver<'_>,
 ) -> Result<method::RouteAnswer, AlmError> {
     let problem = &sparse.problem;
     let settings = AlmSettings { tolerance: request.tolerance, ..AlmSettings::default() };
@@ -39,7 +39,7 @@ pub fn by_films(
     system: &System,
     sparse: &Sparse,
     request: &Request,
-    observer: Observer<'_>,
+    observer: EventObserver<'_>,
 ) -> Result<method::RouteAnswer, AlmError> {
     let wall = MortaredWall::new(model)?;
     let settings = AlmSettings { tolerance: BETTER * request.tolerance, ..AlmSettings::default() };
@@ -71,7 +71,7 @@ fn at_points(model: &Model, wall: &MortaredWall, found: &ContactState) -> (Vec<f
 }
 
 /// The progress of a route by that of the iterations.
-fn told(observer: Observer<'_>) -> impl FnMut(&Iteration) -> std::ops::ControlFlow<()> {
+fn told(observer: EventObserver<'_>) -> impl FnMut(&AlmIteration) -> std::ops::ControlFlow<()> {
     let mut number = 0;
     move |at| {
         number += 1;

@@ -7,7 +7,7 @@ use lcp::{Contact2d, ContactState, Status};
 use super::contraction::Contraction;
 use super::matrices::{Matrices, States};
 use super::structure::{Structure, Taken};
-use super::{AlmAnswer, AlmError, AlmSettings, Iteration};
+use super::{AlmAnswer, AlmError, AlmIteration, AlmSettings};
 use crate::data::state::PointStatus;
 
 /// Penalty of a contact, relative to the stiffness that it sees.
@@ -28,7 +28,7 @@ const HALVINGS: usize = 8;
 pub(super) fn solve(
     structure: &Structure<'_>,
     settings: &AlmSettings,
-    observer: &mut dyn FnMut(&Iteration) -> ControlFlow<()>,
+    observer: &mut dyn FnMut(&AlmIteration) -> ControlFlow<()>,
 ) -> Result<AlmAnswer, AlmError> {
     let tolerance = settings.tolerance;
     if !(tolerance > 0.0 && tolerance < 1.0) {
@@ -73,7 +73,7 @@ impl Best {
 struct Iterations<'a> {
     structure: &'a Structure<'a>,
     settings: &'a AlmSettings,
-    convergence: Vec<Iteration>,
+    convergence: Vec<AlmIteration>,
     factorisations: usize,
     best: Best,
 }
@@ -84,7 +84,7 @@ impl Iterations<'_> {
         &mut self,
         attempt: usize,
         matrices: &Matrices<'_>,
-        observer: &mut dyn FnMut(&Iteration) -> ControlFlow<()>,
+        observer: &mut dyn FnMut(&AlmIteration) -> ControlFlow<()>,
     ) -> Result<Status, AlmError> {
         let Self { structure, settings, .. } = *self;
         let problem = structure.problem;
@@ -120,7 +120,7 @@ impl Iterations<'_> {
 
             let unbalance = structure.unbalance(&at, &taken);
             let distance = motion.remaining().max(pull.remaining());
-            let iteration = Iteration { attempt, unbalance, distance, changes };
+            let iteration = AlmIteration { attempt, unbalance, distance, changes };
             self.convergence.push(iteration);
             let measure = unbalance.max(structure.slack(&at, &taken));
             let is_solved = measure.max(distance) <= settings.tolerance

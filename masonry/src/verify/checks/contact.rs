@@ -4,7 +4,7 @@ use super::bodies::Bodies;
 use super::{Lengths, larger};
 use crate::data::state::{PointState, State};
 use crate::law::PointLaw;
-use crate::model::{ContactPoint, Model};
+use crate::model::{JointPoint, Model};
 use crate::recover;
 
 /// Gap, slip and forces of a contact point, with the data to which they are compared.
@@ -23,12 +23,7 @@ pub(super) struct Pair {
 }
 
 impl Pair {
-    pub(super) fn of(
-        model: &Model,
-        state: &State,
-        contact: &ContactPoint,
-        it: &PointState,
-    ) -> Self {
+    pub(super) fn of(model: &Model, state: &State, contact: &JointPoint, it: &PointState) -> Self {
         // Faces that are pressed come nearer than they were, which is no gap below zero.
         let [c_n, c_t] = contact.gives();
         let joint = &model.joints[contact.joint.index()];

@@ -6,7 +6,7 @@ use super::bodies::Bodies;
 use super::elements::NodeForces;
 use super::{known, larger};
 use crate::data::state::{PointState, State};
-use crate::model::{ContactPoint, Model};
+use crate::model::{JointPoint, Model};
 
 /// The largest lengths \[m\].
 pub(super) struct Lengths {
@@ -62,7 +62,7 @@ impl Lengths {
     }
 }
 
-fn lengths(contact: &ContactPoint, it: &PointState) -> [f64; 4] {
+fn lengths(contact: &JointPoint, it: &PointState) -> [f64; 4] {
     let [c_n, c_t] = contact.gives();
     [contact.gap, contact.slip, c_n * it.t_n, c_t * it.t_t].map(f64::abs)
 }

@@ -4,7 +4,7 @@ use lcp::Status;
 
 use super::{Drift, Evidence, Findings, Verdict};
 use crate::data::statics::Statics;
-use crate::history::{History, SecondLoading, Step};
+use crate::history::{History, HistoryStep, SecondLoading};
 use crate::model::Model;
 use crate::scene::Movement;
 
@@ -142,7 +142,7 @@ fn tried(known: &Findings<'_>) -> String {
     }
 }
 
-fn at_step(step: &Step) -> String {
+fn at_step(step: &HistoryStep) -> String {
     format!(" in step {} of {} of stage \"{}\"", step.number, step.of, step.stage)
 }
 
@@ -174,7 +174,7 @@ fn reached(model: &Model, history: &History) -> Option<String> {
         let unit = model.units.length_name();
         format!("support \"{}\" moved by ({x}, {y}) {unit} and turned by {turn} rad", support.name)
     }));
-    let Step { stage, number, of, .. } = &last.step;
+    let HistoryStep { stage, number, of, .. } = &last.step;
     let solved = history.records.len();
     let steps = history.steps;
     let place = format!(

@@ -7,7 +7,7 @@ use lcp_linalg::Gram;
 
 use crate::columns::{ColumnMatrix, column};
 use crate::data::state::{PointState, State};
-use crate::model::{ContactPoint, Model};
+use crate::model::{JointPoint, Model};
 
 /// Normal forces below this part of the largest are none, and forces this near to an edge of the cone are on it.
 const NONE: f64 = 1e-9;
@@ -41,7 +41,7 @@ struct Changes {
 fn changes(model: &Model, problem: &Contact2d, state: &State) -> Option<Changes> {
     let contacts = || model.contacts.iter().zip(&state.contacts);
     // How far a force is from opening the joint.
-    let pressed = |(point, force): (&ContactPoint, &PointState)| force.t_n + point.law.tension;
+    let pressed = |(point, force): (&JointPoint, &PointState)| force.t_n + point.law.tension;
     let largest = contacts().map(pressed).fold(0.0, f64::max);
     let normals = problem.normal().as_ref().transpose().to_col_major().ok()?;
     let tangents = problem.tangent().as_ref().transpose().to_col_major().ok()?;
