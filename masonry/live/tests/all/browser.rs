@@ -304,16 +304,22 @@ fn times(page: &Page) -> Vec<[f64; 2]> {
 /// The page is fast because it adds little to the solve. What is printed are ratios, since a machine that tests has others to serve.
 #[test]
 fn pictures_follow_the_hand() {
-    let arch = fs::read_to_string("../../scenes/arch_semicircular.toml").unwrap();
+    let read = |name: &str| fs::read_to_string(format!("../../scenes/{name}.toml")).unwrap();
+    let large = DOOR
+        .replace("width = 2.5\ncourses = 12", "width = 7.5\ncourses = 36")
+        .replace("to = [2.5, 0.0]", "to = [7.5, 0.0]");
+    let of_bed = "[joints.bed]\nmu = ";
     for (name, scene, words) in [
-        ("door", DOOR.to_owned(), "[joints.bed]\nmu = "),
+        ("100 rigid bricks with a door", DOOR.to_owned(), of_bed),
         (
-            "arch",
-            arch,
+            "40 voussoirs",
+            read("arch_semicircular"),
             "voussoirs = 40\njoint = \"radial\"\nspringing = \"radial\"\n\n[[loads]]\nname = \"sideways\"\nacceleration = [",
         ),
+        ("100 elastic bricks", read("panel_square"), of_bed),
+        ("1000 rigid bricks", large, of_bed),
     ] {
-        let Some(page) = opened(&format!("times_{name}"), &scene) else { return };
+        let Some(page) = opened(&format!("times {name}"), &scene) else { return };
         name_number(&page, words, "number");
         let before = text(&page);
         page.run("performance.clearMeasures()");
