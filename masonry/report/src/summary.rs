@@ -1,5 +1,7 @@
 //! Figures that several reports show: extremes, totals, and the reason for no solution.
 
+use std::collections::HashMap;
+
 use nalgebra::{Point2, Vector2};
 
 use masonry::analysis::outcome::Outcome;
@@ -167,14 +169,17 @@ pub fn load_groups(model: &Model) -> Vec<LoadGroup<'_>> {
         }
     }
     let mut groups: Vec<LoadGroup<'_>> = Vec::new();
+    let mut positions = HashMap::new();
     for (load, sum) in model.loads.iter().zip(sums) {
-        if let Some(group) = groups.iter_mut().find(|group| group.name == load.group) {
-            group.loads.push((load, sum));
-            group.sum.force += sum.force;
-            group.sum.moment += sum.moment;
-        } else {
-            groups.push(LoadGroup { name: &load.group, loads: vec![(load, sum)], sum });
-        }
+        let name = load.group.as_str();
+        let position = *positions.entry(name).or_insert_with(|| {
+            groups.push(LoadGroup { name, loads: Vec::new(), sum: Resultant::default() });
+            groups.len() - 1
+        });
+        let group = &mut groups[position];
+        group.loads.push((load, sum));
+        group.sum.force += sum.force;
+        group.sum.moment += sum.moment;
     }
     groups
 }
