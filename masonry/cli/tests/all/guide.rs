@@ -1,6 +1,6 @@
 //! The guide as a reader follows it: its scenes are saved, its commands run, and they answer what the guide quotes.
 //!
-//! `GUIDE=write cargo test -p masonry --test guide` writes the pictures of the guide anew.
+//! `GUIDE=write cargo test -p masonry-cli --test all guide` writes the pictures of the guide anew.
 
 use crate::common::quoted;
 
@@ -12,11 +12,12 @@ use std::process::Command;
 const GUIDE: &str = include_str!("../../../../docs/guide.md");
 
 /// The pictures of the guide, and the files of its commands from which they come.
-const PICTURES: [(&str, &str); 5] = [
+const PICTURES: [(&str, &str); 6] = [
     ("guide_stresses.svg", "wall/principal_stresses.svg"),
     ("guide_forces.svg", "door/forces.svg"),
     ("guide_settlement.svg", "settlement/deformed.svg"),
     ("guide_arch.svg", "arch/forces.svg"),
+    ("guide_gate.svg", "gate/forces.svg"),
     ("guide_mechanism.svg", "limit/path_mechanism.svg"),
 ];
 
@@ -34,7 +35,7 @@ fn the_commands_of_the_guide_give_its_answers_and_its_pictures() {
     let mut quoted = 0;
     for block in blocks() {
         match block.language {
-            "toml" => save(&directory, &block),
+            "toml" | "svg" => save(&directory, &block),
             "sh" => output = block.text.lines().map(|line| run(&directory, line)).collect(),
             "text" => {
                 for line in block.text.lines() {
@@ -114,7 +115,7 @@ fn check_pictures(directory: &Path) {
         assert!(kept.len() <= LARGEST_PICTURE, "{name} has {} bytes", kept.len());
         assert!(
             title(&kept).is_some() && title(&kept) == title(&drawn),
-            "{name} is not {file}; write it anew: GUIDE=write cargo test -p masonry --test guide"
+            "{name} is not {file}; write it anew: GUIDE=write cargo test -p masonry-cli --test all guide"
         );
     }
 }
