@@ -68,6 +68,7 @@ export class Answers {
     if (time > PATIENCE && this.running.text !== this.editor.text) this.running.controller.abort();
     const isOld = time > AT_ONCE || this.reason !== null;
     one("#shown").classList.toggle("stale", isOld);
+    one("#verdict").classList.toggle("old", isOld);
     one("#shown").setAttribute("aria-busy", this.running !== null);
     one("#age").hidden = !isOld;
     one("#age").textContent = time > AT_ONCE
@@ -130,13 +131,15 @@ export class Answers {
   // Puts a copy of what is seen beside it.
   keep() {
     if (this.last === null) return;
-    const { text, shown } = this.last;
+    const { text, shown, controls } = this.last;
+    const values = controls.map(({ label, value }) => `${label} ${Number(value.toPrecision(6))}`).join(", ");
     const section = made("section", {}, made("h2", { textContent: `Kept: ${shown.sentence}` }));
     const copy = made("figure");
     if (this.picture.svg) copy.append(this.picture.svg.cloneNode(true));
     section.append(
       button("Back to this", (event) => this.editor.set(text, event)),
       button("Drop", () => section.remove()),
+      made("p", { textContent: values }),
       copy,
     );
     one("#kept").prepend(section);

@@ -6,6 +6,8 @@ import { parts, replaced, stepOf, writtenAs } from "./numbers.js";
 const PIXELS = 2;
 // Typing is undone in pieces of this time [ms].
 const PIECE = 1000;
+// Two clicks on a number within this time select it [ms].
+const DOUBLE_CLICK = 400;
 
 export class Editor {
   // `onChange(event)` hears of every change by hand, `onLine(line)` of the line of the cursor.
@@ -19,11 +21,14 @@ export class Editor {
     this.future = [];
     this.typed = 0;
     this.before = "";
+    this.clicked = { from: -1, at: 0 };
     this.area.addEventListener("input", (event) => this.type(event));
-    this.area.addEventListener("keydown", (event) => this.key(event));
+    this.area.addEventListener("keydown", (event) => this.turnByKey(event));
+    addEventListener("keydown", (event) => this.undoByKey(event));
     document.addEventListener("selectionchange", () => {
       if (document.activeElement === this.area) onLine(this.lineAt(this.area.selectionStart));
     });
+    this.area.addEventListener("blur", () => onLine(0));
     this.layer.addEventListener("pointerdown", (event) => this.hold(event));
   }
 
@@ -89,19 +94,22 @@ export class Editor {
     this.onChange(event);
   }
 
-  key(event) {
+  // Works wherever the focus is, since sliders and pictures change the text as well.
+  undoByKey(event) {
     const letter = event.key.toLowerCase();
-    if ((event.ctrlKey || event.metaKey) && (letter === "z" || letter === "y")) {
-      event.preventDefault();
-      if (letter === "y" || event.shiftKey) this.redo(event);
-      else this.undo(event);
-    } else if (event.altKey && (event.key === "ArrowUp" || event.key === "ArrowDown")) {
-      const number = this.numberAt(this.area.selectionStart);
-      if (!number) return;
-      event.preventDefault();
-      this.remember();
-      this.turn(number, event.key === "ArrowUp" ? 1 : -1, event);
-    }
+    if (!(event.ctrlKey || event.metaKey) || (letter !== "z" && letter !== "y")) return;
+    event.preventDefault();
+    if (letter === "y" || event.shiftKey) this.redo(event);
+    else this.undo(event);
+  }
+
+  turnByKey(event) {
+    if (!event.altKey || (event.key !== "ArrowUp" && event.key !== "ArrowDown")) return;
+    const number = this.numberAt(this.area.selectionStart);
+    if (!number) return;
+    event.preventDefault();
+    this.remember();
+    this.turn(number, event.key === "ArrowUp" ? 1 : -1, event);
   }
 
   // What the engine says of the numbers of this text: whether they count something, and their least value.
@@ -152,7 +160,7 @@ export class Editor {
     return { from, to: from + written.length, written, value, whole, least };
   }
 
-  // Holds a number with the pointer. Without a movement it was a click, which sets the cursor.
+  // Holds a number with the pointer. Without a movement it was a click, which sets the cursor, or the second of two, which select it.
   hold(event) {
     const span = event.target.closest(".number");
     if (!span || event.button !== 0) return;
@@ -176,9 +184,13 @@ export class Editor {
       this.held = null;
       this.draw();
       if (isMoved) return;
-      const at = Math.round(((event.clientX - left) / width) * number.written.length);
-      this.area.focus();
-      this.area.setSelectionRange(number.from + at, number.from + at);
+      const isDouble = this.clicked.from === number.from && event.timeStamp - this.clicked.at < DOUBLE_CLICK;
+      this.clicked = { from: number.from, at: event.timeStamp };
+      const at = number.from + Math.round(((event.clientX - left) / width) * number.written.length);
+      // The line is in view; the end of the text area, to which a browser would scroll, need not be.
+      this.area.focus({ preventScroll: true });
+      if (isDouble) this.area.setSelectionRange(number.from, number.to);
+      else this.area.setSelectionRange(at, at);
     };
     addEventListener("pointermove", move);
     addEventListener("pointerup", release);
@@ -207,7 +219,7 @@ export class Editor {
     const before = rows.slice(0, line - 1).reduce((sum, row) => sum + row.length + 1, 0);
     // Columns count letters, of which some take two units.
     const at = before + [...rows[line - 1]].slice(0, column - 1).join("").length;
-    this.area.focus();
+    this.area.focus({ preventScroll: true });
     this.area.setSelectionRange(at, at);
     this.layer.children[line - 1]?.scrollIntoView({ block: "nearest" });
   }

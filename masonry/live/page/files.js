@@ -5,11 +5,12 @@ import { button, made, one } from "./elements.js";
 // How often the page looks for a change of the file on the disk [ms].
 const LOOK = 1000;
 
+// The ends of the names of files, and what they are.
 const EXPORTS = {
-  page: ["page.html", "text/html"],
-  text: ["report.txt", "text/plain"],
-  json: ["result.json", "application/json"],
-  dxf: ["scene.dxf", "image/vnd.dxf"],
+  page: ["html", "text/html"],
+  text: ["txt", "text/plain"],
+  json: ["json", "application/json"],
+  dxf: ["dxf", "image/vnd.dxf"],
 };
 
 export class Files {
@@ -34,6 +35,11 @@ export class Files {
 
   get isChanged() {
     return this.editor.text !== this.saved;
+  }
+
+  // The name of the file without its end.
+  get stem() {
+    return this.name?.replace(/\.toml$/, "") ?? "scene";
   }
 
   changed() {
@@ -83,8 +89,9 @@ export class Files {
       download("scene.toml", text, "application/toml");
       return this.rename(null, text);
     }
-    const name = this.name ?? prompt("Name of the new scene file", "scene.toml");
-    if (name === null) return;
+    const given = this.name ?? prompt("Name of the new scene file, in the directory in which masonry was started", "scene.toml");
+    if (given === null) return;
+    const name = given.endsWith(".toml") ? given : `${given}.toml`;
     // A file of a new scene must not exist yet.
     const was = this.name === null ? null : this.saved;
     const { error } = await this.engine.save({ name, text, was }).catch(failed);
@@ -127,13 +134,13 @@ export class Files {
     select.value = "";
     if (format === "picture") {
       const { svg } = this.picture;
-      if (svg) download("picture.svg", new XMLSerializer().serializeToString(svg), "image/svg+xml");
+      if (svg) download(`${this.stem}.svg`, new XMLSerializer().serializeToString(svg), "image/svg+xml");
       return;
     }
     const { file, error } = await this.engine.ask({ task: "export", text: this.editor.text, format }).catch(failed);
-    const [name, type] = EXPORTS[format];
+    const [end, type] = EXPORTS[format];
     if (error) tell(one("#notice"), error.message);
-    else download(name, file, type);
+    else download(`${this.stem}.${end}`, file, type);
   }
 }
 

@@ -20,16 +20,19 @@ export class Sliders {
     labels.forEach((label, index) => {
       const control = (label.offer = controls[index]);
       const input = one("input", label);
-      if (label.held?.text !== this.editor.text) {
+      if (label.held?.text !== this.editor.text && !label.waiting) {
         input.max = Math.max(control.most, control.value);
+        input.step = stepOf(Number(input.max), false) / 10;
         input.value = control.value;
       }
       one("output", label).textContent = Number(control.value.toPrecision(6));
     });
+    const next = labels.find((label) => label.waiting);
+    if (next) this.move(next, one("input", next), next.waiting);
   }
 
   made(control) {
-    const input = made("input", { type: "range", min: 0, max: control.most, step: "any" });
+    const input = made("input", { type: "range", min: 0, max: control.most });
     const text = made("span", { textContent: control.label, title: control.label });
     const label = made("label", { offer: control }, text, input, made("output"));
     input.addEventListener("input", (event) => this.move(label, input, event));
@@ -38,18 +41,18 @@ export class Sliders {
   }
 
   // From its first movement on a slider changes the text as it was then. It goes on from its own text, also after it was let go,
-  // until an answer says where the numbers of this text are.
+  // until an answer says where the numbers of this text are. Another slider that is moved before the answer waits for it.
   move(label, input, event) {
     const isOwn = label.held?.text === this.editor.text;
     const isKnown = this.text === this.editor.text;
-    if (!isOwn && !isKnown) return;
+    label.waiting = isOwn || isKnown ? null : event;
+    if (label.waiting) return;
     if (!isOwn || (label.held.isOver && isKnown)) {
       label.held = { edits: label.offer.edits, base: this.editor.text };
       this.editor.remember();
     }
     const { edits, base } = label.held;
-    const step = stepOf(Number(input.max), false) / 10;
-    const value = Math.round(input.value / step) * step;
+    const [step, value] = [Number(input.step), Number(input.value)];
     const changes = edits.map(({ from, to, before, part }) => {
       return { from, to, text: before + writtenAs(value * part, base.slice(from, to), step, false) };
     });

@@ -33,7 +33,7 @@ export class Work {
     try {
       const onNews = (news) => tell(`${title}: ${news}`);
       const found = await this.engine.ask(question, { signal: mine.signal, onNews });
-      tell(found.error?.message ?? "");
+      tell(found.error?.message ?? `${title}: ${found.sentence} The pictures are below.`);
       if (!found.error) show(title, found);
     } catch (error) {
       tell(error.name === "AbortError" ? `${one("#news").textContent} (stopped)` : error.message);
@@ -58,5 +58,4 @@ function show(title, { sentence, pictures, text }) {
   report.append(made("pre", { textContent: text }));
   one("#found").replaceChildren(made("section", {}, heading, made("div", {}, ...choices), place, report));
   choices[0]?.click();
-  heading.scrollIntoView({ block: "nearest" });
 }

@@ -112,7 +112,7 @@ fn thicknesses(text: &Text<'_>) -> Vec<Control> {
     text.tables("arches").iter().filter_map(of).collect()
 }
 
-/// The usual end of a slider, or twice the value beyond it.
+/// The usual end of a slider, or twice a value that has reached it.
 fn at_least(usual: f64, value: f64) -> f64 {
-    if value > usual { 2.0 * value } else { usual }
+    if value >= usual { 2.0 * value } else { usual }
 }

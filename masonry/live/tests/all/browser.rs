@@ -117,6 +117,30 @@ fn sliders_and_openings_change_the_text() {
 }
 
 #[test]
+fn sliders_that_are_moved_at_once_count_both() {
+    let Some(page) = opened("both", DOOR) else { return };
+    page.run(
+        "for (const it of [...document.querySelectorAll('#controls input')].slice(0, 2)) { \
+         it.value = 0.4; it.dispatchEvent(new Event('input')); it.dispatchEvent(new Event('change')); }",
+    );
+    page.wait(&format!("{TEXT}.match(/mu = 0\\.40/g)?.length === 2"));
+}
+
+#[test]
+fn a_number_is_selected_by_two_clicks_where_it_is() {
+    let Some(page) = opened("clicks", DOOR) else { return };
+    name_number(&page, "[joints.bed]\nmu = ", "mu");
+    page.click("#mu");
+    name_number(&page, "[joints.bed]\nmu = ", "mu");
+    page.click("#mu");
+    page.keys("", "0.5");
+    page.wait(&format!("{TEXT}.includes('[joints.bed]\\nmu = 0.5\\n')"));
+    assert_eq!(text(&page), DOOR.replace("bed]\nmu = 0.65", "bed]\nmu = 0.5"));
+    // The editor has not gone to the end of the text.
+    assert_eq!(page.run("return document.getElementById('editor').scrollTop"), 0);
+}
+
+#[test]
 fn text_and_picture_mark_each_other() {
     let Some(page) = opened("marks", DOOR) else { return };
     let marked = "Array.from(document.querySelectorAll('.row.marked'), it => it.textContent)";
