@@ -3,6 +3,7 @@
 
 use crate::common;
 mod groups;
+mod linear;
 mod mass;
 
 use common::routes::{answer_by, rounding, routes_for};

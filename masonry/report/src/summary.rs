@@ -10,7 +10,7 @@ use masonry::data::verdict::Evidence;
 use masonry::geometry;
 use masonry::history::HistoryStep;
 use masonry::ids::BlockId;
-use masonry::model::{Body, Cause, EdgeLoad, LoadCase, Model, PlacedBlock};
+use masonry::model::{Body, Cause, EdgeLoad, LoadCase, Model, PlacedBlock, PlacedForce};
 
 /// The displacement component of largest size, with its sign and place.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -49,6 +49,11 @@ impl Resultant {
     fn add(&mut self, force: Vector2<f64>, at: Point2<f64>) {
         self.force += force;
         self.moment += at.x * force.y - at.y * force.x;
+    }
+
+    fn add_load(&mut self, load: &PlacedForce) {
+        self.add(load.force, load.at);
+        self.moment += load.moment;
     }
 }
 
@@ -139,9 +144,9 @@ pub fn weight(model: &Model) -> Resultant {
 
 fn resultant(model: &Model, counts: impl Fn(Cause) -> bool) -> Resultant {
     let mut total = Resultant::default();
-    for (cause, (at, force)) in model.blocks.iter().flat_map(|block| model.causes_on(block)) {
+    for (cause, load) in model.blocks.iter().flat_map(|block| model.causes_on(block)) {
         if counts(cause) {
-            total.add(force, at);
+            total.add_load(&load);
         }
     }
     total
@@ -161,11 +166,11 @@ pub struct LoadGroup<'a> {
 /// The groups of loads, in the order of their first loads.
 pub fn load_groups(model: &Model) -> Vec<LoadGroup<'_>> {
     let mut sums = vec![Resultant::default(); model.loads.len()];
-    for (cause, (at, force)) in model.blocks.iter().flat_map(|block| model.causes_on(block)) {
+    for (cause, load) in model.blocks.iter().flat_map(|block| model.causes_on(block)) {
         if let Cause::Load(id) = cause
             && let Some(sum) = sums.get_mut(id.index())
         {
-            sum.add(force, at);
+            sum.add_load(&load);
         }
     }
     let mut groups: Vec<LoadGroup<'_>> = Vec::new();

@@ -36,15 +36,21 @@ fn jacobian(nodes: &Nodes, place: [f64; 2]) -> Matrix2<f64> {
         .sum()
 }
 
-/// The strain-displacement matrix and the determinant of the Jacobian at a place of the reference
-/// square; `None` if the map is not invertible with positive orientation.
-pub fn strain_matrix(nodes: &Nodes, place: [f64; 2]) -> Option<(StrainMatrix, f64)> {
+/// The gradients of the shape functions \[1/m\] and the determinant of the Jacobian at a place of the reference square;
+/// `None` if the map is not invertible with positive orientation.
+pub fn gradients(nodes: &Nodes, place: [f64; 2]) -> Option<([Vector2<f64>; 4], f64)> {
     let jacobian = jacobian(nodes, place);
     let determinant = jacobian.determinant();
     let inverse = (determinant > 0.0).then(|| jacobian.try_inverse()).flatten()?;
+    Some((reference_gradients(place).map(|it| inverse * it), determinant))
+}
+
+/// The strain-displacement matrix and the determinant of the Jacobian at a place of the reference
+/// square; `None` if the map is not invertible with positive orientation.
+pub fn strain_matrix(nodes: &Nodes, place: [f64; 2]) -> Option<(StrainMatrix, f64)> {
+    let (gradients, determinant) = gradients(nodes, place)?;
     let mut b = StrainMatrix::zeros();
-    for (k, gradient) in reference_gradients(place).iter().enumerate() {
-        let d = inverse * gradient;
+    for (k, d) in gradients.into_iter().enumerate() {
         b[(0, 2 * k)] = d.x;
         b[(1, 2 * k + 1)] = d.y;
         b[(2, 2 * k)] = d.y;

@@ -29,9 +29,12 @@ impl Model {
         if let Some(density) = block.density {
             let mass = density * geometry::area(&block.corners) * self.thickness;
             let centroid = geometry::centroid(&block.corners);
-            forces.push((Cause::Weight, (centroid, self.gravity * mass)));
+            forces.push((Cause::Weight, PlacedForce::new(centroid, self.gravity * mass)));
             let inertia = self.accelerations.iter();
-            forces.extend(inertia.map(|it| (Cause::Load(it.load), (centroid, it.value * mass))));
+            forces.extend(
+                inertia
+                    .map(|it| (Cause::Load(it.load), PlacedForce::new(centroid, it.value * mass))),
+            );
         }
         let resultant = |load: &BlockLoad| {
             (Cause::Load(load.load()), load.resultant(&block.corners, self.thickness))

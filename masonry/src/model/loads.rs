@@ -6,8 +6,28 @@ use crate::geometry;
 use crate::ids::LoadId;
 use crate::model::mesh::BlockMesh;
 
-/// A force \[N\] and the place at which it acts \[m\].
-pub type PlacedForce = (Point2<f64>, Vector2<f64>);
+/// A force and a moment at a place of a block.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PlacedForce {
+    /// The place \[m\].
+    pub at: Point2<f64>,
+    /// The force \[N\].
+    pub force: Vector2<f64>,
+    /// The moment about the place, counter-clockwise \[N m\].
+    pub moment: f64,
+}
+
+impl PlacedForce {
+    /// A force without a moment.
+    pub(super) fn new(at: Point2<f64>, force: Vector2<f64>) -> Self {
+        Self { at, force, moment: 0.0 }
+    }
+
+    /// The size of the force, and of the two forces at a distance \[m\] that make the moment \[N\].
+    pub fn size(&self, distance: f64) -> f64 {
+        self.force.norm() + self.moment.abs() / distance
+    }
+}
 
 /// A load of the scene: its name and its factor.
 #[derive(Debug, Clone, PartialEq)]
@@ -27,11 +47,11 @@ pub struct LoadCase {
 pub enum BlockLoad {
     /// A traction on a part of an edge.
     Edge(EdgeLoad),
-    /// A force at one place.
+    /// A force or a moment at one place.
     Point(PointLoad),
 }
 
-/// A uniform traction on a part of a block's edge.
+/// A traction on a part of a block's edge, uniform or linear along it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct EdgeLoad {
     /// The edge, from 0.
@@ -40,19 +60,21 @@ pub struct EdgeLoad {
     pub from: f64,
     /// End of the loaded part as a fraction of the edge.
     pub to: f64,
-    /// Traction on the block \[Pa\] in global axes.
-    pub traction: Vector2<f64>,
+    /// Traction on the block at the start and at the end of the loaded part \[Pa\] in global axes.
+    pub traction: [Vector2<f64>; 2],
     /// The load of the scene that it is a part of.
     pub load: LoadId,
 }
 
-/// A force at a place inside or on the edge of a block.
+/// A force and a moment at a place inside or on the edge of a block.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PointLoad {
     /// The place \[m\].
     pub at: Point2<f64>,
     /// The force on the block over its whole thickness \[N\] in global axes.
     pub force: Vector2<f64>,
+    /// The moment on the block over its whole thickness, counter-clockwise \[N m\].
+    pub moment: f64,
     /// The load of the scene that it is.
     pub load: LoadId,
 }
@@ -75,32 +97,32 @@ impl BlockLoad {
         }
     }
 
-    /// The traction \[Pa\] of a load on an edge, or the force \[N\] at a place.
-    pub(super) fn force_or_traction(&self) -> Vector2<f64> {
+    /// Whether any part of it has a component against a direction.
+    pub(super) fn acts_against(&self, direction: Vector2<f64>) -> bool {
+        let is_against = |force: Vector2<f64>| force.dot(&direction) < 0.0;
         match self {
-            Self::Edge(load) => load.traction,
-            Self::Point(load) => load.force,
+            Self::Edge(load) => load.traction.into_iter().any(is_against),
+            Self::Point(load) => is_against(load.force),
         }
     }
 
-    /// A part of another load in this place, with another force or traction.
+    /// A part of another load in this place, with another force or traction, and without a moment.
     pub(super) fn instead(&self, load: LoadId, of: impl Fn(Vector2<f64>) -> Vector2<f64>) -> Self {
         match *self {
-            Self::Edge(it) => Self::Edge(EdgeLoad { traction: of(it.traction), load, ..it }),
-            Self::Point(it) => Self::Point(PointLoad { force: of(it.force), load, ..it }),
+            Self::Edge(it) => Self::Edge(EdgeLoad { traction: it.traction.map(of), load, ..it }),
+            Self::Point(it) => {
+                Self::Point(PointLoad { force: of(it.force), moment: 0.0, load, ..it })
+            }
         }
     }
 
     /// Its resultant on a block with these corners in a wall of a thickness \[m\].
     pub fn resultant(&self, corners: &[Point2<f64>], thickness: f64) -> PlacedForce {
         match self {
-            Self::Edge(load) => {
-                let [start, end] = geometry::edge(corners, load.edge);
-                let loaded = (load.to - load.from) * (end - start).norm() * thickness;
-                let middle = geometry::on_edge(corners, load.edge, 0.5 * (load.from + load.to));
-                (middle, load.traction * loaded)
+            Self::Edge(load) => load.resultant(corners, thickness),
+            Self::Point(PointLoad { at, force, moment, .. }) => {
+                PlacedForce { at: *at, force: *force, moment: *moment }
             }
-            Self::Point(load) => (load.at, load.force),
         }
     }
 
@@ -111,41 +133,78 @@ impl BlockLoad {
         mesh: &BlockMesh,
         thickness: f64,
     ) -> Vec<(usize, Vector2<f64>)> {
-        let (shares, force) = match self {
+        match self {
             Self::Edge(load) => {
                 let [start, end] = geometry::edge(corners, load.edge);
-                (edge_shares(mesh, load), load.traction * ((end - start).norm() * thickness))
+                let area = (end - start).norm() * thickness;
+                load.on_nodes(mesh).into_iter().map(|(node, force)| (node, force * area)).collect()
             }
-            Self::Point(load) => {
-                (mesh.interpolate_inside(mesh.reference(load.at)).to_vec(), load.force)
-            }
-        };
-        shares.into_iter().map(|(node, share)| (node, force * share)).collect()
+            Self::Point(load) => load.on_nodes(mesh),
+        }
     }
 
     /// Multiplies it.
     pub fn scale(&mut self, factor: f64) {
         match self {
-            Self::Edge(load) => load.traction *= factor,
-            Self::Point(load) => load.force *= factor,
+            Self::Edge(load) => load.traction.iter_mut().for_each(|it| *it *= factor),
+            Self::Point(load) => {
+                load.force *= factor;
+                load.moment *= factor;
+            }
         }
     }
 }
 
-/// Integrals of the shape functions over the loaded part of the edge, as fractions of the edge.
-fn edge_shares(mesh: &BlockMesh, load: &EdgeLoad) -> Vec<(usize, f64)> {
-    let fractions = mesh.edge_fractions(load.edge);
-    let parts = fractions.windows(2).filter_map(|part| {
-        let (from, to) = (part[0].max(load.from), part[1].min(load.to));
-        (from < to).then_some((from, to))
-    });
-    // A shape function is linear on each part: its value in the middle times the length is exact.
-    parts
-        .flat_map(|(from, to)| {
-            let nodes = mesh.interpolate(load.edge, 0.5 * (from + to));
-            nodes.map(|(node, n)| (node, n * (to - from)))
-        })
-        .collect()
+impl EdgeLoad {
+    /// The traction \[Pa\] at a fraction of the edge.
+    fn traction_at(&self, at: f64) -> Vector2<f64> {
+        let [first, last] = self.traction;
+        first + (last - first) * ((at - self.from) / (self.to - self.from))
+    }
+
+    /// The mean traction in the middle of the loaded part, and the moment of its change along this part.
+    fn resultant(&self, corners: &[Point2<f64>], thickness: f64) -> PlacedForce {
+        let [start, end] = [self.from, self.to].map(|at| geometry::on_edge(corners, self.edge, at));
+        let (along, [first, last]) = (end - start, self.traction);
+        let area = along.norm() * thickness;
+        PlacedForce {
+            at: nalgebra::center(&start, &end),
+            force: (first + last) * (0.5 * area),
+            moment: geometry::cross(along, last - first) * (area / 12.0),
+        }
+    }
+
+    /// Integrals of the traction times the shape functions over the loaded part, as fractions of the edge \[Pa\].
+    fn on_nodes(&self, mesh: &BlockMesh) -> Vec<(usize, Vector2<f64>)> {
+        let fractions = mesh.edge_fractions(self.edge);
+        let parts = fractions.windows(2).filter_map(|part| {
+            let (from, to) = (part[0].max(self.from), part[1].min(self.to));
+            (from < to).then_some([from, to])
+        });
+        // Traction and shape function are linear on each part, and Simpson's rule is exact for their product.
+        let on_part = |[from, to]: [f64; 2]| {
+            let weighted = [(from, 1.0), (0.5 * (from + to), 4.0), (to, 1.0)];
+            weighted.into_iter().flat_map(move |(at, weight)| {
+                let force = self.traction_at(at) * (weight * (to - from) / 6.0);
+                mesh.interpolate(self.edge, at).map(|(node, n)| (node, force * n))
+            })
+        };
+        parts.flat_map(on_part).collect()
+    }
+}
+
+impl PointLoad {
+    /// A moment does its work on the mean rotation of the material at the place, `(dv/dx - du/dy) / 2`.
+    fn on_nodes(&self, mesh: &BlockMesh) -> Vec<(usize, Vector2<f64>)> {
+        let place = mesh.reference(self.at);
+        let mut forces = mesh.interpolate_inside(place).map(|(node, n)| (node, self.force * n));
+        if self.moment != 0.0 {
+            for (it, (_, gradient)) in forces.iter_mut().zip(mesh.gradients_inside(place)) {
+                it.1 += Vector2::new(-gradient.y, gradient.x) * (0.5 * self.moment);
+            }
+        }
+        forces.to_vec()
+    }
 }
 
 impl From<EdgeLoad> for BlockLoad {

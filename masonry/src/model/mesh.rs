@@ -1,7 +1,8 @@
 //! Q4 meshes of single blocks.
 
-use nalgebra::Point2;
+use nalgebra::{Point2, Vector2};
 
+use crate::element::quad4;
 use crate::geometry::{self, Quad};
 
 /// A structured mesh of `nx` by `ny` four-node quadrilaterals in one block.
@@ -85,9 +86,27 @@ impl BlockMesh {
     /// `r` and `s` are the coordinates of the place in the block ([`Self::reference`]), clamped to 0..=1. The map of an
     /// element is that of the block on its part of the unit square, so that the place in the element needs no search.
     pub fn interpolate_inside(&self, [r, s]: [f64; 2]) -> [(usize, f64); 4] {
-        let ((i, r), (j, s)) = (within(self.nx, r), within(self.ny, s));
-        let [a, b, c, d] = self.elements[j * self.nx + i];
+        let ([a, b, c, d], [r, s]) = self.element_at([r, s]);
         [(a, (1.0 - r) * (1.0 - s)), (b, r * (1.0 - s)), (c, r * s), (d, (1.0 - r) * s)]
+    }
+
+    /// The same nodes, each with the gradient of its shape function there \[1/m\]. At a place between elements it is that in
+    /// one of them.
+    ///
+    /// # Panics
+    /// If the block is not convex.
+    pub fn gradients_inside(&self, place: [f64; 2]) -> [(usize, Vector2<f64>); 4] {
+        let (nodes, place) = self.element_at(place);
+        let corners = nodes.map(|node| self.nodes[node]);
+        let gradients = quad4::gradients(&corners, place.map(|at| 2.0 * at - 1.0));
+        let (gradients, _) = gradients.expect("elements of a convex block");
+        std::array::from_fn(|k| (nodes[k], gradients[k]))
+    }
+
+    /// The nodes of the element in which a place of the block lies, and the place in the unit square of this element.
+    fn element_at(&self, [r, s]: [f64; 2]) -> ([usize; 4], [f64; 2]) {
+        let ((i, r), (j, s)) = (within(self.nx, r), within(self.ny, s));
+        (self.elements[j * self.nx + i], [r, s])
     }
 
     /// The node at position `k` of an edge, counted from the edge's first corner.

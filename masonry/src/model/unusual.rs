@@ -56,8 +56,7 @@ impl Model {
         let mut forces = vec![Vector2::zeros(); self.loads.len()];
         for block in &self.blocks {
             for load in &block.loads {
-                let (_, force) = load.resultant(&block.corners, self.thickness);
-                forces[load.load().index()] += force;
+                forces[load.load().index()] += load.resultant(&block.corners, self.thickness).force;
             }
         }
         // Forces of an acceleration act on masses that are told.
@@ -136,7 +135,7 @@ impl Model {
 
     fn totals(&self) -> Vec<String> {
         let loads = self.blocks.iter().flat_map(|block| self.forces_on(block));
-        let total: f64 = loads.map(|(_, force)| force.norm()).sum();
+        let total: f64 = loads.map(|it| it.force.norm()).sum();
         let extent = Extent::of(self.blocks.iter().flat_map(|block| &block.corners)).longer_side();
         if total > 0.0 && total < LITTLE && extent > LARGE {
             return vec![format!(

@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::setters::setters;
+use super::stress::{EdgeStress, Pressure};
 use super::strict;
 
 /// A load of exactly one kind: [`LoadKind`] lists the keys of each.
@@ -31,8 +32,9 @@ pub struct Load {
     /// The other end \[length\].
     #[serde(default, deserialize_with = "strict::read")]
     pub to: Option<[f64; 2]>,
-    /// Force per area against the outward normal of the edge \[force/length^2\].
-    pub pressure: Option<f64>,
+    /// Force per area against the outward normal of the edge \[force/length^2\]: a number, or two for a pressure that is
+    /// linear from one end of the segment to the other.
+    pub pressure: Option<Pressure>,
     /// Force per area in global axes \[force/length^2\].
     #[serde(default, deserialize_with = "strict::read")]
     pub traction: Option<[f64; 2]>,
@@ -68,7 +70,7 @@ enum Part {
 /// The kinds of loads.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum LoadKind<'a> {
-    /// A uniform load on the free edges of blocks that lie on a segment: `from`, `to`, and exactly one of `pressure`
+    /// A load on the free edges of blocks that lie on a segment: `from`, `to`, and exactly one of `pressure`
     /// and `traction`. An edge that the segment covers in part is loaded in part.
     Edge {
         /// One end of the segment \[length\].
@@ -91,20 +93,17 @@ pub enum LoadKind<'a> {
     Acceleration([f64; 2]),
 }
 
-/// A force per area on an edge \[force/length^2\].
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum EdgeStress {
-    /// A pressure against the outward normal.
-    Pressure(f64),
-    /// A traction in global axes.
-    Traction([f64; 2]),
-}
-
 impl Load {
-    /// A pressure \[force/length^2\] against the outward normal of the edges on a segment.
-    pub fn pressure(name: &str, from: [f64; 2], to: [f64; 2], pressure: f64) -> Self {
+    /// A pressure \[force/length^2\] against the outward normal of the edges on a segment; two numbers are the pressures at
+    /// its two ends.
+    pub fn pressure(
+        name: &str,
+        from: [f64; 2],
+        to: [f64; 2],
+        pressure: impl Into<Pressure>,
+    ) -> Self {
         let (from, to) = (Some(from), Some(to));
-        Self { from, to, pressure: Some(pressure), ..Self::named(name) }
+        Self { from, to, pressure: Some(pressure.into()), ..Self::named(name) }
     }
 
     /// A traction \[force/length^2\] in global axes on the edges on a segment.

@@ -39,10 +39,9 @@ pub fn nodal_loads(model: &Model, block: &PlacedBlock, mesh: &BlockMesh) -> Vec<
 pub fn resultant(model: &Model, block: &PlacedBlock) -> [f64; 3] {
     let modes = Modes::of(&block.corners);
     let (mut sum, mut size) = ([0.0; 3], 0.0);
-    for (place, force) in model.forces_on(block) {
-        let add = modes.resultant(place, force);
-        sum.iter_mut().zip(add).for_each(|(s, a)| *s += a);
-        size += force.norm();
+    for force in model.forces_on(block) {
+        sum.iter_mut().zip(modes.work_of(&force)).for_each(|(s, a)| *s += a);
+        size += force.size(modes.length);
     }
     sum.map(|value| cleared(value, size))
 }

@@ -4,6 +4,7 @@ use faer::Mat;
 use nalgebra::{Matrix3, Point2, Vector2, Vector3};
 
 use crate::geometry;
+use crate::model::PlacedForce;
 
 mod isostatic;
 
@@ -71,6 +72,12 @@ impl Modes {
     /// about the centroid divided by [`Modes::length`].
     pub fn resultant(&self, place: Point2<f64>, force: Vector2<f64>) -> [f64; 3] {
         self.at(place).map(|mode| mode.dot(&force))
+    }
+
+    /// The work \[N\] of a force and a moment in the three motions.
+    pub fn work_of(&self, it: &PlacedForce) -> [f64; 3] {
+        let [x, y, turn] = self.resultant(it.at, it.force);
+        [x, y, turn + it.moment / self.length]
     }
 }
 

@@ -10,7 +10,7 @@ use masonry::geometry;
 use masonry::ids::LoadId;
 use masonry::material::constitutive;
 use masonry::model::mesh::BlockMesh;
-use masonry::model::{Acceleration, Elasticity, Plane, PointLoad};
+use masonry::model::{Acceleration, BlockLoad, Elasticity, Plane, PointLoad};
 use masonry::system::rigid::Modes;
 use masonry::system::{System, SystemError, nodal_loads, resultant};
 use nalgebra::{Matrix2, Matrix3, Point2, SVector, Vector2, Vector3};
@@ -122,8 +122,12 @@ fn nodal_loads_have_the_geometric_resultant() {
     let parts = [[0.0, 1.0], [0.3, 0.45], [0.1, 0.9], [0.0, 1.0]];
     let traction = |(edge, part)| traction_on(edge, part, [1e3, -3e3]);
     loaded.loads = parts.into_iter().enumerate().map(traction).collect();
+    for load in &mut loaded.loads {
+        let BlockLoad::Edge(load) = load else { continue };
+        load.traction[1] = Vector2::new(-2e3, 5e2);
+    }
     let at = |at: Point2<f64>, force: [f64; 2]| {
-        PointLoad { at, force: force.into(), load: LoadId(0) }.into()
+        PointLoad { at, force: force.into(), moment: 70.0, load: LoadId(0) }.into()
     };
     loaded.loads.push(at(geometry::centroid(&skew()), [2e3, 1e3]));
     loaded.loads.push(at(geometry::on_edge(&skew(), 1, 0.4), [-1e3, 5e2]));

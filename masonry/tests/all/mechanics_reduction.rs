@@ -169,7 +169,7 @@ fn forces_on(model: &Model, state: &State, block: BlockId) -> f64 {
     let both = model.contacts.iter().zip(&state.contacts);
     let contacts = both.filter(|(contact, _)| touches(contact)).map(|(_, it)| it.t_n.hypot(it.t_t));
     let loads = model.forces_on(&model.blocks[block.index()]).into_iter();
-    contacts.sum::<f64>() + loads.map(|(_, force)| force.norm()).sum::<f64>()
+    contacts.sum::<f64>() + loads.map(|it| it.force.norm()).sum::<f64>()
 }
 
 /// A wrong force or an extra load must be seen by the checks.

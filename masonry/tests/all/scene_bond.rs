@@ -138,7 +138,9 @@ fn units_do_not_change_the_model() {
         assert_eq!(a.loads.len(), b.loads.len());
         for (a, b) in a.edge_loads().zip(b.edge_loads()) {
             assert!(near(a.from, b.from) && near(a.to, b.to) && a.edge == b.edge);
-            assert!(near(a.traction.x, b.traction.x) && near(a.traction.y, b.traction.y));
+            assert!(
+                near(a.traction[0].x, b.traction[0].x) && near(a.traction[0].y, b.traction[0].y)
+            );
         }
     }
     for (a, b) in a.contacts.iter().zip(&b.contacts) {
@@ -147,7 +149,7 @@ fn units_do_not_change_the_model() {
     // The load reaches five bricks of the top course, the first in part.
     let loads = || a.blocks.iter().flat_map(PlacedBlock::edge_loads);
     let on_top: Vec<_> = loads().filter(|load| load.edge == 2).collect();
-    assert!(on_top.len() == 5 && on_top.iter().all(|load| near(load.traction.y, -12e3)));
+    assert!(on_top.len() == 5 && on_top.iter().all(|load| near(load.traction[0].y, -12e3)));
     let floor = a.contacts.iter().filter(|point| point.a.is_none());
     assert!(floor.map(|point| point.gap).all(|gap| near(gap, 0.005)));
 }
@@ -164,7 +166,7 @@ fn a_load_covers_parts_of_edges_and_free_ones_only() {
     assert_eq!(load.edge, 2);
     // Edge 2 runs from right to left.
     assert!((load.from - 0.125).abs() < 1e-15 && (load.to - 0.5).abs() < 1e-15);
-    assert!((load.traction.y + 2.0).abs() < 1e-15);
+    assert!((load.traction[0].y + 2.0).abs() < 1e-15);
 }
 
 proptest! {

@@ -136,7 +136,7 @@ fn power(model: &Model, block: &masonry::model::PlacedBlock, corners: &[Vector2<
             let area = (block.corners[end] - block.corners[start]).norm() * model.thickness;
             let middle = 0.5 * (load.from + load.to);
             let rate = corners[start] * (1.0 - middle) + corners[end] * middle;
-            load.traction.dot(&rate) * area * (load.to - load.from)
+            load.traction[0].dot(&rate) * area * (load.to - load.from)
         })
         .sum();
     // Good for parallelograms, whose centroid is the mean of their corners.

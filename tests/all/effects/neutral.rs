@@ -65,7 +65,7 @@ fn every_effect_has_a_test() {
 fn friction_that_is_not_needed() {
     let even = |joint| {
         let mut scene = boxed(Material::elastic(1e6, 0.0), joint).gravity([0.0, 0.0]);
-        scene.loads[0].pressure = Some(100.0);
+        scene.loads[0].pressure = Some(100.0.into());
         scene
     };
     assert_neutral("friction", &even(Joint::mu(0.0)), &even(Joint::mu(0.6)));

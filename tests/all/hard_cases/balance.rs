@@ -51,9 +51,9 @@ impl Resultant {
         let centroid = geometry::centroid(&block.corners);
         let about = [centroid.x, centroid.y].map(Double::from);
         let mut all = Self { about, force: [zero; 2], moment: zero, size: 0.0 };
-        for (place, force) in model.forces_on(block) {
+        for load in model.forces_on(block) {
             let numbers = |v: Vector2<f64>| [v.x, v.y].map(Double::from);
-            all.add(numbers(place.coords), numbers(force));
+            all.add(numbers(load.at.coords), numbers(load.force));
         }
         all
     }

@@ -210,7 +210,7 @@ fn scaled(mut scene: Scene, length: f64, stress: f64) -> Scene {
     for load in &mut scene.loads {
         let Load { from, to, pressure, .. } = load;
         [*from, *to] = [*from, *to].map(|end| end.map(moved));
-        *pressure = pressure.map(|it| it * stress);
+        *pressure = pressure.map(|it| (it.from * stress).into());
     }
     scene
 }

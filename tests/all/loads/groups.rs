@@ -72,7 +72,7 @@ fn a_factor_of_two_is_twice_the_load() {
     for material in materials() {
         let plain = loaded(wall(material));
         let twice = with(&plain, |mut load| {
-            load.pressure = load.pressure.map(|it| 2.0 * it);
+            load.pressure = load.pressure.map(|it| (2.0 * it.from).into());
             load.force = load.force.map(|it| it.map(|it| 2.0 * it));
             load.acceleration = load.acceleration.map(|it| it.map(|it| 2.0 * it));
             load

@@ -40,6 +40,24 @@ pub(crate) struct Growth<'a> {
 pub(super) struct Pushed {
     pub(super) block: Option<BlockId>,
     pub(super) ends: [Point2<f64>; 2],
+    /// Its traction at both ends, or its force.
+    values: [Vector2<f64>; 2],
+}
+
+impl Pushed {
+    fn at_place(block: Option<BlockId>, place: Point2<f64>, value: Vector2<f64>) -> Self {
+        Self { block, ends: [place; 2], values: [value; 2] }
+    }
+
+    fn is_uniform(&self) -> bool {
+        self.values[0] == self.values[1]
+    }
+
+    /// The larger of its values.
+    fn largest(&self) -> Vector2<f64> {
+        let [first, last] = self.values;
+        if first.norm() < last.norm() { last } else { first }
+    }
 }
 
 /// A load or a reaction, of which all arrows share a label.
@@ -47,6 +65,7 @@ pub(super) struct Pushed {
 struct Push {
     /// Parts of edges in one line, or one place; nothing for an acceleration of all mass.
     on: Vec<Pushed>,
+    /// The largest of its values.
     value: Vector2<f64>,
     /// Direction away from the blocks that it pushes, or from a place to its arrow.
     outwards: Vector2<f64>,
@@ -102,36 +121,41 @@ impl Push {
     }
 
     /// Its arrows on a part of an edge, or at a place.
-    fn arrows(&self, [from, to]: [Pixel; 2]) -> Vec<[Pixel; 2]> {
-        let (t, length) = (self.value, self.length());
+    fn arrows(&self, on: &Pushed, [from, to]: [Pixel; 2]) -> Vec<[Pixel; 2]> {
         let count = parts([from, to], SPACING).saturating_sub(1).max(1);
-        let feet = (0..count).map(|k| from.between(to, (f64::from(k) + 0.5) / f64::from(count)));
-        let arrow = |foot: Pixel| {
+        let arrow = |at: f64| {
+            let (foot, t) = (from.between(to, at), on.values[0].lerp(&on.values[1], at));
+            let length = self.length_of(t);
             if self.is_tangential() {
                 let middle = foot.along(self.outwards, ASIDE);
                 let half = 0.5 * length.min(0.9 * from.distance(to));
                 [middle.along(-t, half), middle.along(t, half)]
-            } else if self.outward_part() < 0.0 {
+            } else if t.dot(&self.outwards) < 0.0 {
                 [foot.along(-t, length), foot]
             } else {
                 [foot, foot.along(t, length)]
             }
         };
-        feet.map(arrow).collect()
+        (0..count).map(|k| arrow((f64::from(k) + 0.5) / f64::from(count))).collect()
+    }
+
+    /// The length of one of its arrows: that of the largest has the length of all of a uniform load.
+    fn length_of(&self, value: Vector2<f64>) -> f64 {
+        self.length() * (value.norm() / self.value.norm())
     }
 
     /// The line that joins the tails of arrows which press an edge.
-    fn bar(&self, ends: [Pixel; 2]) -> Option<[Pixel; 2]> {
-        let presses = self.outward_part() < 0.0 && !self.is_tangential();
-        let tails = ends.map(|end| end.along(-self.value, self.length()));
-        (presses && ends[0] != ends[1]).then_some(tails)
+    fn bar(&self, on: &Pushed, ends: [Pixel; 2]) -> Option<[Pixel; 2]> {
+        let presses = on.values.iter().all(|it| it.dot(&self.outwards) <= 0.0);
+        let tails = [0, 1].map(|k| ends[k].along(-on.values[k], self.length_of(on.values[k])));
+        (presses && !self.is_tangential() && ends[0] != ends[1]).then_some(tails)
     }
 
     fn draw(&self, canvas: &mut Canvas, frame: &Frame, displaced: &Displaced<'_>) {
         for on in &self.on {
             let ends = displaced.ends(frame, on);
-            let arrows: String = self.arrows(ends).into_iter().map(arrow).collect();
-            let bar = self.bar(ends).map_or_else(String::new, open);
+            let arrows: String = self.arrows(on, ends).into_iter().map(arrow).collect();
+            let bar = self.bar(on, ends).map_or_else(String::new, open);
             canvas.group(&displaced.name(frame, self, on), |canvas| {
                 canvas.path(&(arrows + &bar), "");
                 if ends[0] == ends[1] {
@@ -236,7 +260,7 @@ impl Arrows {
         let sizes: Vec<f64> = all.iter().map(|it| it.force.norm()).collect();
         all.retain(|it| it.force.norm() > LEAST * largest(&sizes));
         let push = |it: joints::SupportForce| Push {
-            on: vec![Pushed { block: None, ends: [it.at; 2] }],
+            on: vec![Pushed::at_place(None, it.at, it.force)],
             value: it.force,
             outwards: -it.force.normalize(),
             label: units.force_text(it.force.norm()),
@@ -291,8 +315,10 @@ impl Arrows {
                 }
             });
             for push in pushes {
-                let ends = push.on.iter().map(|on| displaced.ends(&sheet.frame, on));
-                let strokes = ends.flat_map(|it| push.arrows(it).into_iter().chain(push.bar(it)));
+                let strokes = push.on.iter().flat_map(|on| {
+                    let ends = displaced.ends(&sheet.frame, on);
+                    push.arrows(on, ends).into_iter().chain(push.bar(on, ends))
+                });
                 strokes.for_each(|stroke| labels.avoid(stroke));
             }
         }
@@ -337,32 +363,39 @@ impl Arrows {
     }
 }
 
-/// All loads on edges, those of one load with one traction in one line together.
+/// All loads on edges, those of one load in one line together if they have one traction or a linear one.
 fn tractions(model: &Model, labelled: &dyn Fn(LoadId, String) -> String) -> Vec<Push> {
     let near = 1e-9 * structure::bounds(model).size().norm();
-    let mut list: Vec<Push> = Vec::new();
+    let mut list: Vec<(LoadId, Push)> = Vec::new();
     for (index, block) in model.blocks.iter().enumerate() {
         for load in block.edge_loads() {
             let (from, to) = loaded_part(block, load);
             let Some(along) = (to - from).try_normalize(0.0) else { continue };
-            let on = Pushed { block: Some(BlockId::new(index)), ends: [from, to] };
+            let (block, values) = (Some(BlockId::new(index)), load.traction);
+            let on = Pushed { block, ends: [from, to], values };
             let (outwards, name) = (Vector2::new(along.y, -along.x), names::load(model, load.load));
-            let is_same = |it: &&mut Push| {
+            let is_same = |(_, it): &&mut (LoadId, Push)| {
                 it.name == name
-                    && it.value == load.traction
+                    && (it.on[0].values == values || !it.on[0].is_uniform() && !on.is_uniform())
                     && it.outwards.dot(&outwards) > 1.0 - 1e-9
                     && (from - it.on[0].ends[0]).dot(&outwards).abs() <= near
             };
-            if let Some(same) = list.iter_mut().find(is_same) {
+            if let Some((_, same)) = list.iter_mut().find(is_same) {
+                same.value = Pushed { values: [same.value, on.largest()], ..on }.largest();
                 same.on.push(on);
                 continue;
             }
-            let label = labelled(load.load, stress_text(load.traction.norm()));
-            let value = load.traction;
-            list.push(Push { on: vec![on], value, outwards, label, name, part: 1.0 });
+            let (value, label) = (on.largest(), String::new());
+            list.push((load.load, Push { on: vec![on], value, outwards, label, name, part: 1.0 }));
         }
     }
-    list
+    let with_label = |(load, push): (LoadId, Push)| {
+        let size = stress_text(push.value.norm());
+        let is_uniform = push.on.iter().all(Pushed::is_uniform);
+        let value = if is_uniform { size } else { format!("up to {size}") };
+        Push { label: labelled(load, value), ..push }
+    };
+    list.into_iter().map(with_label).collect()
 }
 
 /// All forces at places of blocks: one that pulls at an edge begins there, all others end in their places.
@@ -378,7 +411,7 @@ fn forces(model: &Model, labelled: &dyn Fn(LoadId, String) -> String) -> Vec<Pus
         });
         let way = load.force.try_normalize(0.0).unwrap_or_default();
         Push {
-            on: vec![Pushed { block: Some(BlockId::new(index)), ends: [load.at; 2] }],
+            on: vec![Pushed::at_place(Some(BlockId::new(index)), load.at, load.force)],
             value: load.force,
             outwards: if pulls { way } else { -way },
             label: labelled(load.load, units.force_text(load.force.norm())),

@@ -366,7 +366,7 @@ fn arch() -> Model {
         .collect();
     let mut load = |block: usize, edge: usize, x: f64, y: f64| {
         let traction = Vector2::new(x, y);
-        let load = EdgeLoad { edge, from: 0.1, to: 0.9, traction, load: LoadId(0) };
+        let load = EdgeLoad { edge, from: 0.1, to: 0.9, traction: [traction; 2], load: LoadId(0) };
         model.blocks[block].loads.push(load.into());
     };
     load(4, 1, 0.0, -12e3);

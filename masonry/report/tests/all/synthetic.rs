@@ -139,7 +139,13 @@ pub(crate) fn model(wall: Wall) -> Model {
             block.name = format!("{}.{}", course + 1, index + 1);
             if course + 1 == wall.courses {
                 let traction = Vector2::new(0.0, -10e3);
-                let load = EdgeLoad { edge: 2, from: 0.0, to: 1.0, traction, load: LoadId(0) };
+                let load = EdgeLoad {
+                    edge: 2,
+                    from: 0.0,
+                    to: 1.0,
+                    traction: [traction; 2],
+                    load: LoadId(0),
+                };
                 block.loads.push(load.into());
             }
             blocks.push(block);

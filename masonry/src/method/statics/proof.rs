@@ -10,7 +10,7 @@ use nalgebra::{Point2, Vector2};
 use crate::data::statics::Proof;
 use crate::geometry;
 use crate::ids::BlockId;
-use crate::model::{Anchor, JointPoint, Model};
+use crate::model::{Anchor, JointPoint, Model, PlacedBlock, PlacedForce};
 use crate::recover;
 use crate::system::rigid::Modes;
 
@@ -66,12 +66,15 @@ impl<'a> RigidMotion<'a> {
 
     /// The work of all loads, and the sum of their sizes.
     fn work(&self, model: &Model) -> (f64, f64) {
-        let of_block = |(b, block)| {
-            let loads = model.forces_on(block).into_iter();
-            loads.map(move |(place, force)| (force.dot(&self.at(BlockId::new(b), place)), force))
+        let of_block = |(block, (modes, amplitudes)): (&PlacedBlock, &(Modes, &[f64]))| {
+            let of_load = |load: &PlacedForce| {
+                modes.work_of(load).iter().zip(*amplitudes).map(|(f, x)| f * x).sum::<f64>()
+            };
+            let loads = model.forces_on(block);
+            loads.iter().map(|load| [of_load(load), load.size(modes.length)]).collect::<Vec<_>>()
         };
-        let loads = model.blocks.iter().enumerate().flat_map(of_block);
-        loads.fold((0.0, 0.0), |(work, total), (of, force)| (work + of, total + force.norm()))
+        let loads = model.blocks.iter().zip(&self.blocks).flat_map(of_block);
+        loads.fold((0.0, 0.0), |(work, total), [of, size]| (work + of, total + size))
     }
 
     /// How far a contact opens and slides.

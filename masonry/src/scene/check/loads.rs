@@ -4,7 +4,7 @@ use super::{Check, finite, needed, point, segment, value};
 use crate::scene::groups::WEIGHT;
 use crate::scene::load::Acts;
 use crate::scene::rules::{One, exactly_one, plain, unknown};
-use crate::scene::{Fault, KeyPath, Load, LoadError, Scene, SceneErrorKind, Stage};
+use crate::scene::{Fault, KeyPath, Load, LoadError, Pressure, Scene, SceneErrorKind, Stage};
 
 impl Scene {
     /// A load of exactly one kind, whose numbers are in their range.
@@ -122,7 +122,8 @@ fn check_edge(at: &KeyPath, load: &Load) -> Check {
     let to = needed(load.to, at, "to", because, "to = [1.0, 0.0]")?;
     segment(at, from, to)?;
     match exactly_one(at, "pressure", load.pressure, "traction", load.traction)? {
-        One::First(pressure) => finite(at.key("pressure"), pressure),
+        One::First(pressure) if pressure.is_uniform() => finite(at.key("pressure"), pressure.from),
+        One::First(Pressure { from, to }) => point(&at.key("pressure"), [from, to]),
         One::Second(traction) => point(&at.key("traction"), traction),
     }
 }

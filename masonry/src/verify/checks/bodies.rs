@@ -37,8 +37,11 @@ impl BodyForces {
             count: 0,
             rounding: 0.0,
         };
-        for (place, force) in model.forces_on(block) {
-            body.add(block, place, force);
+        for load in model.forces_on(block) {
+            body.add(block, load.at, load.force);
+            let size = geometry::size(&block.corners);
+            body.moment += load.moment / size;
+            body.size += load.moment.abs() / size;
         }
         body.load = body.size;
         body

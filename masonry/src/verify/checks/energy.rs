@@ -5,7 +5,7 @@ use nalgebra::Vector2;
 use super::contact::Pair;
 use super::{larger, relative};
 use crate::data::state::State;
-use crate::model::{Model, PlacedBlock};
+use crate::model::{Model, PlacedBlock, PlacedForce};
 use crate::recover;
 use crate::system::nodal_loads;
 use crate::system::rigid::Modes;
@@ -38,7 +38,8 @@ pub(super) fn error(model: &Model, state: &State, pairs: &[Pair]) -> f64 {
     larger(relative(rest.abs(), size), relative(-dissipated, size))
 }
 
-/// The loads of a block with their displacements, at its nodes or, on a rigid block, in their places.
+/// The loads of a block with their displacements, at its nodes or, on a rigid block, in their places; a moment is a force at
+/// the distance of the farthest corner.
 fn loads(model: &Model, block: &PlacedBlock, u: &[Vector2<f64>]) -> Vec<[Vector2<f64>; 2]> {
     if let Some(mesh) = &block.mesh {
         let loads = nodal_loads(model, block, mesh);
@@ -46,8 +47,11 @@ fn loads(model: &Model, block: &PlacedBlock, u: &[Vector2<f64>]) -> Vec<[Vector2
     }
     let modes = Modes::of(&block.corners);
     let motion = modes.amplitudes(&block.corners, u);
-    let forces = model.forces_on(block).into_iter();
-    forces.map(|(place, force)| [force, modes.displacement(place, &motion)]).collect()
+    let of_load = |load: &PlacedForce| {
+        let turned = [load.moment / modes.length, motion[2]].map(|it| Vector2::new(it, 0.0));
+        [[load.force, modes.displacement(load.at, &motion)], turned]
+    };
+    model.forces_on(block).iter().flat_map(of_load).collect()
 }
 
 /// How much rigid blocks change their shape, relative to their largest displacement.

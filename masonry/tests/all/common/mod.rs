@@ -52,7 +52,7 @@ pub fn traction(edge: usize, x: f64, y: f64) -> BlockLoad {
 
 /// A uniform traction on a part of an edge.
 pub fn traction_on(edge: usize, [from, to]: [f64; 2], [x, y]: [f64; 2]) -> BlockLoad {
-    EdgeLoad { edge, from, to, traction: Vector2::new(x, y), load: LoadId(0) }.into()
+    EdgeLoad { edge, from, to, traction: [Vector2::new(x, y); 2], load: LoadId(0) }.into()
 }
 
 /// A straight support.

@@ -122,6 +122,7 @@ fn stiffness_and_loads(
             rhs[first + dof] += n.dot(&f) / force;
         }
     };
+    // Uniform loads on whole edges.
     for load in block.edge_loads() {
         let pieces = block.mesh.as_ref().map_or(1, |m| m.edge_elements(load.edge));
         // Gauss points of every element edge: exact for the linear shape functions.
@@ -130,7 +131,7 @@ fn stiffness_and_loads(
                 let at = (piece as f64 + s) / pieces as f64;
                 let [p, q] = geometry::edge(&block.corners, load.edge);
                 let area = 0.5 * (q - p).norm() / pieces as f64 * model.thickness;
-                add_force(p + (q - p) * at, load.traction * area);
+                add_force(p + (q - p) * at, load.traction[0] * area);
             }
         }
     }

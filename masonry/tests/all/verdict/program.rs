@@ -48,7 +48,7 @@ pub(crate) fn largest_tilt(model: &Model) -> Limit {
         add(b, Some(0), centroid(block), Vector2::new(weight / unit, 0.0));
         for load in block.edge_loads() {
             let [start, end] = [load.from, load.to].map(|at| on_edge(block, load.edge, at));
-            let force = load.traction * ((end - start).norm() * model.thickness);
+            let force = load.traction[0] * ((end - start).norm() * model.thickness);
             add(b, None, nalgebra::center(&start, &end), force);
         }
     }

@@ -1,0 +1,134 @@
+//! Loads on edges: the parts of edges that lie on a segment, and the tractions on them.
+
+use nalgebra::{Point2, Vector2};
+
+use crate::geometry::{self, SAME_PLACE};
+use crate::ids::LoadId;
+use crate::model::{EdgeLoad, JointPoint, PlacedBlock, PlacedJoint};
+use crate::scene::{self, EdgeStress};
+use crate::units::Units;
+
+/// A part of an edge, as fractions of it.
+type EdgePart = [f64; 2];
+
+/// A load on all free parts of edges that lie on a segment.
+pub(super) struct OnEdges<'a> {
+    pub(super) load: &'a scene::Load,
+    pub(super) id: LoadId,
+    pub(super) ends: [Point2<f64>; 2],
+    pub(super) stress: EdgeStress,
+    pub(super) units: Units,
+    /// How far corners were moved \[m\].
+    pub(super) moved: f64,
+}
+
+impl OnEdges<'_> {
+    /// Puts the load on blocks; tells whether it acts. Parts of edges that make joints are not free and carry no load, so
+    /// that a load cannot act inside a joint.
+    pub(super) fn place(&self, blocks: &mut [PlacedBlock], joined: &[Vec<Vec<EdgePart>>]) -> bool {
+        let mut acts = false;
+        for (block, joined) in blocks.iter_mut().zip(joined) {
+            for (edge, joined) in joined.iter().enumerate() {
+                let covered = covered_part(&block.corners, edge, self.ends, self.moved);
+                for [from, to] in covered.into_iter().flat_map(|it| free_parts(it, joined)) {
+                    let traction = [from, to].map(|at| self.traction(&block.corners, edge, at));
+                    block.loads.push(EdgeLoad { edge, from, to, traction, load: self.id }.into());
+                    acts = true;
+                }
+            }
+        }
+        acts
+    }
+
+    /// Traction on the block at a fraction of an edge \[Pa\].
+    fn traction(&self, corners: &[Point2<f64>], edge: usize, at: f64) -> Vector2<f64> {
+        let in_scene = match self.stress {
+            EdgeStress::Traction(traction) => Vector2::from(traction),
+            EdgeStress::Pressure(pressure) => {
+                let place = self.fraction(geometry::on_edge(corners, edge, at));
+                let pressure = pressure.from + (pressure.to - pressure.from) * place;
+                -geometry::outward_normal(corners, edge) * pressure
+            }
+        };
+        in_scene * self.units.stress_to_si() * self.load.factor
+    }
+
+    /// A place on the segment as a fraction of it.
+    fn fraction(&self, place: Point2<f64>) -> f64 {
+        let [from, to] = self.ends;
+        (place - from).dot(&(to - from)) / (to - from).norm_squared()
+    }
+}
+
+/// The part of an edge that lies on a segment; `None` when they share no length.
+fn covered_part(
+    corners: &[Point2<f64>],
+    edge: usize,
+    [from, to]: [Point2<f64>; 2],
+    moved: f64,
+) -> Option<EdgePart> {
+    let [start, end] = geometry::edge(corners, edge);
+    let length = (end - start).norm();
+    let slack = SAME_PLACE * geometry::size(corners) + moved;
+    let (normal, along) = (geometry::outward_normal(corners, edge), (end - start) / length);
+    let place = |p: Point2<f64>| (p - start).dot(&along);
+    let (a, b) = (place(from), place(to));
+    if (b - a).abs() <= slack {
+        return None;
+    }
+    let (low, high) = (a.min(b).max(0.0), a.max(b).min(length));
+    if high - low <= slack {
+        return None;
+    }
+    // The segment must lie on the edge only beside it: far away it may be off by rounding.
+    let distance = |s: f64| (from + (to - from) * ((s - a) / (b - a)) - start).dot(&normal);
+    if distance(low).abs() > slack || distance(high).abs() > slack {
+        return None;
+    }
+    Some([low, high].map(|s| geometry::snap(s / length)))
+}
+
+/// The parts of `covered` without the joined parts.
+fn free_parts(covered: EdgePart, joined: &[EdgePart]) -> Vec<EdgePart> {
+    let mut free = vec![covered];
+    for [from, to] in joined {
+        free = free
+            .into_iter()
+            .flat_map(|[a, b]| [[a, b.min(*from)], [a.max(*to), b]])
+            .filter(|[a, b]| b - a > SAME_PLACE)
+            .collect();
+    }
+    free
+}
+
+/// The parts of every edge of every block that make joints.
+pub(super) fn joined_parts(
+    blocks: &[PlacedBlock],
+    joints: &[PlacedJoint],
+    contacts: &[JointPoint],
+) -> Vec<Vec<Vec<EdgePart>>> {
+    let mut joined: Vec<_> =
+        blocks.iter().map(|block| vec![Vec::new(); block.corners.len()]).collect();
+    // All points of a joint sit on the same two edges: the first tells which.
+    let mut last = None;
+    for contact in contacts {
+        if last.replace(contact.joint) == Some(contact.joint) {
+            continue;
+        }
+        let joint = &joints[contact.joint.index()];
+        for anchor in contact.a.into_iter().chain([contact.b]) {
+            let block = anchor.block.index();
+            let part = projected(&blocks[block].corners, anchor.edge, joint);
+            joined[block][anchor.edge].push(part);
+        }
+    }
+    joined
+}
+
+/// The part of an edge in front of a joint.
+fn projected(corners: &[Point2<f64>], edge: usize, joint: &PlacedJoint) -> EdgePart {
+    let [start, end] = geometry::edge(corners, edge);
+    let along = (end - start) / (end - start).norm_squared();
+    let [a, b] = [joint.from, joint.to].map(|p| geometry::snap((p - start).dot(&along)));
+    [a.min(b), a.max(b)]
+}
