@@ -2,6 +2,7 @@
 //! against what they stand for.
 
 use crate::common;
+mod earth;
 mod groups;
 mod linear;
 mod mass;

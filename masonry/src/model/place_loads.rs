@@ -58,7 +58,9 @@ pub(super) fn place(
             None => {}
         }
         let (name, group) = (load.name.clone(), load.group_name().to_owned());
-        loads.push(LoadCase { name, group, factor: load.factor, mass: load.mass });
+        // The thrust of earth is no weight.
+        let mass = load.mass.or_else(|| load.earth.map(|_| 0.0));
+        loads.push(LoadCase { name, group, factor: load.factor, mass });
     }
     accelerate(scene, blocks, &loads, &accelerations)?;
     Ok((loads, accelerations))

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::setters::setters;
-use super::stress::{EdgeStress, Pressure};
+use super::stress::{Earth, EdgeStress, Pressure};
 use super::strict;
 
 /// A load of exactly one kind: [`LoadKind`] lists the keys of each.
@@ -38,6 +38,9 @@ pub struct Load {
     /// Force per area in global axes \[force/length^2\].
     #[serde(default, deserialize_with = "strict::read")]
     pub traction: Option<[f64; 2]>,
+    /// Earth or water that presses against the outward normal of the edge, in proportion to the depth below its level.
+    #[serde(default, deserialize_with = "strict::read")]
+    pub earth: Option<Earth>,
     /// Name of a block.
     pub block: Option<String>,
     /// A place inside or on the edge of that block \[length\].
@@ -52,6 +55,7 @@ pub struct Load {
     /// The part of a load on edges or at a place, from 0 to 1, that is the weight of a mass, such as that of a roof: accelerations
     /// act on this mass at the place of the load. `true` is 1 and `false` 0. The mass is that of the component
     /// along gravity, times the factor of the load; factors of stages and limit loads do not change it.
+    /// Earth and water have none unless it is given.
     #[serde(default, deserialize_with = "strict::part")]
     #[cfg_attr(test, schemars(with = "Option<Part>"))]
     pub mass: Option<f64>,
@@ -70,8 +74,8 @@ enum Part {
 /// The kinds of loads.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum LoadKind<'a> {
-    /// A load on the free edges of blocks that lie on a segment: `from`, `to`, and exactly one of `pressure`
-    /// and `traction`. An edge that the segment covers in part is loaded in part.
+    /// A load on the free edges of blocks that lie on a segment: `from`, `to`, and exactly one of `pressure`,
+    /// `traction` and `earth`. An edge that the segment covers in part is loaded in part.
     Edge {
         /// One end of the segment \[length\].
         from: [f64; 2],
@@ -110,6 +114,12 @@ impl Load {
     pub fn traction(name: &str, from: [f64; 2], to: [f64; 2], traction: [f64; 2]) -> Self {
         let (from, to) = (Some(from), Some(to));
         Self { from, to, traction: Some(traction), ..Self::named(name) }
+    }
+
+    /// The pressure of earth or water against the outward normal of the edges on a segment.
+    pub fn earth(name: &str, from: [f64; 2], to: [f64; 2], earth: Earth) -> Self {
+        let (from, to) = (Some(from), Some(to));
+        Self { from, to, earth: Some(earth), ..Self::named(name) }
     }
 
     /// A force \[force\] over the whole thickness at a place \[length\] inside or on the edge of a block.
@@ -153,9 +163,10 @@ impl Load {
         let [(acts, _)] = self.given()[..] else { return None };
         Some(match acts {
             Acts::OnEdges => {
-                let stress = match (self.pressure, self.traction) {
-                    (Some(pressure), None) => EdgeStress::Pressure(pressure),
-                    (None, Some(traction)) => EdgeStress::Traction(traction),
+                let stress = match (self.pressure, self.traction, self.earth) {
+                    (Some(pressure), None, None) => EdgeStress::Pressure(pressure),
+                    (None, Some(traction), None) => EdgeStress::Traction(traction),
+                    (None, None, Some(earth)) => EdgeStress::Earth(earth),
                     _ => return None,
                 };
                 LoadKind::Edge { from: self.from?, to: self.to?, stress }
@@ -175,6 +186,7 @@ impl Load {
             (Acts::OnEdges, "to", self.to.is_some()),
             (Acts::OnEdges, "pressure", self.pressure.is_some()),
             (Acts::OnEdges, "traction", self.traction.is_some()),
+            (Acts::OnEdges, "earth", self.earth.is_some()),
             (Acts::AtPlace, "block", self.block.is_some()),
             (Acts::AtPlace, "at", self.at.is_some()),
             (Acts::AtPlace, "force", self.force.is_some()),
@@ -198,6 +210,7 @@ impl Load {
             to: None,
             pressure: None,
             traction: None,
+            earth: None,
             block: None,
             at: None,
             force: None,
@@ -232,10 +245,13 @@ impl Acts {
 pub enum LoadError {
     /// The load of this name is of no kind.
     #[error(
-        "load \"{0}\" has no keys of any kind of load: add `from`, `to` and `pressure` or `traction` (on edges), or \
-         `block`, `at` and `force` (at a place of a block), or `acceleration` (on all mass)"
+        "load \"{0}\" has no keys of any kind of load: add `from`, `to` and `pressure`, `traction` or `earth` (on \
+         edges), or `block`, `at` and `force` (at a place of a block), or `acceleration` (on all mass)"
     )]
     NoKind(String),
+    /// A segment without a force per area.
+    #[error("none of `pressure`, `traction` and `earth` is given: add one of them")]
+    NoStress,
     /// Keys of two kinds are given.
     #[error(
         "`{first}` is for a load {one} and `{second}` for one {other}: keep the keys of one kind, or make two loads"

@@ -12,6 +12,29 @@ pub enum EdgeStress {
     Pressure(Pressure),
     /// A traction in global axes.
     Traction([f64; 2]),
+    /// The pressure of earth or water, against the outward normal.
+    Earth(Earth),
+}
+
+/// Earth or water beside an edge. Its pressure is `K gamma` times the depth below its level, and zero above.
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub struct Earth {
+    /// Weight per volume \[force/length^3\].
+    pub gamma: f64,
+    /// The pressure to the side as a part of that downwards \[-\]; 1 for water.
+    #[serde(rename = "K")]
+    pub k: f64,
+    /// Height of its surface, as a coordinate y \[length\].
+    pub level: f64,
+}
+
+impl Earth {
+    /// The pressure \[force/length^2\] at a height at or below its level.
+    pub(crate) fn pressure_at(self, y: f64) -> f64 {
+        self.k * self.gamma * (self.level - y)
+    }
 }
 
 /// A pressure at both ends of a segment \[force/length^2\], linear between them. In TOML a number, or two.

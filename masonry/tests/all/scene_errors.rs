@@ -307,7 +307,7 @@ fn keys_that_belong_together() {
         ("mesh = [4, 2]\n", "", "", "walls[0]", "add `mesh = [1, 1]`"),
         ("mu = 0.6", "mu = 0.6\nphi_deg = 1", "1", "joints.bed.phi_deg", "both `mu` and `phi_deg`"),
         ("mu = 0.6", "", "", "joints.bed", "neither `mu` nor `phi_deg`"),
-        ("pressure = 10.0", "", "", "loads[0]", "neither `pressure` nor `traction`"),
+        ("pressure = 10.0", "", "", "loads[0]", "none of `pressure`, `traction` and `earth`"),
         (
             "pressure = 10.0",
             "pressure = 1.0\ntraction = [0.0, 1.0]",

@@ -5,7 +5,7 @@ use nalgebra::{Point2, Vector2};
 use crate::geometry::{self, SAME_PLACE};
 use crate::ids::LoadId;
 use crate::model::{EdgeLoad, JointPoint, PlacedBlock, PlacedJoint};
-use crate::scene::{self, EdgeStress};
+use crate::scene::{self, Earth, EdgeStress};
 use crate::units::Units;
 
 /// A part of an edge, as fractions of it.
@@ -30,7 +30,11 @@ impl OnEdges<'_> {
         for (block, joined) in blocks.iter_mut().zip(joined) {
             for (edge, joined) in joined.iter().enumerate() {
                 let covered = covered_part(&block.corners, edge, self.ends, self.moved);
-                for [from, to] in covered.into_iter().flat_map(|it| free_parts(it, joined)) {
+                let free = covered.into_iter().flat_map(|it| free_parts(it, joined));
+                let corners = &block.corners;
+                let pressed: Vec<EdgePart> =
+                    free.filter_map(|part| self.pressed_part(corners, edge, part)).collect();
+                for [from, to] in pressed {
                     let traction = [from, to].map(|at| self.traction(&block.corners, edge, at));
                     block.loads.push(EdgeLoad { edge, from, to, traction, load: self.id }.into());
                     acts = true;
@@ -49,8 +53,36 @@ impl OnEdges<'_> {
                 let pressure = pressure.from + (pressure.to - pressure.from) * place;
                 -geometry::outward_normal(corners, edge) * pressure
             }
+            EdgeStress::Earth(earth) => {
+                -geometry::outward_normal(corners, edge)
+                    * earth.pressure_at(self.height(corners, edge, at))
+            }
         };
         in_scene * self.units.stress_to_si() * self.load.factor
+    }
+
+    /// The part of a part of an edge on which the load is not zero: that below the level of earth.
+    fn pressed_part(
+        &self,
+        corners: &[Point2<f64>],
+        edge: usize,
+        [from, to]: EdgePart,
+    ) -> Option<EdgePart> {
+        let EdgeStress::Earth(Earth { level, .. }) = self.stress else { return Some([from, to]) };
+        let depths = [from, to].map(|at| level - self.height(corners, edge, at));
+        let surface = from + (to - from) * (depths[0] / (depths[0] - depths[1]));
+        let part = match depths.map(|it| it > 0.0) {
+            [true, true] => [from, to],
+            [true, false] => [from, surface],
+            [false, true] => [surface, to],
+            [false, false] => return None,
+        };
+        (part[1] - part[0] > SAME_PLACE).then_some(part)
+    }
+
+    /// The height of a place on an edge in units of the scene.
+    fn height(&self, corners: &[Point2<f64>], edge: usize, at: f64) -> f64 {
+        geometry::on_edge(corners, edge, at).y / self.units.length_to_si()
     }
 
     /// A place on the segment as a fraction of it.

@@ -1,10 +1,12 @@
 //! Checks of loads, and of the names by which stages call them.
 
-use super::{Check, finite, needed, point, segment, value};
+use super::{Check, finite, needed, point, positive, segment, value};
 use crate::scene::groups::WEIGHT;
 use crate::scene::load::Acts;
-use crate::scene::rules::{One, exactly_one, plain, unknown};
-use crate::scene::{Fault, KeyPath, Load, LoadError, Pressure, Scene, SceneErrorKind, Stage};
+use crate::scene::rules::{plain, unknown};
+use crate::scene::{
+    Earth, EdgeStress, Fault, KeyPath, Load, LoadError, LoadKind, Scene, SceneErrorKind, Stage,
+};
 
 impl Scene {
     /// A load of exactly one kind, whose numbers are in their range.
@@ -121,11 +123,40 @@ fn check_edge(at: &KeyPath, load: &Load) -> Check {
     let from = needed(load.from, at, "from", because, "from = [0.0, 0.0]")?;
     let to = needed(load.to, at, "to", because, "to = [1.0, 0.0]")?;
     segment(at, from, to)?;
-    match exactly_one(at, "pressure", load.pressure, "traction", load.traction)? {
-        One::First(pressure) if pressure.is_uniform() => finite(at.key("pressure"), pressure.from),
-        One::First(Pressure { from, to }) => point(&at.key("pressure"), [from, to]),
-        One::Second(traction) => point(&at.key("traction"), traction),
+    let keys = [
+        ("pressure", load.pressure.is_some()),
+        ("traction", load.traction.is_some()),
+        ("earth", load.earth.is_some()),
+    ];
+    let mut given = keys.into_iter().filter(|(_, given)| *given).map(|(key, _)| key);
+    if let (Some(first), Some(second)) = (given.next(), given.next()) {
+        return Err(Fault::new(at.key(second), SceneErrorKind::Both { first, second }));
     }
+    match load.kind() {
+        Some(LoadKind::Edge { stress: EdgeStress::Pressure(pressure), .. }) => {
+            let at = at.key("pressure");
+            if pressure.is_uniform() {
+                return finite(at, pressure.from);
+            }
+            point(&at, [pressure.from, pressure.to])
+        }
+        Some(LoadKind::Edge { stress: EdgeStress::Traction(traction), .. }) => {
+            point(&at.key("traction"), traction)
+        }
+        Some(LoadKind::Edge { stress: EdgeStress::Earth(earth), .. }) => {
+            check_earth(&at.key("earth"), earth, from[1].min(to[1]))
+        }
+        _ => Err(Fault::new(at.clone(), LoadError::NoStress)),
+    }
+}
+
+/// Checks earth beside a segment that begins at the height `lowest`.
+fn check_earth(at: &KeyPath, Earth { gamma, k, level }: Earth, lowest: f64) -> Check {
+    positive(at.key("gamma"), gamma)?;
+    positive(at.key("K"), k)?;
+    finite(at.key("level"), level)?;
+    let wanted = "the level of earth or water is above the lower end of the segment";
+    value(at.key("level"), level, level > lowest, wanted)
 }
 
 /// Checks the keys of a force; block and place are checked once blocks are laid.

@@ -15,8 +15,8 @@ fn keys_of_no_kind_and_of_two_kinds() {
         "",
         "[[loads]]\nname = \"more\"",
         "loads[1]",
-        "load \"more\" has no keys of any kind of load: add `from`, `to` and `pressure` or `traction` (on edges), or `block`, \
-         `at` and `force` (at a place of a block), or `acceleration` (on all mass)",
+        "load \"more\" has no keys of any kind of load: add `from`, `to` and `pressure`, `traction` or `earth` (on edges), or \
+         `block`, `at` and `force` (at a place of a block), or `acceleration` (on all mass)",
     );
     assert_load_error(
         "from = [0.0, 0.5]\nto = [1.0, 0.5]\nforce = [0.5, -1.0]",
@@ -44,7 +44,7 @@ fn keys_of_no_kind_and_of_two_kinds() {
         ),
         (
             "from = [0, 0.5]\nto = [1, 0.5]",
-            "neither `pressure` nor `traction` is given: add one of them",
+            "none of `pressure`, `traction` and `earth` is given: add one of them",
         ),
         (
             "force = [0.0, -1.0]",
@@ -136,6 +136,49 @@ fn an_acceleration_without_mass() {
         assert!(error.to_string().ends_with(words), "{error}");
         assert!(error.line().is_some());
     }
+}
+
+#[test]
+fn pressures_at_two_ends_and_earth() {
+    let on = |key: &str| format!("from = [0.0, 0.5]\nto = [1.0, 0.5]\n{key}");
+    let load = |key: &str| GOOD.replace("pressure = 10.0", key);
+    for (key, words) in [
+        (
+            "pressure = [1.0]",
+            "length 1, expected a number, or a list of exactly 2 numbers, at `from` and at `to`",
+        ),
+        ("pressure = [1.0, 2.0, 3.0]", "length 3, expected a number, or a list of exactly 2"),
+        ("pressure = true", "boolean `true`, expected a number, or a list of exactly 2"),
+        ("earth = { gamma = 18.0, K = 0.3 }", "missing field `level`"),
+        ("earth = [18.0, 0.3, 1.0]", "expected a table"),
+    ] {
+        let error = Scene::from_toml(&load(key)).unwrap_err();
+        assert!(error.to_string().contains(words) && error.line().is_some(), "{error}");
+    }
+    let wanted = "inf is not allowed: give a finite number (of magnitude at most 1e100)";
+    for (key, place) in [("pressure = [1, inf]", "pressure[1]"), ("pressure = inf", "pressure")] {
+        assert_load_error(&on(key), "inf", &format!("loads[1].{place}"), wanted);
+    }
+    let positive = "give a finite number greater than zero (between 1e-100 and 1e100)";
+    let earth =
+        |gamma, k, level| on(&format!("earth = {{ gamma = {gamma}, K = {k}, level = {level} }}"));
+    for (keys, marked, place, words) in [
+        (earth("-7.5", "1.0", "2.0"), "-7.5", "gamma", format!("-7.5 is not allowed: {positive}")),
+        (earth("18.0", "-7.5", "2.0"), "-7.5", "K", format!("-7.5 is not allowed: {positive}")),
+        (
+            earth("18.0", "1.0", "0.125"),
+            "0.125",
+            "level",
+            "0.125 is not allowed: the level of earth or water is above the lower end of the segment".to_owned(),
+        ),
+    ] {
+        assert_load_error(&keys, marked, &format!("loads[1].earth.{place}"), &words);
+    }
+    let two = format!("{}\npressure = 7.5", earth("18.0", "1.0", "2.0"));
+    let words = "both `pressure` and `earth` are given";
+    let error =
+        error_of("pressure = 10.0", &format!("pressure = 10.0\n[[loads]]\nname = \"more\"\n{two}"));
+    assert!(error.to_string().contains(words) && error.key() == "loads[1].earth", "{error}");
 }
 
 /// The good scene with loads `wind` and `gust` in a group, and a stage that takes loads to these factors.
