@@ -4,8 +4,10 @@
 use crate::common;
 mod earth;
 mod groups;
+mod inside;
 mod linear;
 mod mass;
+mod moments;
 
 use common::routes::{answer_by, rounding, routes_for};
 use common::{

@@ -47,4 +47,5 @@ mod shoe;
 mod staircase;
 mod strips;
 mod strips_panels;
+mod turned;
 mod verdict;

@@ -83,6 +83,12 @@ impl InUnits {
         format!("{}\u{a0}{}", significant(self.length(metres), 4), self.0.length_name())
     }
 
+    /// A moment for people, with its unit after a space that does not break.
+    pub(super) fn moment_text(self, newton_metres: f64) -> String {
+        let value = significant(self.energy(newton_metres), 4);
+        format!("{value}\u{a0}{}", self.0.energy_name())
+    }
+
     /// A force for people, with its unit after a space that does not break.
     pub(super) fn force_text(self, newtons: f64) -> String {
         format!("{}\u{a0}{}", significant(self.force(newtons), 4), self.0.force_name())

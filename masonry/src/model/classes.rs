@@ -1,6 +1,8 @@
 //! The classes of joints: of a support, of a wall, of a pair of blocks, or `bed` and `head`.
 
-use super::joints::JointKind;
+use nalgebra::Rotation2;
+
+use super::joints::{JointKind, is_bed};
 use super::{Body, JointClass, Mortar, PlacedBlock, PlacedJoint, Plane};
 use crate::ids::BlockId;
 use crate::law::JointLaw;
@@ -17,6 +19,8 @@ pub(super) struct Classes {
     usual: [usize; 2],
     /// Classes of the walls, then of the arches.
     of_walls: Vec<[usize; 2]>,
+    /// Angles \[rad\] by which the walls are turned, and with them their beds and heads.
+    turns: Vec<f64>,
     of_supports: Vec<usize>,
     of_pairs: Vec<([Members; 2], usize)>,
     /// The wall or arch of every block that has one.
@@ -60,7 +64,8 @@ impl Classes {
             let second = Members::of(scene, blocks, second, at.item(1))?;
             of_pairs.push(([first, second], index(&between.joint)));
         }
-        Ok(Self { list, given, usual, of_walls, of_supports, of_pairs, walls })
+        let turns = scene.walls.iter().map(|wall| wall.turn_deg.to_radians()).collect();
+        Ok(Self { list, given, usual, of_walls, turns, of_supports, of_pairs, walls })
     }
 
     pub(super) fn list(&self) -> &[JointClass] {
@@ -69,16 +74,18 @@ impl Classes {
 
     /// The class of a joint, an index into the [`list`](Self::list).
     pub(super) fn class_of(&self, kind: JointKind, a: Body, b: BlockId) -> usize {
-        if let JointKind::Support(id) = kind {
-            return self.of_supports[id.index()];
-        }
+        let normal = match kind {
+            JointKind::Support(id) => return self.of_supports[id.index()],
+            JointKind::Blocks(normal) => normal,
+        };
         let Body::Block(a) = a else { unreachable!("joints of supports are of their own kind") };
         if let Some(class) = self.of_pair(a, b) {
             return class;
         }
         let wall = self.wall_of(a).filter(|wall| self.wall_of(b) == Some(*wall));
         let [bed, head] = wall.map_or(self.usual, |wall| self.of_walls[wall]);
-        if kind == JointKind::Bed { bed } else { head }
+        let turn = wall.and_then(|wall| self.turns.get(wall)).copied().unwrap_or(0.0);
+        if is_bed(Rotation2::new(-turn) * normal) { bed } else { head }
     }
 
     fn of_pair(&self, a: BlockId, b: BlockId) -> Option<usize> {

@@ -120,7 +120,8 @@ fn lay_blocks(scene: &Scene) -> Result<Laid, Fault> {
     for (k, wall) in scene.walls.iter().enumerate() {
         for brick in bond::bricks_in_mortar(wall, JointThickness::of(scene, wall)) {
             let mesh = wall.mesh.map(|whole| brick.mesh(whole));
-            blocks.push(block(scene, brick.name(wall), &wall.material, &brick.corners(), mesh));
+            let corners = brick.corners().map(|corner| wall.turned(corner));
+            blocks.push(block(scene, brick.name(wall), &wall.material, &corners, mesh));
             keys.push(KeyPath::of("walls").item(k).key("courses"));
             walls.push(k);
         }

@@ -26,12 +26,10 @@ mod points;
 mod search;
 
 /// The kind of joint that two sides make, which decides its class.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub enum JointKind {
-    /// Between two blocks, the normal within 45 degrees of the vertical.
-    Bed,
-    /// Between two blocks, the normal closer to the horizontal.
-    Head,
+    /// Between two blocks, with the unit normal that it would have.
+    Blocks(Vector2<f64>),
     /// Between a support and a block.
     Support(SupportId),
 }
@@ -140,8 +138,10 @@ fn between_blocks(blocks: &[PlacedBlock], first: BlockId, second: BlockId) -> Ve
     let pairs = (0..p.len()).flat_map(|k1| (0..q.len()).map(move |k2| [k1, k2]));
     let candidate = |[k1, k2]: [usize; 2]| {
         let [of_first, of_second] = [geometry::edge(p, k1), geometry::edge(q, k2)];
-        let (kind, forward) = classify(geometry::facing_normal(of_first, of_second)?);
-        let (sides, edges) = if forward {
+        let normal = geometry::facing_normal(of_first, of_second)?;
+        let kind = JointKind::Blocks(normal);
+        let is_forward = if is_bed(normal) { normal.y > 0.0 } else { normal.x > 0.0 };
+        let (sides, edges) = if is_forward {
             let sides = Sides { a: Body::Block(first), a_edge: k1, b: second, b_edge: k2 };
             (sides, [of_first, of_second])
         } else {
@@ -153,14 +153,10 @@ fn between_blocks(blocks: &[PlacedBlock], first: BlockId, second: BlockId) -> Ve
     pairs.filter_map(candidate).collect()
 }
 
-/// Bed or head, and whether the normal already points the agreed way.
-fn classify(normal: Vector2<f64>) -> (JointKind, bool) {
+/// Whether a joint between blocks is a bed, with its normal within 45 degrees of the vertical, and no head.
+pub fn is_bed(normal: Vector2<f64>) -> bool {
     // Rounding must not decide at exactly 45 degrees.
-    if normal.y.abs() >= normal.x.abs() * (1.0 - SAME_PLACE) {
-        (JointKind::Bed, normal.y > 0.0)
-    } else {
-        (JointKind::Head, normal.x > 0.0)
-    }
+    normal.y.abs() >= normal.x.abs() * (1.0 - SAME_PLACE)
 }
 
 /// The edges of a block that could rest on a support, which may lie on either side of its line.

@@ -198,7 +198,7 @@ impl PointLoad {
     fn on_nodes(&self, mesh: &BlockMesh) -> Vec<(usize, Vector2<f64>)> {
         let place = mesh.reference(self.at);
         let mut forces = mesh.interpolate_inside(place).map(|(node, n)| (node, self.force * n));
-        if self.moment != 0.0 {
+        if self.moment.abs() > 0.0 {
             for (it, (_, gradient)) in forces.iter_mut().zip(mesh.gradients_inside(place)) {
                 it.1 += Vector2::new(-gradient.y, gradient.x) * (0.5 * self.moment);
             }

@@ -33,22 +33,32 @@ pub(super) fn place(
     for (k, load) in scene.loads.iter().enumerate() {
         let (at, id) = (KeyPath::of("loads").item(k), LoadId::new(k));
         match load.kind() {
-            Some(LoadKind::Edge { from, to, stress }) => {
+            Some(LoadKind::Edge { from, to, stress, inside }) => {
                 let ends = [from, to].map(|end| scene.units.point(end));
-                let on_edge = OnEdges { load, id, ends, stress, units: scene.units, moved };
+                let on_edge = OnEdges { load, id, ends, stress, inside, units: scene.units, moved };
                 if !on_edge.place(blocks, &joined) {
-                    return Err(Fault::new(at, SceneErrorKind::IdleLoad(load.name.clone())));
+                    let name = load.name.clone();
+                    return Err(if inside {
+                        Fault::new(at, LoadError::IdleInside(name))
+                    } else {
+                        Fault::new(at, SceneErrorKind::IdleLoad(name))
+                    });
                 }
             }
-            Some(LoadKind::Force { block, at: place, force }) => {
+            Some(
+                LoadKind::Force { block, at: place, .. }
+                | LoadKind::Moment { block, at: place, .. },
+            ) => {
                 let Some(k) = places.get(block) else {
                     return Err(Fault::new(at.key("block"), unknown(blocks, block)));
                 };
                 let block = &mut blocks[*k];
                 let at = place_in(block, scene.units.point(place), scene.units, moved)
                     .map_err(|error| Fault::new(at.key("at"), error))?;
-                let force = Vector2::from(force) * scene.units.force_to_si() * load.factor;
-                block.loads.push(PointLoad { at, force, moment: 0.0, load: id }.into());
+                let in_newtons = scene.units.force_to_si() * load.factor;
+                let force = Vector2::from(load.force.unwrap_or_default()) * in_newtons;
+                let moment = load.moment.unwrap_or(0.0) * in_newtons * scene.units.length_to_si();
+                block.loads.push(PointLoad { at, force, moment, load: id }.into());
             }
             Some(LoadKind::Acceleration(value)) => {
                 let value = Vector2::from(value) * load.factor;

@@ -251,8 +251,14 @@ impl Called<'_> {
     }
 
     fn point_loads(&self) -> Effect {
-        let is_kind = |kind: LoadKind<'_>| matches!(kind, LoadKind::Force { .. });
-        self.loads("point loads", is_kind, "at places of blocks", "is a force on a block")
+        let is_kind =
+            |kind: LoadKind<'_>| matches!(kind, LoadKind::Force { .. } | LoadKind::Moment { .. });
+        self.loads(
+            "point loads",
+            is_kind,
+            "at places of blocks",
+            "is a force or a moment on a block",
+        )
     }
 
     fn body_acceleration(&self) -> Effect {

@@ -181,6 +181,8 @@ impl Wall {
         }
         /// Puts the lower left corner of the wall at `origin` \[length\] instead of `[0, 0]`.
         pub fn origin(mut self, origin: [f64; 2]) { self.origin = origin }
+        /// Turns the wall about its origin, counter-clockwise \[degrees\].
+        pub fn turn_deg(mut self, degrees: f64) { self.turn_deg = degrees }
         /// Sets the elements along the length and height of a whole brick.
         pub fn mesh(mut self, mesh: [u32; 2]) { self.mesh = Some(mesh) }
     }
@@ -190,6 +192,7 @@ impl Wall {
             name: name.to_owned(),
             material: material.to_owned(),
             origin: [0.0; 2],
+            turn_deg: 0.0,
             brick,
             width: None,
             courses,

@@ -115,6 +115,7 @@ impl Scene {
     fn check_wall(&self, at: &KeyPath, wall: &Wall) -> Check {
         let material = self.material_of(at, &wall.material)?;
         point(&at.key("origin"), wall.origin)?;
+        finite(at.key("turn_deg"), wall.turn_deg)?;
         positive(at.key("brick").key("length"), wall.brick.length)?;
         positive(at.key("brick").key("height"), wall.brick.height)?;
         let joints = JointThickness::of(self, wall);

@@ -41,6 +41,9 @@ pub struct Load {
     /// Earth or water that presses against the outward normal of the edge, in proportion to the depth below its level.
     #[serde(default, deserialize_with = "strict::read")]
     pub earth: Option<Earth>,
+    /// Whether the segment may lie within joints: the traction acts on the edges that it presses, such as those below a floor.
+    #[serde(default, skip_serializing_if = "is_false")]
+    pub inside: bool,
     /// Name of a block.
     pub block: Option<String>,
     /// A place inside or on the edge of that block \[length\].
@@ -49,6 +52,8 @@ pub struct Load {
     /// The force over the whole thickness in global axes \[force\].
     #[serde(default, deserialize_with = "strict::read")]
     pub force: Option<[f64; 2]>,
+    /// The moment over the whole thickness at that place, counter-clockwise \[force length\].
+    pub moment: Option<f64>,
     /// An acceleration that acts on mass like gravity \[m/s^2\]: to the right, it pushes to the right.
     #[serde(default, deserialize_with = "strict::read")]
     pub acceleration: Option<[f64; 2]>,
@@ -83,6 +88,8 @@ pub enum LoadKind<'a> {
         to: [f64; 2],
         /// The force per area.
         stress: EdgeStress,
+        /// Whether edges within joints are loaded as well, if the traction presses them.
+        inside: bool,
     },
     /// A force at a place of a block: `block`, `at` and `force`.
     Force {
@@ -92,6 +99,15 @@ pub enum LoadKind<'a> {
         at: [f64; 2],
         /// The force \[force\].
         force: [f64; 2],
+    },
+    /// A moment at a place of a block: `block`, `at` and `moment`.
+    Moment {
+        /// Name of the block.
+        block: &'a str,
+        /// The place \[length\].
+        at: [f64; 2],
+        /// The moment, counter-clockwise \[force length\].
+        moment: f64,
     },
     /// An acceleration of all mass \[m/s^2\]: `acceleration`.
     Acceleration([f64; 2]),
@@ -128,6 +144,13 @@ impl Load {
         Self { block, at, force: Some(force), ..Self::named(name) }
     }
 
+    /// A moment \[force length\] over the whole thickness, counter-clockwise, at a place \[length\] inside or on the edge of a
+    /// block.
+    pub fn moment(name: &str, block: &str, at: [f64; 2], moment: f64) -> Self {
+        let (block, at) = (Some(block.to_owned()), Some(at));
+        Self { block, at, moment: Some(moment), ..Self::named(name) }
+    }
+
     /// An acceleration \[m/s^2\] that acts on all mass like gravity.
     pub fn acceleration(name: &str, acceleration: [f64; 2]) -> Self {
         Self { acceleration: Some(acceleration), ..Self::named(name) }
@@ -140,6 +163,12 @@ impl Load {
         pub fn factor(mut self, factor: f64) { self.factor = factor }
         /// Makes a part of the load, from 0 to 1, the weight of a mass on which accelerations act.
         pub fn mass(mut self, part: f64) { self.mass = Some(part) }
+    }
+
+    /// Lets a traction act within joints, on the edges that it presses.
+    #[must_use]
+    pub fn inside(self) -> Self {
+        Self { inside: true, ..self }
     }
 
     /// The name of its group.
@@ -169,11 +198,15 @@ impl Load {
                     (None, None, Some(earth)) => EdgeStress::Earth(earth),
                     _ => return None,
                 };
-                LoadKind::Edge { from: self.from?, to: self.to?, stress }
+                LoadKind::Edge { from: self.from?, to: self.to?, stress, inside: self.inside }
             }
             Acts::AtPlace => {
-                let (block, at, force) = (self.block.as_deref()?, self.at?, self.force?);
-                LoadKind::Force { block, at, force }
+                let (block, at) = (self.block.as_deref()?, self.at?);
+                match (self.force, self.moment) {
+                    (Some(force), None) => LoadKind::Force { block, at, force },
+                    (None, Some(moment)) => LoadKind::Moment { block, at, moment },
+                    _ => return None,
+                }
             }
             Acts::OnMass => LoadKind::Acceleration(self.acceleration?),
         })
@@ -187,9 +220,11 @@ impl Load {
             (Acts::OnEdges, "pressure", self.pressure.is_some()),
             (Acts::OnEdges, "traction", self.traction.is_some()),
             (Acts::OnEdges, "earth", self.earth.is_some()),
+            (Acts::OnEdges, "inside", self.inside),
             (Acts::AtPlace, "block", self.block.is_some()),
             (Acts::AtPlace, "at", self.at.is_some()),
             (Acts::AtPlace, "force", self.force.is_some()),
+            (Acts::AtPlace, "moment", self.moment.is_some()),
             (Acts::OnMass, "acceleration", self.acceleration.is_some()),
         ];
         let mut kinds: Vec<_> = keys
@@ -211,9 +246,11 @@ impl Load {
             pressure: None,
             traction: None,
             earth: None,
+            inside: false,
             block: None,
             at: None,
             force: None,
+            moment: None,
             acceleration: None,
             mass: None,
         }
@@ -246,12 +283,24 @@ pub enum LoadError {
     /// The load of this name is of no kind.
     #[error(
         "load \"{0}\" has no keys of any kind of load: add `from`, `to` and `pressure`, `traction` or `earth` (on \
-         edges), or `block`, `at` and `force` (at a place of a block), or `acceleration` (on all mass)"
+         edges), or `block`, `at` and `force` or `moment` (at a place of a block), or `acceleration` (on all mass)"
     )]
     NoKind(String),
     /// A segment without a force per area.
     #[error("none of `pressure`, `traction` and `earth` is given: add one of them")]
     NoStress,
+    /// A traction inside a wall that presses neither side of its segment.
+    #[error(
+        "the traction is zero or runs along the segment, and presses neither of the blocks at a joint there: give it a component across \
+         the segment, or leave `inside` out"
+    )]
+    Along,
+    /// The load of this name inside a wall presses no block.
+    #[error(
+        "load \"{0}\" acts on nothing: no block has an edge on its segment that its traction presses: move the segment onto \
+         such an edge, which in mortar is that of the block, or remove the load"
+    )]
+    IdleInside(String),
     /// Keys of two kinds are given.
     #[error(
         "`{first}` is for a load {one} and `{second}` for one {other}: keep the keys of one kind, or make two loads"
@@ -353,6 +402,11 @@ fn listed(names: &[String]) -> String {
 
 fn one() -> f64 {
     1.0
+}
+
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "the signature that serde asks for")]
+fn is_false(it: &bool) -> bool {
+    !it
 }
 
 #[expect(clippy::trivially_copy_pass_by_ref, reason = "the signature that serde asks for")]

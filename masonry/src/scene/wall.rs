@@ -1,5 +1,6 @@
 //! Walls of bricks in courses.
 
+use nalgebra::{Point2, Rotation2};
 use serde::{Deserialize, Serialize};
 
 use super::{BED, Bond, HEAD, Opening, strict};
@@ -34,6 +35,9 @@ pub struct Wall {
     /// Lower left corner \[length\].
     #[serde(deserialize_with = "strict::read")]
     pub origin: [f64; 2],
+    /// Angle by which the laid wall is turned about `origin`, counter-clockwise \[degrees\].
+    #[serde(default, skip_serializing_if = "is_upright")]
+    pub turn_deg: f64,
     /// The whole brick.
     #[serde(deserialize_with = "strict::read")]
     pub brick: Brick,
@@ -53,6 +57,26 @@ pub struct Wall {
     /// elastic. A cut brick gets its share of the first, rounded up.
     #[serde(default, deserialize_with = "strict::read")]
     pub mesh: Option<[u32; 2]>,
+}
+
+impl Wall {
+    /// A place of the wall as it is laid, after the wall is turned \[length\].
+    ///
+    /// ```
+    /// use masonry::scene::{Brick, Wall};
+    /// let brick = Brick { length: 0.2, height: 0.1 };
+    /// let wall = Wall::running_bond("wall", "brick", brick, 1.0, 2).origin([1.0, 0.0]).turn_deg(90.0);
+    /// let [x, y] = wall.turned([3.0, 0.5]);
+    /// assert!((x - 0.5).abs() < 1e-15 && (y - 2.0).abs() < 1e-15);
+    /// ```
+    pub fn turned(&self, place: [f64; 2]) -> [f64; 2] {
+        if is_upright(&self.turn_deg) {
+            return place;
+        }
+        let origin = Point2::from(self.origin);
+        (origin + Rotation2::new(self.turn_deg.to_radians()) * (Point2::from(place) - origin))
+            .into()
+    }
 }
 
 /// Size of a whole brick.
@@ -81,4 +105,10 @@ pub enum Courses {
 
 fn is_usual(joints: &WallJoints) -> bool {
     *joints == WallJoints::default()
+}
+
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "the signature that serde asks for")]
+fn is_upright(turn_deg: &f64) -> bool {
+    // The bits: what differs in any of them is written.
+    turn_deg.to_bits() == 0_f64.to_bits()
 }

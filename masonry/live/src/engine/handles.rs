@@ -50,6 +50,10 @@ pub(super) fn handles(text: &Text<'_>) -> Vec<Handle> {
 /// The handles of the openings of a wall.
 fn wall(text: &Text<'_>, table: &Value<'_>) -> Option<Vec<Handle>> {
     let name = text_of(table, "name")?;
+    // Openings of a turned wall are no rectangles along the axes.
+    if value_of(table, "turn_deg").is_some() {
+        return None;
+    }
     let [left, foot] = pair(text, value_of(table, "origin")?)?.map(|it| it.value);
     let brick = value_of(table, "brick")?;
     let height = text.number(value_of(brick, "height")?, &[])?.value;

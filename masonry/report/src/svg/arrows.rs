@@ -2,7 +2,7 @@
 
 use nalgebra::{Point2, Vector2};
 
-use super::canvas::{Anchor, Canvas, Pixel, arrow, open, parts};
+use super::canvas::{Anchor, Canvas, Pixel, arrow, open, parts, turning};
 use super::labels::{Label, Labels};
 use super::motion::Motion;
 use super::names;
@@ -25,6 +25,8 @@ const SPACING: f64 = 24.0;
 const ASIDE: f64 = 7.0;
 /// Height that an acceleration takes beside the structure: its arrow, its label and room between.
 const ROW: f64 = LONGEST + 2.0 * TEXT;
+/// What the label of a load that is not uniform begins with.
+const UP_TO: &str = "up to ";
 /// Forces of joints and supports below this part of the largest are not drawn.
 pub(super) const LEAST: f64 = 1e-6;
 
@@ -60,7 +62,7 @@ impl Pushed {
     }
 }
 
-/// A load or a reaction, of which all arrows share a label.
+/// A load or a reaction, of which all arrows share a label; a moment has an arrow around its place.
 #[derive(Debug)]
 struct Push {
     /// Parts of edges in one line, or one place; nothing for an acceleration of all mass.
@@ -69,6 +71,8 @@ struct Push {
     value: Vector2<f64>,
     /// Direction away from the blocks that it pushes, or from a place to its arrow.
     outwards: Vector2<f64>,
+    /// The sign of a moment; `None` for a force.
+    turn: Option<f64>,
     label: String,
     /// Attributes of its elements.
     name: String,
@@ -154,7 +158,10 @@ impl Push {
     fn draw(&self, canvas: &mut Canvas, frame: &Frame, displaced: &Displaced<'_>) {
         for on in &self.on {
             let ends = displaced.ends(frame, on);
-            let arrows: String = self.arrows(on, ends).into_iter().map(arrow).collect();
+            let arrows: String = match self.turn {
+                Some(sign) => turning(ends[0], 0.5 * self.length(), sign),
+                None => self.arrows(on, ends).into_iter().map(arrow).collect(),
+            };
             let bar = self.bar(on, ends).map_or_else(String::new, open);
             canvas.group(&displaced.name(frame, self, on), |canvas| {
                 canvas.path(&(arrows + &bar), "");
@@ -211,7 +218,8 @@ impl Kind {
         let text = if least.label == most.label {
             format!("{one}, {}", most.label)
         } else {
-            format!("{many}, {} to {}", least.label, most.label)
+            let [least, most] = [least, most].map(|it| it.label.trim_start_matches(UP_TO));
+            format!("{many}, {least} to {most}")
         };
         let way = most.value.normalize();
         let is_one = self.pushes.iter().all(|it| it.value.normalize().dot(&way) > 1.0 - 1e-9);
@@ -241,6 +249,7 @@ impl Arrows {
             on: Vec::new(),
             value: it.value,
             outwards: Vector2::zeros(),
+            turn: None,
             label: labelled(it.load, acceleration_text(it.value.norm())),
             name: names::load(model, it.load),
             part: 1.0,
@@ -249,6 +258,7 @@ impl Arrows {
         Self(vec![
             Kind::new(["edge load", "edge loads"], "loads", tractions(model, &labelled)),
             Kind::new(["point load", "point loads"], "loads", forces(model, &labelled)),
+            Kind::new(["moment", "moments"], "loads", moments(model, &labelled)),
             Kind::new(["body acceleration", "body accelerations"], "accelerations", accelerations),
         ])
     }
@@ -263,6 +273,7 @@ impl Arrows {
             on: vec![Pushed::at_place(None, it.at, it.force)],
             value: it.force,
             outwards: -it.force.normalize(),
+            turn: None,
             label: units.force_text(it.force.norm()),
             name: names::support(&model.supports[it.support.index()]),
             part: 1.0,
@@ -386,13 +397,14 @@ fn tractions(model: &Model, labelled: &dyn Fn(LoadId, String) -> String) -> Vec<
                 continue;
             }
             let (value, label) = (on.largest(), String::new());
-            list.push((load.load, Push { on: vec![on], value, outwards, label, name, part: 1.0 }));
+            let push = Push { on: vec![on], value, outwards, turn: None, label, name, part: 1.0 };
+            list.push((load.load, push));
         }
     }
     let with_label = |(load, push): (LoadId, Push)| {
         let size = stress_text(push.value.norm());
         let is_uniform = push.on.iter().all(Pushed::is_uniform);
-        let value = if is_uniform { size } else { format!("up to {size}") };
+        let value = if is_uniform { size } else { format!("{UP_TO}{size}") };
         Push { label: labelled(load, value), ..push }
     };
     list.into_iter().map(with_label).collect()
@@ -414,7 +426,28 @@ fn forces(model: &Model, labelled: &dyn Fn(LoadId, String) -> String) -> Vec<Pus
             on: vec![Pushed::at_place(Some(BlockId::new(index)), load.at, load.force)],
             value: load.force,
             outwards: if pulls { way } else { -way },
+            turn: None,
             label: labelled(load.load, units.force_text(load.force.norm())),
+            name: names::load(model, load.load),
+            part: 1.0,
+        }
+    };
+    all.map(push).collect()
+}
+
+/// All moments at places of blocks. Their values point up, so that their labels stand above them.
+fn moments(model: &Model, labelled: &dyn Fn(LoadId, String) -> String) -> Vec<Push> {
+    let units = InUnits(model.units);
+    let blocks = model.blocks.iter().enumerate();
+    let all = blocks.flat_map(|(k, block)| block.point_loads().map(move |load| (k, load)));
+    let push = |(index, load): (usize, &PointLoad)| {
+        let value = Vector2::y() * load.moment.abs();
+        Push {
+            on: vec![Pushed::at_place(Some(BlockId::new(index)), load.at, value)],
+            value,
+            outwards: Vector2::y(),
+            turn: Some(load.moment.signum()),
+            label: labelled(load.load, units.moment_text(load.moment.abs())),
             name: names::load(model, load.load),
             part: 1.0,
         }

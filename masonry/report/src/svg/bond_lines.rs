@@ -21,10 +21,10 @@ impl ReferenceLines {
     /// The running-bond lines to compare the principal stresses with: from the inner ends of the
     /// lowest supports at both corners of the first wall, half a brick and half a head joint sideways
     /// for every course and its bed joint.
-    /// `None` for a scene without such a wall, with a support all along its foot, or with an opening in the way
+    /// `None` for a scene without such a wall, or with one that is turned, with a support all along its foot, or with an opening in the way
     /// of a line.
     pub fn of(scene: &Scene) -> Option<Self> {
-        let wall = scene.walls.first()?;
+        let wall = scene.walls.first().filter(|wall| wall.turn_deg.abs() <= 0.0)?;
         let [_, foot] = wall.origin;
         let level = |y: f64| (y - foot).abs() <= 1e-9 * wall.brick.height;
         let supports = scene.supports.iter().filter(|it| level(it.from[1]) && level(it.to[1]));

@@ -1,5 +1,6 @@
 //! Text of SVG elements, with two decimals at most: files stay small, and equal input gives equal bytes.
 
+use std::f64::consts::PI;
 use std::fmt::{Display, Write as _};
 
 use nalgebra::Vector2;
@@ -129,6 +130,18 @@ pub(super) fn arrow([tail, tip]: [Pixel; 2]) -> String {
     let neck = tip.along(-along, head);
     let [left, right] = [aside, -aside].map(|side| neck.along(side, 0.42 * head));
     open([tail, neck]) + &closed([left, tip, right])
+}
+
+/// The data of an arrow on three quarters of a circle, counter-clockwise if `sign` is positive.
+pub(super) fn turning(centre: Pixel, radius: f64, sign: f64) -> String {
+    // Chords of 30 degrees, the last of which has the head.
+    let place = |k: u32| {
+        let angle = (f64::from(k) - 4.5) * PI / 6.0;
+        centre.along(Vector2::new(angle.sin() * -sign, angle.cos()), radius)
+    };
+    // A stroke of its own for each, since paths are filled.
+    let chords: String = (0..8).map(|k| open([place(k), place(k + 1)])).collect();
+    chords + &arrow([place(8), place(9)])
 }
 
 /// How many parts a stroke has, none of which is longer than `most`.

@@ -17,25 +17,31 @@ pub(super) struct OnEdges<'a> {
     pub(super) id: LoadId,
     pub(super) ends: [Point2<f64>; 2],
     pub(super) stress: EdgeStress,
+    /// Whether edges within joints are loaded as well, if the traction presses them.
+    pub(super) inside: bool,
     pub(super) units: Units,
     /// How far corners were moved \[m\].
     pub(super) moved: f64,
 }
 
 impl OnEdges<'_> {
-    /// Puts the load on blocks; tells whether it acts. Parts of edges that make joints are not free and carry no load, so
-    /// that a load cannot act inside a joint.
+    /// Puts the load on blocks; tells whether it acts. Parts of edges that make joints are not free and carry no load
+    /// except one inside.
     pub(super) fn place(&self, blocks: &mut [PlacedBlock], joined: &[Vec<Vec<EdgePart>>]) -> bool {
         let mut acts = false;
         for (block, joined) in blocks.iter_mut().zip(joined) {
             for (edge, joined) in joined.iter().enumerate() {
-                let covered = covered_part(&block.corners, edge, self.ends, self.moved);
-                let free = covered.into_iter().flat_map(|it| free_parts(it, joined));
                 let corners = &block.corners;
-                let pressed: Vec<EdgePart> =
-                    free.filter_map(|part| self.pressed_part(corners, edge, part)).collect();
-                for [from, to] in pressed {
-                    let traction = [from, to].map(|at| self.traction(&block.corners, edge, at));
+                let parts = match covered_part(corners, edge, self.ends, self.moved) {
+                    Some(part) if self.inside => {
+                        self.presses(corners, edge).then_some(part).into_iter().collect()
+                    }
+                    Some(part) => free_parts(part, joined),
+                    None => Vec::new(),
+                };
+                for part in parts {
+                    let Some([from, to]) = self.loaded_part(corners, edge, part) else { continue };
+                    let traction = [from, to].map(|at| self.traction(corners, edge, at));
                     block.loads.push(EdgeLoad { edge, from, to, traction, load: self.id }.into());
                     acts = true;
                 }
@@ -61,8 +67,14 @@ impl OnEdges<'_> {
         in_scene * self.units.stress_to_si() * self.load.factor
     }
 
+    /// Whether its traction presses an edge, whatever its factor.
+    fn presses(&self, corners: &[Point2<f64>], edge: usize) -> bool {
+        let EdgeStress::Traction(traction) = self.stress else { return false };
+        Vector2::from(traction).dot(&geometry::outward_normal(corners, edge)) < 0.0
+    }
+
     /// The part of a part of an edge on which the load is not zero: that below the level of earth.
-    fn pressed_part(
+    fn loaded_part(
         &self,
         corners: &[Point2<f64>],
         edge: usize,

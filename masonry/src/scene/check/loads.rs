@@ -1,9 +1,12 @@
 //! Checks of loads, and of the names by which stages call them.
 
-use super::{Check, finite, needed, point, positive, segment, value};
+use nalgebra::Vector2;
+
+use super::{Check, finite, needed, point, positive, segment, unwanted, value};
+use crate::geometry::SAME_PLACE;
 use crate::scene::groups::WEIGHT;
 use crate::scene::load::Acts;
-use crate::scene::rules::{plain, unknown};
+use crate::scene::rules::{One, exactly_one, plain, unknown};
 use crate::scene::{
     Earth, EdgeStress, Fault, KeyPath, Load, LoadError, LoadKind, Scene, SceneErrorKind, Stage,
 };
@@ -38,6 +41,8 @@ impl Scene {
         value(at.clone(), part, (0.0..=1.0).contains(&part), wanted)?;
         let because = if load.acceleration.is_some() {
             "accelerations take none: leave `mass` out"
+        } else if load.moment.is_some() {
+            "a moment is no weight: leave `mass` out"
         } else if part > 0.0 && self.gravity.is_none_or(|it| it.iter().all(|it| *it == 0.0)) {
             "no load is a weight if gravity is missing or zero: set `gravity`, or leave `mass` out"
         } else {
@@ -132,6 +137,9 @@ fn check_edge(at: &KeyPath, load: &Load) -> Check {
     if let (Some(first), Some(second)) = (given.next(), given.next()) {
         return Err(Fault::new(at.key(second), SceneErrorKind::Both { first, second }));
     }
+    let because = "is for a traction: a pressure within a joint could act on either of the blocks that meet there";
+    let otherwise = ", or give a `traction`";
+    unwanted(load.inside && load.traction.is_none(), at, "inside", because, otherwise)?;
     match load.kind() {
         Some(LoadKind::Edge { stress: EdgeStress::Pressure(pressure), .. }) => {
             let at = at.key("pressure");
@@ -140,8 +148,14 @@ fn check_edge(at: &KeyPath, load: &Load) -> Check {
             }
             point(&at, [pressure.from, pressure.to])
         }
-        Some(LoadKind::Edge { stress: EdgeStress::Traction(traction), .. }) => {
-            point(&at.key("traction"), traction)
+        Some(LoadKind::Edge { stress: EdgeStress::Traction(traction), inside, .. }) => {
+            point(&at.key("traction"), traction)?;
+            let (force, along) = (Vector2::from(traction), Vector2::from(to) - Vector2::from(from));
+            let across = force.perp(&along).abs();
+            if inside && across <= SAME_PLACE * force.norm() * along.norm() {
+                return Err(Fault::new(at.key("traction"), LoadError::Along));
+            }
+            Ok(())
         }
         Some(LoadKind::Edge { stress: EdgeStress::Earth(earth), .. }) => {
             check_earth(&at.key("earth"), earth, from[1].min(to[1]))
@@ -159,16 +173,19 @@ fn check_earth(at: &KeyPath, Earth { gamma, k, level }: Earth, lowest: f64) -> C
     value(at.key("level"), level, level > lowest, wanted)
 }
 
-/// Checks the keys of a force; block and place are checked once blocks are laid.
+/// Checks the keys of a force or a moment; block and place are checked once blocks are laid.
 fn check_force(at: &KeyPath, load: &Load, given: &'static str) -> Check {
     let because = match given {
         "block" => "with `block`",
         "at" => "with `at`",
+        "moment" => "with `moment`",
         _ => "with `force`",
     };
     needed(load.block.as_ref(), at, "block", because, "block = \"wall/1/1\"")?;
     let place = needed(load.at, at, "at", because, "at = [0.0, 0.0]")?;
-    let force = needed(load.force, at, "force", because, "force = [0.0, -1.0]")?;
     point(&at.key("at"), place)?;
-    point(&at.key("force"), force)
+    match exactly_one(at, "force", load.force, "moment", load.moment)? {
+        One::First(force) => point(&at.key("force"), force),
+        One::Second(moment) => finite(at.key("moment"), moment),
+    }
 }

@@ -237,7 +237,8 @@ pub enum SceneErrorKind {
     /// No free edge lies on the segment of the load of this name.
     #[error(
         "load \"{0}\" acts on nothing: no free edge of a block lies on its segment (edges \
-         within joints are not free): move the segment to a free edge, or remove the load"
+         within joints are not free): move the segment to a free edge, set `inside = true` for a \
+         traction within joints, or remove the load"
     )]
     IdleLoad(String),
     /// Two blocks meet in a joint whose class is not given.

@@ -88,8 +88,7 @@ pub fn model_with(
         })
         .collect();
     let class_of = |kind, _, _| match kind {
-        JointKind::Bed => 0,
-        JointKind::Head => 1,
+        JointKind::Blocks(normal) => usize::from(!joints::is_bed(normal)),
         JointKind::Support(_) => 2,
     };
     let (joints, contacts) =

@@ -16,7 +16,7 @@ fn keys_of_no_kind_and_of_two_kinds() {
         "[[loads]]\nname = \"more\"",
         "loads[1]",
         "load \"more\" has no keys of any kind of load: add `from`, `to` and `pressure`, `traction` or `earth` (on edges), or \
-         `block`, `at` and `force` (at a place of a block), or `acceleration` (on all mass)",
+         `block`, `at` and `force` or `moment` (at a place of a block), or `acceleration` (on all mass)",
     );
     assert_load_error(
         "from = [0.0, 0.5]\nto = [1.0, 0.5]\nforce = [0.5, -1.0]",
@@ -53,7 +53,7 @@ fn keys_of_no_kind_and_of_two_kinds() {
         ("block = \"lintel\"", "`at` is missing, but needed with `block`: add `at = [0.0, 0.0]`"),
         (
             "block = \"lintel\"\nat = [0.5, 0.5]",
-            "`force` is missing, but needed with `block`: add `force = [0.0, -1.0]`",
+            "neither `force` nor `moment` is given: add one of them",
         ),
     ] {
         assert_load_error(keys, marked, "loads[1]", message);
@@ -179,6 +179,64 @@ fn pressures_at_two_ends_and_earth() {
     let error =
         error_of("pressure = 10.0", &format!("pressure = 10.0\n[[loads]]\nname = \"more\"\n{two}"));
     assert!(error.to_string().contains(words) && error.key() == "loads[1].earth", "{error}");
+}
+
+#[test]
+fn tractions_within_joints() {
+    let on = |keys: &str| format!("from = [0.0, 0.1]\nto = [0.6, 0.1]\ninside = true\n{keys}");
+    for keys in ["pressure = 1.0", "earth = { gamma = 18.0, K = 0.3, level = 3.0 }"] {
+        assert_load_error(
+            &on(keys),
+            "true",
+            "loads[1].inside",
+            "`inside` is for a traction: a pressure within a joint could act on either of the blocks that meet there: \
+             remove it, or give a `traction`",
+        );
+    }
+    assert_load_error(
+        &on("traction = [7.5, 0.0]"),
+        "[7.5, 0.0]",
+        "loads[1].traction",
+        "the traction is zero or runs along the segment, and presses neither of the blocks at a joint there",
+    );
+    let load = "[[loads]]\nname = \"idle\"\nfrom = [0.0, 0.07]\nto = [0.6, 0.07]\ntraction = [0.0, -1.0]\n";
+    for (more, words) in [
+        ("inside = true\n", "no block has an edge on its segment that its traction presses"),
+        ("", "set `inside = true` for a traction within joints"),
+    ] {
+        let text = GOOD.replace("[contact]", &format!("{load}{more}[contact]"));
+        let error = Model::from_scene(&Scene::from_toml(&text).unwrap()).unwrap_err();
+        assert!(error.to_string().contains(words) && error.key() == "loads[1]", "{error}");
+    }
+    let error = "`block` is for a load at a place";
+    let keys = "block = \"lintel\"\nat = [0.5, 0.5]\nforce = [0.0, -1.0]\ninside = true";
+    let found = error_of(
+        "pressure = 10.0",
+        &format!("pressure = 10.0\n[[loads]]\nname = \"more\"\n{keys}"),
+    );
+    assert!(!found.to_string().contains(error) && found.key() == "loads[1].block", "{found}");
+}
+
+#[test]
+fn moments_of_loads() {
+    let at = "block = \"lintel\"\nat = [0.5, 0.5]\n";
+    for (keys, marked, key, message) in [
+        ("moment = inf", "inf", "moment", "inf is not allowed: give a finite number"),
+        (
+            "force = [0.0, -1.0]\nmoment = 7.5",
+            "7.5",
+            "moment",
+            "both `force` and `moment` are given",
+        ),
+        (
+            "moment = 2.0\nmass = 0.25",
+            "0.25",
+            "mass",
+            "load \"more\" has a `mass`, but a moment is no weight: leave `mass` out",
+        ),
+    ] {
+        assert_load_error(&format!("{at}{keys}"), marked, &format!("loads[1].{key}"), message);
+    }
 }
 
 /// The good scene with loads `wind` and `gust` in a group, and a stage that takes loads to these factors.

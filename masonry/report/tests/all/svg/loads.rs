@@ -89,3 +89,47 @@ fn accelerations_are_arrows_beside_the_structure() {
     assert!(shakes[..2].iter().flatten().all(|x| *x < leftmost), "{shakes:?} {leftmost}");
     assert!(shakes[2][1] < shakes[2][0] && shakes[2][1] > rightmost, "{shakes:?} {rightmost}");
 }
+
+/// A linear pressure has arrows as long as it is large there, below one line, and one label.
+#[test]
+fn a_linear_pressure_is_a_row_of_growing_arrows() {
+    let load = Load::pressure("earth", [0.0, 1.0], [0.0, 0.0], [0.0, 8.0]);
+    let picture = kept("linear.svg", svg::scene("Earth", &wall(&[load])));
+    let document = checked(&picture);
+    let label = "edge load, up to 8 kPa";
+    assert!(texts(&document).contains(label), "{}", texts(&document));
+    let paths = groups(&document, "loads").into_iter().flat_map(|it| it.descendants());
+    let paths: Vec<_> = paths.filter(|it| it.has_tag_name("path")).map(points).collect();
+    assert_eq!(paths.len(), 4, "one for each block at the left");
+    // Tail and neck of the first arrow of each, from the lowest block upwards.
+    let lengths: Vec<f64> = paths.iter().map(|it| it[1][0] - it[0][0]).collect();
+    assert!(lengths.windows(2).all(|pair| pair[0] > pair[1]) && lengths[3] > 0.0, "{lengths:?}");
+}
+
+#[test]
+fn a_moment_is_an_arrow_around_its_place() {
+    let loads = [
+        Load::moment("left", "wall/4/2", [0.5, 1.0], 2.5),
+        Load::moment("right", "wall/1/1", [0.25, 0.125], -1.25),
+        Load::moment("none", "wall/1/1", [0.25, 0.125], 0.0),
+    ];
+    let picture = kept("moments.svg", svg::scene("Moments", &wall(&loads)));
+    let document = checked(&picture);
+    assert_eq!(marks(&document, "loads"), 2);
+    let texts = texts(&document);
+    for label in ["2.5 kNm", "1.25 kNm", "moments, 1.25 kNm to 2.5 kNm"] {
+        assert!(texts.contains(label), "no {label} in {texts}");
+    }
+    // Each begins below its place, on the side from which it goes over the top.
+    let group = groups(&document, "loads")[0];
+    let sides: Vec<bool> = group
+        .children()
+        .filter(Node::is_element)
+        .map(|load| {
+            let shape =
+                |name: &str| load.children().find(|it| it.has_tag_name(name)).expect("a shape");
+            points(shape("path"))[0][0] > number(shape("circle"), "cx")
+        })
+        .collect();
+    assert_eq!(sides, [false, true], "blocks from below: the one to the right begins at the left");
+}
