@@ -54,7 +54,7 @@ fn windows() -> Scene {
     let wall = [5, 20].into_iter().fold(wall, |wall, course| {
         [1.5, 4.0, 6.5].into_iter().fold(wall, |wall, x| {
             let bearing = Some(brick.length);
-            wall.opening(Opening { x, width: 1.0, course, courses: 9, bearing })
+            wall.opening(Opening { x, width: 1.0, course, courses: 9, bearing, lintel: None })
         })
     });
     Scene::new("Wall with six windows", Units::SI)

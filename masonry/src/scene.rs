@@ -59,29 +59,19 @@ pub use self::error::{ContactError, Known, SceneError, SceneErrorKind};
 pub use self::key_path::KeyPath;
 pub use self::load::{Load, LoadError, LoadKind};
 pub use self::materials::{Between, Joint, Material};
-pub use self::opening::{Bond, Opening, OpeningError};
+pub use self::opening::{Bond, Brick, Lintel, Opening, OpeningError};
 pub use self::solver::{Form, RouteSetting, SolverSettings};
 use self::source::Source;
 pub use self::stages::{Movement, Stage};
 pub use self::stress::{Earth, EdgeStress, Pressure};
-pub use self::wall::{Brick, Courses, Wall, WallJoints};
+pub use self::wall::{Courses, Wall, WallJoints};
 pub use crate::data::route::Route;
 pub use crate::material::Plane;
 use crate::units::Units;
 
-strict::tables!(Arch, Between, Block, Brick, Contact, Earth, Joint, LimitLoad, Load, Material);
-strict::tables!(
-    Movement,
-    Opening,
-    Output,
-    Piers,
-    SolverSettings,
-    Stage,
-    Support,
-    Units,
-    Wall,
-    WallJoints
-);
+strict::tables!(Arch, Between, Block, Brick, Contact, Earth, Joint, LimitLoad, Lintel, Load);
+strict::tables!(Material, Movement, Opening, Output, Piers, SolverSettings, Stage, Support);
+strict::tables!(Units, Wall, WallJoints);
 
 /// Name of the class of the joints between blocks whose normal is closer to the vertical.
 pub(crate) const BED: &str = "bed";

@@ -48,6 +48,7 @@ fn wall(random: &mut Random, largest: u32) -> Scene {
             course: random.between(1, courses - 2),
             courses: random.between(1, 3),
             bearing: None,
+            lintel: None,
         });
     }
     let is_elastic = random.between(0, 2) == 0;

@@ -8,7 +8,7 @@ use crate::ids::BlockId;
 use crate::law::JointLaw;
 use crate::material::FilmMaterial;
 use crate::scene::rules::unknown;
-use crate::scene::{self, BED, Fault, HEAD, KeyPath, Scene, SceneErrorKind};
+use crate::scene::{self, BED, Fault, HEAD, KeyPath, Opening, Scene, SceneErrorKind};
 
 /// The classes of all joints.
 pub(super) struct Classes {
@@ -23,8 +23,23 @@ pub(super) struct Classes {
     turns: Vec<f64>,
     of_supports: Vec<usize>,
     of_pairs: Vec<([Members; 2], usize)>,
-    /// The wall or arch of every block that has one.
-    walls: Vec<usize>,
+    /// Classes between the rings of the arches.
+    of_rings: Vec<Option<usize>>,
+    /// Classes of the lintels of the openings of the walls.
+    of_lintels: Vec<Vec<Option<usize>>>,
+    /// The place of every block of a wall or an arch.
+    parts: Vec<Part>,
+}
+
+/// The place of a block in a wall or an arch.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Part {
+    /// The wall, or the arch, counted after the walls.
+    pub(super) wall: usize,
+    /// The ring of a voussoir.
+    pub(super) ring: Option<u32>,
+    /// The opening of a lintel.
+    pub(super) lintel: Option<usize>,
 }
 
 /// The blocks of a name.
@@ -37,7 +52,7 @@ impl Classes {
     pub(super) fn of(
         scene: &Scene,
         blocks: &[PlacedBlock],
-        walls: Vec<usize>,
+        parts: Vec<Part>,
     ) -> Result<Self, Fault> {
         let mut list: Vec<JointClass> =
             scene.joints.iter().map(|(name, joint)| joint_class(scene, name, joint)).collect();
@@ -54,6 +69,13 @@ impl Classes {
         let of_arches = scene.arches.iter().map(|arch| arch.joint.as_deref());
         let of_arches = of_arches.map(|joint| joint.map_or([BED, HEAD], |joint| [joint; 2]));
         let of_walls = of_walls.chain(of_arches).map(|names| names.map(&mut index)).collect();
+        let of_rings = scene.arches.iter().map(|arch| arch.ring_joint.as_deref().map(&mut index));
+        let of_rings = of_rings.collect();
+        let mut of_lintels = Vec::new();
+        for wall in &scene.walls {
+            let classes = wall.openings.iter().map(Opening::lintel_joint);
+            of_lintels.push(classes.map(|class| class.map(&mut index)).collect());
+        }
         let of_supports =
             scene.all_supports().iter().map(|support| index(&support.joint)).collect();
         let mut of_pairs = Vec::new();
@@ -65,7 +87,18 @@ impl Classes {
             of_pairs.push(([first, second], index(&between.joint)));
         }
         let turns = scene.walls.iter().map(|wall| wall.turn_deg.to_radians()).collect();
-        Ok(Self { list, given, usual, of_walls, turns, of_supports, of_pairs, walls })
+        Ok(Self {
+            list,
+            given,
+            usual,
+            of_walls,
+            turns,
+            of_supports,
+            of_pairs,
+            of_rings,
+            of_lintels,
+            parts,
+        })
     }
 
     pub(super) fn list(&self) -> &[JointClass] {
@@ -80,6 +113,9 @@ impl Classes {
         };
         let Body::Block(a) = a else { unreachable!("joints of supports are of their own kind") };
         if let Some(class) = self.of_pair(a, b) {
+            return class;
+        }
+        if let Some(class) = self.of_parts(a, b) {
             return class;
         }
         let wall = self.wall_of(a).filter(|wall| self.wall_of(b) == Some(*wall));
@@ -100,8 +136,20 @@ impl Classes {
         pairs.filter(|(groups, _)| fits(groups)).map(|(_, class)| *class).next()
     }
 
+    /// The class between two rings of an arch, or of a lintel in its wall.
+    fn of_parts(&self, a: BlockId, b: BlockId) -> Option<usize> {
+        let [a, b] = [a, b].map(|block| self.parts.get(block.index()));
+        let (a, b) = a.zip(b).filter(|(a, b)| a.wall == b.wall)?;
+        if let (Some(one), Some(other)) = (a.ring, b.ring) {
+            let arch = a.wall - self.of_lintels.len();
+            return self.of_rings[arch].filter(|_| one != other);
+        }
+        let of_lintel = |part: &Part| self.of_lintels.get(part.wall)?[part.lintel?];
+        of_lintel(a).or_else(|| of_lintel(b))
+    }
+
     fn wall_of(&self, block: BlockId) -> Option<usize> {
-        self.walls.get(block.index()).copied()
+        self.parts.get(block.index()).map(|part| part.wall)
     }
 
     /// The classes of a model with these joints.

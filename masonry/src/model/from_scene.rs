@@ -2,7 +2,7 @@
 
 use nalgebra::Vector2;
 
-use super::classes::Classes;
+use super::classes::{Classes, Part};
 use super::{
     Healed, JointClass, JointPoint, Model, Movement, PlacedBlock, PlacedJoint, PlacedSupport,
     Plane, heal, place_loads, placement,
@@ -10,6 +10,7 @@ use super::{
 use crate::geometry::{self, PolygonError};
 use crate::model::joints::{self, ContactError, JointSearch};
 use crate::model::mesh::BlockMesh;
+use crate::scene::arch::NamedBlock;
 use crate::scene::bond::{self, JointThickness};
 use crate::scene::{self, Fault, KeyPath, Scene, SceneError, SceneErrorKind};
 use crate::units::Units;
@@ -38,14 +39,14 @@ impl Model {
 fn build(scene: &Scene) -> Result<Model, Fault> {
     let units = scene.units;
     let thickness = scene.thickness.unwrap_or(1.0) * units.length_to_si();
-    let Laid { mut blocks, keys, walls } = lay_blocks(scene)?;
+    let Laid { mut blocks, keys, parts } = lay_blocks(scene)?;
     let supports: Vec<PlacedSupport> =
         scene.all_supports().iter().map(|s| support(s, units)).collect();
     let healed = heal_corners(scene, &mut blocks, &keys, &supports)?;
     placement::check_supports(&blocks, &supports, units)?;
     placement::check_movements(scene, &blocks)?;
 
-    let classes = Classes::of(scene, &blocks, walls)?;
+    let classes = Classes::of(scene, &blocks, parts)?;
     let found = find_joints(scene, &blocks, &supports, classes, thickness)?;
     placement::check_touching(&blocks, &keys, &supports, &found.joints)?;
     // Loads have the places that corners had before they were moved.
@@ -110,29 +111,42 @@ struct Laid {
     blocks: Vec<PlacedBlock>,
     /// The key of the scene that describes each.
     keys: Vec<KeyPath>,
-    /// The wall of every brick, and the arch of every voussoir, counted after the walls; single blocks come after all of
-    /// these.
-    walls: Vec<usize>,
+    /// The place of every brick and voussoir; single blocks come after all of these.
+    parts: Vec<Part>,
 }
 
 fn lay_blocks(scene: &Scene) -> Result<Laid, Fault> {
-    let (mut blocks, mut keys, mut walls) = (Vec::new(), Vec::new(), Vec::new());
+    let (mut blocks, mut keys, mut parts) = (Vec::new(), Vec::new(), Vec::new());
+    let counts = |mesh: Option<[u32; 2]>| mesh.map(|counts| counts.map(|n| n as usize));
     for (k, wall) in scene.walls.iter().enumerate() {
         for brick in bond::bricks_in_mortar(wall, JointThickness::of(scene, wall)) {
             let mesh = wall.mesh.map(|whole| brick.mesh(whole));
             let corners = brick.corners().map(|corner| wall.turned(corner));
-            blocks.push(block(scene, brick.name(wall), &wall.material, &corners, mesh));
+            let lintel = brick.lintel.and_then(|opening| wall.openings[opening].lintel.as_ref());
+            let material = lintel.and_then(|it| it.material.as_ref()).unwrap_or(&wall.material);
+            blocks.push(block(scene, brick.name(wall), material, &corners, mesh));
             keys.push(KeyPath::of("walls").item(k).key("courses"));
-            walls.push(k);
+            parts.push(Part { wall: k, ring: None, lintel: brick.lintel });
+        }
+        for (index, opening) in wall.openings.iter().enumerate() {
+            let at = KeyPath::of("walls").item(k).key("openings").item(index).key("lintel");
+            let material = opening.lintel.as_ref().and_then(|it| it.material.as_ref());
+            let voussoirs = bond::voussoirs(wall, opening, &at)?;
+            for (number, corners) in voussoirs.iter().enumerate() {
+                let name = format!("{}/lintel/{}/{}", wall.name, index + 1, number + 1);
+                let material = material.unwrap_or(&wall.material);
+                blocks.push(block(scene, name, material, corners, counts(wall.mesh)));
+                keys.push(at.clone());
+                parts.push(Part { wall: k, ring: None, lintel: Some(index) });
+            }
         }
     }
-    let counts = |mesh: Option<[u32; 2]>| mesh.map(|counts| counts.map(|n| n as usize));
     for (k, arch) in scene.arches.iter().enumerate() {
         let at = KeyPath::of("arches").item(k);
-        for (name, corners) in scene::arch::blocks(arch, &at)? {
+        for NamedBlock { name, corners, ring } in scene::arch::blocks(arch, &at)? {
             blocks.push(block(scene, name, &arch.material, &corners, counts(arch.mesh)));
             keys.push(at.clone());
-            walls.push(scene.walls.len() + k);
+            parts.push(Part { wall: scene.walls.len() + k, ring, lintel: None });
         }
     }
     for (k, it) in scene.blocks.iter().enumerate() {
@@ -141,7 +155,7 @@ fn lay_blocks(scene: &Scene) -> Result<Laid, Fault> {
     }
     check_shapes(&blocks, &keys)?;
     placement::check_names(&blocks, &keys)?;
-    Ok(Laid { blocks, keys, walls })
+    Ok(Laid { blocks, keys, parts })
 }
 
 fn block(

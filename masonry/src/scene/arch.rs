@@ -6,14 +6,15 @@ mod place;
 use serde::{Deserialize, Serialize};
 
 pub(crate) use lines::lines;
-pub(crate) use place::{blocks, supports};
+pub(crate) use place::{NamedBlock, blocks, supports};
 
 use super::setters::setters;
 use super::strict;
 
 /// An arch of voussoirs, from the left springing to the right.
 ///
-/// The voussoirs are called `name/1`, `name/2` and so on, blocks of piers `name/left/1` and `name/right/1` from the bottom, and
+/// The voussoirs are called `name/1`, `name/2` and so on, those of several rings `name/1/1`, with the ring first, from the
+/// intrados; blocks of piers `name/left/1` and `name/right/1` from the bottom, and
 /// the supports below both ends `name/left` and `name/right`.
 ///
 /// ```
@@ -44,8 +45,12 @@ pub struct Arch {
     pub skew_deg: Option<f64>,
     /// Depth of the ring, of a flat arch its height \[length\].
     pub thickness: Option<f64>,
-    /// Number of voussoirs.
+    /// Number of voussoirs, in every ring.
     pub voussoirs: Option<u32>,
+    /// Number of rings, into which the thickness is divided.
+    pub rings: Option<u32>,
+    /// The class of the joints between rings, instead of `joint`.
+    pub ring_joint: Option<String>,
     /// The joints from left to right, each from the intrados to the extrados \[length\], if no shape gives them.
     #[serde(default, deserialize_with = "strict::read")]
     pub lines: Option<Vec<Line>>,
@@ -165,6 +170,10 @@ impl Arch {
         pub fn origin(mut self, origin: [f64; 2]) { self.origin = Some(origin) }
         /// Gives the joints between voussoirs a class, instead of `bed` and `head`.
         pub fn joint(mut self, joint: &str) { self.joint = Some(joint.to_owned()) }
+        /// Divides the thickness into rings.
+        pub fn rings(mut self, rings: u32) { self.rings = Some(rings) }
+        /// Gives the joints between rings a class.
+        pub fn ring_joint(mut self, joint: &str) { self.ring_joint = Some(joint.to_owned()) }
         /// Puts piers below both ends.
         pub fn piers(mut self, piers: Piers) { self.piers = Some(piers) }
         /// Gives every block a mesh, which elastic ones need.
@@ -192,6 +201,8 @@ impl Arch {
             skew_deg: None,
             thickness: Some(thickness),
             voussoirs: Some(voussoirs),
+            rings: None,
+            ring_joint: None,
             lines: None,
             joint: None,
             springing: None,

@@ -5,7 +5,7 @@ mod openings;
 use crate::geometry::SAME_PLACE;
 use crate::scene::{Bond, Courses, Joint, Scene, Wall};
 
-pub(crate) use openings::taken;
+pub(crate) use openings::{taken, voussoirs};
 
 /// Thicknesses \[length\] of the joints between the bricks of a wall; zero for dry joints.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -38,6 +38,10 @@ pub struct PlacedBrick {
     pub high: [f64; 2],
     /// Length in units of one brick \[-\], without mortar.
     pub fraction: f64,
+    /// How much farther it reaches at its bottom than at its top, to the left and to the right \[length\]: beside a flat arch.
+    pub leans: [f64; 2],
+    /// The opening of which it is the lintel, from 0.
+    pub lintel: Option<usize>,
 }
 
 impl PlacedBrick {
@@ -48,8 +52,8 @@ impl PlacedBrick {
 
     /// The corners, counter-clockwise from the lower left \[length\].
     pub fn corners(&self) -> [[f64; 2]; 4] {
-        let ([x0, y0], [x1, y1]) = (self.low, self.high);
-        [[x0, y0], [x1, y0], [x1, y1], [x0, y1]]
+        let ([x0, y0], [x1, y1], [left, right]) = (self.low, self.high, self.leans);
+        [[x0 - left, y0], [x1 + right, y0], [x1, y1], [x0, y1]]
     }
 
     /// The mesh of this brick when a whole one has `mesh`: a cut brick gets its share of the
@@ -145,21 +149,26 @@ type Span = [f64; 2];
 /// The ends of the bricks of a course of a wall `width` bricks wide, from 0 on.
 fn ends(bond: Bond, course: usize, width: f64) -> Vec<f64> {
     let is_even = course.is_multiple_of(2);
-    let (first, step) = match bond {
-        Bond::Running if !is_even => (0.5, 1.0),
-        Bond::English if !is_even => (0.75, 0.5),
-        Bond::Running | Bond::Stack | Bond::English => (1.0, 1.0),
+    // The first end after a closer, if there is one, and the lengths of the bricks from there on, in turn.
+    let (first, lengths) = match bond {
+        Bond::Running if !is_even => (0.5, [1.0, 1.0]),
+        Bond::English if !is_even => (0.75, [0.5, 0.5]),
+        Bond::Flemish if !is_even => (0.75, [1.0, 0.5]),
+        Bond::Flemish => (1.0, [0.5, 1.0]),
+        Bond::Running | Bond::Stack | Bond::English => (1.0, [1.0, 1.0]),
     };
+    let has_closers = matches!(bond, Bond::English | Bond::Flemish) && !is_even;
     let mut ends = vec![0.0];
-    if bond == Bond::English && !is_even && width > 0.5 + SAME_PLACE {
+    if has_closers && width > 0.5 + SAME_PLACE {
         ends.push(0.5);
     }
     // A course of up to 1.5 bricks has no room for two closers.
-    let closed = bond == Bond::English && !is_even && width > 1.5 + SAME_PLACE;
+    let closed = has_closers && width > 1.5 + SAME_PLACE;
     let last = if closed { width - 0.75 } else { width };
-    ends.extend(
-        (0..).map(|k| first + step * f64::from(k)).take_while(|end| *end < last - SAME_PLACE),
-    );
+    let end = |k: u32| {
+        first + f64::from(k / 2) * (lengths[0] + lengths[1]) + f64::from(k % 2) * lengths[0]
+    };
+    ends.extend((0..).map(end).take_while(|end| *end < last - SAME_PLACE));
     if closed {
         ends.extend([last, width - 0.5]);
     }
@@ -195,6 +204,8 @@ fn lay(wall: &Wall, joints: JointThickness, course: usize, stretches: &[Span]) -
         low: [x(*start), y(course)],
         high: [x(*end) - joints.head, y(course + 1) - joints.bed],
         fraction: left_of(end - start, wall, joints),
+        leans: openings::leans(wall, joints, course, [*start, *end]),
+        lintel: openings::lintel_at(wall, joints, course, *start),
     });
     laid.collect()
 }

@@ -128,6 +128,9 @@ impl Scene {
             let Some(class) = class else { continue };
             self.check_class(at.key("joints").key(key), class)?;
         }
+        for (k, opening) in wall.openings.iter().enumerate() {
+            self.check_lintel(at, &at.key("openings").item(k), wall, opening)?;
+        }
         joints::check_room(at, wall, joints)?;
         check_mesh(at, wall.mesh, material)?;
         let elements: f64 = wall.mesh.map_or(1.0, |mesh| mesh.map(f64::from).iter().product());

@@ -1,9 +1,21 @@
-//! Openings in walls, and how bricks are laid.
+//! Bricks, how they are laid, and openings between them.
 
 use serde::{Deserialize, Serialize};
 
 use super::setters::setters;
+use super::strict;
 use crate::rounding::rounded;
+
+/// Size of a whole brick.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub struct Brick {
+    /// Length along the course, without mortar \[length\].
+    pub length: f64,
+    /// Height of the course, without mortar \[length\].
+    pub height: f64,
+}
 
 /// How the bricks of a wall are laid.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
@@ -18,6 +30,9 @@ pub enum Bond {
     /// Courses of whole bricks and courses of half bricks in turn, these with a quarter beside the first and the last: the face
     /// of an English bond, with its stretchers, headers and closers.
     English,
+    /// Whole and half bricks in turn in each course, the half ones above and below the middle of whole ones: the face of a Flemish
+    /// bond. Every second course begins and ends with a half brick and a quarter. Widths of `1.5 n + 1` bricks need no others.
+    Flemish,
 }
 
 /// An opening in a wall, with a lintel above it.
@@ -25,7 +40,7 @@ pub enum Bond {
 /// Bricks are cut at its sides; a piece that would be shorter than a quarter of a brick is laid as one with its neighbour. The
 /// lintel is one block in the course above, a brick as any other for its name, and there is none if the opening
 /// reaches the top of the wall.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Opening {
@@ -40,6 +55,44 @@ pub struct Opening {
     pub courses: u32,
     /// Length on which the lintel rests on either side \[length\], half a brick without it.
     pub bearing: Option<f64>,
+    /// What the lintel is made of.
+    #[serde(default, deserialize_with = "strict::read")]
+    pub lintel: Option<Lintel>,
+}
+
+/// A lintel that is not one more brick of its wall: a block of another material, or a flat arch, for which the neighbouring
+/// bricks are cut to the springings.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub struct Lintel {
+    /// Name of its material, instead of that of the wall.
+    pub material: Option<String>,
+    /// Class of all of its joints, instead of those of the wall.
+    pub joint: Option<String>,
+    /// Voussoirs of a flat arch; without the key the lintel is one block.
+    pub voussoirs: Option<u32>,
+    /// Angle of the springings of a flat arch from the vertical \[degrees\].
+    pub skew_deg: Option<f64>,
+    /// Height of a flat arch in courses, 1 without the key.
+    pub courses: Option<u32>,
+}
+
+/// A flat arch above an opening.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct FlatArch {
+    pub(crate) voussoirs: u32,
+    /// Angle of its springings from the vertical \[degrees\].
+    pub(crate) skew_deg: f64,
+    /// Its height in courses.
+    pub(crate) courses: u32,
+}
+
+impl FlatArch {
+    /// How far its springings lean outwards over so many courses of this height \[length\].
+    pub(crate) fn lean(&self, courses: usize, height: f64) -> f64 {
+        courses as f64 * height * self.skew_deg.to_radians().tan()
+    }
 }
 
 impl Opening {
@@ -52,7 +105,7 @@ impl Opening {
     /// assert_eq!((window.course, window.courses), (4, 4));
     /// ```
     pub fn door(x: f64, width: f64, courses: u32) -> Self {
-        Self { x, width, course: first(), courses, bearing: None }
+        Self { x, width, course: first(), courses, bearing: None, lintel: None }
     }
 
     setters! {
@@ -60,6 +113,29 @@ impl Opening {
         pub fn above(mut self, courses: u32) { self.course = courses.saturating_add(1) }
         /// Gives the length on which the lintel rests on either side \[length\].
         pub fn bearing(mut self, length: f64) { self.bearing = Some(length) }
+        /// Makes the lintel of a material, with joints of a class.
+        pub fn lintel(mut self, material: &str, joint: &str) {
+            let (material, joint) = (Some(material.to_owned()), Some(joint.to_owned()));
+            self.lintel = Some(Lintel { material, joint, ..Lintel::default() });
+        }
+    }
+
+    /// The class of the joints of its lintel.
+    pub(crate) fn lintel_joint(&self) -> Option<&str> {
+        self.lintel.as_ref()?.joint.as_deref()
+    }
+
+    /// The flat arch above it.
+    pub(crate) fn arch(&self) -> Option<FlatArch> {
+        let lintel = self.lintel.as_ref()?;
+        let (voussoirs, skew_deg) = lintel.voussoirs.zip(lintel.skew_deg)?;
+        Some(FlatArch { voussoirs, skew_deg, courses: lintel.courses.unwrap_or(1) })
+    }
+
+    /// The courses that its lintel takes, from 0.
+    pub(crate) fn lintel_rows(&self) -> std::ops::Range<usize> {
+        let first = self.rows().end;
+        first..first.saturating_add(self.arch().map_or(1, |it| it.courses as usize))
     }
 
     /// The courses that it takes, from 0.
@@ -68,9 +144,12 @@ impl Opening {
         first..first.saturating_add(self.courses as usize)
     }
 
-    /// Length on which the lintel rests on either side, in a wall of bricks of this length.
-    pub(crate) fn bearing_on(&self, brick: f64) -> f64 {
-        self.bearing.unwrap_or(0.5 * brick)
+    /// Length of wall that the lintel needs on either side: its bearing, or a quarter of a brick beside a flat arch.
+    pub(crate) fn bearing_on(&self, brick: Brick) -> f64 {
+        match self.arch() {
+            Some(arch) => arch.lean(arch.courses as usize, brick.height) + 0.25 * brick.length,
+            None => self.bearing.unwrap_or(0.5 * brick.length),
+        }
     }
 }
 

@@ -3,7 +3,7 @@
 use nalgebra::{Point2, Rotation2};
 use serde::{Deserialize, Serialize};
 
-use super::{BED, Bond, HEAD, Opening, strict};
+use super::{BED, Bond, Brick, HEAD, Opening, strict};
 
 /// The classes of the joints between the bricks of a wall.
 #[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize)]
@@ -77,17 +77,6 @@ impl Wall {
         (origin + Rotation2::new(self.turn_deg.to_radians()) * (Point2::from(place) - origin))
             .into()
     }
-}
-
-/// Size of a whole brick.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
-pub struct Brick {
-    /// Length along the course, without mortar \[length\].
-    pub length: f64,
-    /// Height of the course, without mortar \[length\].
-    pub height: f64,
 }
 
 /// The courses of a wall: their number in a bond, or a list of bricks.

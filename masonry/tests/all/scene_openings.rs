@@ -11,7 +11,7 @@ fn wall(bricks: f64, courses: u32) -> Wall {
 }
 
 fn opening(x: f64, width: f64, course: u32, courses: u32) -> Opening {
-    Opening { x, width, course, courses, bearing: None }
+    Opening { x, width, course, courses, bearing: None, lintel: None }
 }
 
 /// Lengths of the bricks of a course, in bricks.
@@ -35,6 +35,25 @@ fn stack_bond_has_one_course() {
 }
 
 /// The closers lie beside the corner headers, so that head joints never lie above each other.
+/// Every header lies on the middle of a stretcher: Flemish bond, as the drawings of any textbook on brickwork have it.
+#[test]
+fn flemish_bond_has_headers_on_the_middle_of_stretchers() {
+    let flemish = wall(4.0, 2).bond(Bond::Flemish);
+    assert_lengths(&flemish, 1, &[1.0, 0.5, 1.0, 0.5, 1.0]);
+    assert_lengths(&flemish, 2, &[0.5, 0.25, 1.0, 0.5, 1.0, 0.25, 0.5]);
+    let middles = |course: usize, fraction: f64| -> Vec<f64> {
+        let laid = bricks(&flemish);
+        let of =
+            laid.iter().filter(|it| it.course == course && (it.fraction - fraction).abs() < 1e-9);
+        of.map(|it| 0.5 * (it.low[0] + it.high[0])).collect()
+    };
+    // The headers at the ends stand over the ends of stretchers.
+    assert_eq!(middles(2, 0.5)[1..2], middles(1, 1.0)[1..2]);
+    assert_eq!(middles(1, 0.5), middles(2, 1.0));
+    assert_lengths(&wall(1.0, 2).bond(Bond::Flemish), 2, &[0.5, 0.25, 0.25]);
+    assert_lengths(&wall(2.5, 2).bond(Bond::Flemish), 2, &[0.5, 0.25, 1.0, 0.25, 0.5]);
+}
+
 #[test]
 fn english_bond_has_stretchers_headers_and_closers() {
     let english = wall(3.0, 2).bond(Bond::English);
@@ -42,7 +61,7 @@ fn english_bond_has_stretchers_headers_and_closers() {
     assert_lengths(&english, 2, &[0.5, 0.25, 0.5, 0.5, 0.5, 0.25, 0.5]);
     assert_lengths(&wall(2.5, 2).bond(Bond::English), 2, &[0.5, 0.25, 0.5, 0.5, 0.25, 0.5]);
     assert_lengths(&wall(0.5, 2).bond(Bond::English), 2, &[0.5]);
-    for bond in [Bond::Running, Bond::English] {
+    for bond in [Bond::Running, Bond::English, Bond::Flemish] {
         let laid = bricks(&wall(4.0, 2).bond(bond));
         let ends = |course: usize| {
             let inner =
@@ -72,7 +91,10 @@ fn an_opening_is_cut_and_has_a_lintel() {
             vec![0.5, 1.0, 1.0, 1.0, 0.5],
         ],
     );
-    assert_eq!(bricks(&window), bricks(&list));
+    let places = |wall: &Wall| bricks(wall).iter().map(PlacedBrick::corners).collect::<Vec<_>>();
+    assert_eq!(places(&window), places(&list));
+    let lintels = bricks(&window).iter().filter(|it| it.lintel == Some(0)).count();
+    assert_eq!(lintels, 1);
 }
 
 /// The jambs of a door 0.96 wide at 0.46 cut whole bricks at 0.15 and 0.45, and half ones at 0.65 and 0.95 of their lengths:

@@ -62,10 +62,11 @@ fn scenes() -> Broken {
 /// Bonds and courses.
 fn walls() -> Broken {
     vec![
+        ("a wall that is turned by no number", wall("width = 1.0\ncourses = 2\nturn_deg = inf")),
         ("a wall without a width", wall("courses = 3")),
         ("a wall without courses", wall("width = 2.0\ncourses = 0")),
         ("a wall of negative width", wall("width = -2.0\ncourses = 3")),
-        ("a bond that there is not", wall("width = 2.0\ncourses = 3\nbond = \"flemish\"")),
+        ("a bond that there is not", wall("width = 2.0\ncourses = 3\nbond = \"dutch\"")),
         (
             "a bond of courses that are a list",
             wall("courses = [[1, 1], [0.5, 1, 0.5]]\nbond = \"english\""),
@@ -103,6 +104,36 @@ fn of_openings() -> Broken {
         (
             "a lintel that rests on nothing",
             openings("{ x = 1.0, width = 0.8, courses = 4, bearing = 0.0 }"),
+        ),
+        (
+            "a lintel of an unknown material",
+            openings("{ x = 1.0, width = 0.8, courses = 4, lintel = { material = \"oak\" } }"),
+        ),
+        (
+            "a lintel with joints of an unknown class",
+            openings("{ x = 1.0, width = 0.8, courses = 4, lintel = { joint = \"bearing\" } }"),
+        ),
+        (
+            "a flat arch without a skew",
+            openings("{ x = 1.0, width = 0.8, courses = 4, lintel = { voussoirs = 7 } }"),
+        ),
+        (
+            "a flat arch that leans too far",
+            openings(
+                "{ x = 1.0, width = 0.8, courses = 4, lintel = { voussoirs = 7, skew_deg = -85.0 } }",
+            ),
+        ),
+        (
+            "a flat arch with a bearing",
+            openings(
+                "{ x = 1.0, width = 0.8, courses = 4, bearing = 0.2, lintel = { voussoirs = 7, skew_deg = 9 } }",
+            ),
+        ),
+        (
+            "a flat arch higher than its wall",
+            openings(
+                "{ x = 1.0, width = 0.8, courses = 8, lintel = { voussoirs = 7, skew_deg = 10.0, courses = 3 } }",
+            ),
         ),
         (
             "a lintel that has nothing to rest on at the left end",
@@ -148,6 +179,11 @@ fn arches() -> Broken {
         ),
         ("an arc of no angle", ring("shape = \"segmental\"\nspan = 4.0\nembrace_deg = 0.0")),
         ("an arc that does not rise", ring("shape = \"segmental\"\nspan = 4.0\nrise = 0.0")),
+        ("an arch of no rings", ring("shape = \"segmental\"\nspan = 4.0\nrise = 1.0\nrings = 0")),
+        (
+            "a joint between the rings of one ring",
+            ring("shape = \"segmental\"\nspan = 4.0\nrise = 1.0\nring_joint = \"bed\""),
+        ),
         ("an arch without a span", ring("shape = \"semicircular\"")),
         ("an arch of negative span", ring("shape = \"semicircular\"\nspan = -4.0")),
         (

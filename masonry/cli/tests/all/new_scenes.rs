@@ -183,7 +183,7 @@ fn the_schema_fits_all_scenes() {
         ("origin = [0.0, 0.0]", "origin = [0.0, 0.0, 0.0]"),
         ("title = ", "titel = "),
         ("courses = 16", "courses = \"many\""),
-        ("bond = \"running\"", "bond = \"flemish\""),
+        ("bond = \"running\"", "bond = \"dutch\""),
     ] {
         let wrong = wall.replacen(part, other, 1);
         assert_ne!(&wrong, wall);

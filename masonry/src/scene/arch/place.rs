@@ -7,25 +7,53 @@ use crate::rounding::rounded;
 use crate::scene::rules::{positive, value};
 use crate::scene::{ArchError, Fault, KeyPath, Scene, Support};
 
-/// The name of a block and its corners \[length\].
-type NamedBlock = (String, [[f64; 2]; 4]);
+/// Rings of one arch, at most.
+const MOST_RINGS: u32 = 100;
+
+/// A block of an arch.
+pub(crate) struct NamedBlock {
+    pub(crate) name: String,
+    /// Its corners \[length\].
+    pub(crate) corners: [[f64; 2]; 4],
+    /// The ring of a voussoir, from the intrados; `None` for blocks of piers.
+    pub(crate) ring: Option<u32>,
+}
 
 /// The blocks of an arch with their names, voussoirs from the left first \[length\].
 pub(crate) fn blocks(arch: &Arch, at: &KeyPath) -> Result<Vec<NamedBlock>, Fault> {
     let lines = lines(arch, at)?;
     let mut blocks = Vec::new();
-    for (k, pair) in lines.windows(2).enumerate() {
-        let [[from_in, from_out], [to_in, to_out]] = [pair[0], pair[1]];
-        let corners = [from_in, to_in, to_out, from_out];
-        blocks.push((format!("{}/{}", arch.name, k + 1), corners));
+    let rings = arch.rings.unwrap_or(1);
+    let wanted = "an arch has between 1 and 100 rings";
+    value(at.key("rings"), f64::from(rings), (1..=MOST_RINGS).contains(&rings), wanted)?;
+    for ring in 0..rings {
+        let [inner, outer] = [ring, ring + 1].map(|it| f64::from(it) / f64::from(rings));
+        for (k, pair) in lines.windows(2).enumerate() {
+            let [from, to] = [pair[0], pair[1]];
+            let corners = [on(from, inner), on(to, inner), on(to, outer), on(from, outer)];
+            let name = match arch.rings {
+                Some(_) => format!("{}/{}/{}", arch.name, ring + 1, k + 1),
+                None => format!("{}/{}", arch.name, k + 1),
+            };
+            blocks.push(NamedBlock { name, corners, ring: Some(ring) });
+        }
     }
     let Some(piers) = arch.piers else { return Ok(blocks) };
     for (side, sign, line) in ends(&lines) {
         let pier = pier(&piers, &at.key("piers"), side, sign, line)?;
-        let named = |(k, corners)| (format!("{}/{side}/{}", arch.name, k + 1), corners);
+        let named = |(k, corners)| NamedBlock {
+            name: format!("{}/{side}/{}", arch.name, k + 1),
+            corners,
+            ring: None,
+        };
         blocks.extend(pier.into_iter().enumerate().map(named));
     }
     Ok(blocks)
+}
+
+/// The place at a fraction of a joint, from the intrados; exactly its ends at 0 and 1.
+fn on([[x, y], [to_x, to_y]]: Line, at: f64) -> [f64; 2] {
+    if at >= 1.0 { [to_x, to_y] } else { [x + (to_x - x) * at, y + (to_y - y) * at] }
 }
 
 /// The supports below both ends: along the springings, or below the piers. None without a class.
@@ -60,7 +88,9 @@ impl Scene {
         let of_walls = self.walls.iter().map(|wall| &wall.material);
         let of_arches = self.arches.iter().map(|arch| &arch.material);
         let of_blocks = self.blocks.iter().map(|block| &block.material);
-        of_walls.chain(of_arches).chain(of_blocks).map(String::as_str)
+        let openings = self.walls.iter().flat_map(|wall| &wall.openings);
+        let of_lintels = openings.filter_map(|it| it.lintel.as_ref()?.material.as_ref());
+        of_walls.chain(of_lintels).chain(of_arches).chain(of_blocks).map(String::as_str)
     }
 }
 

@@ -2,12 +2,14 @@
 
 use super::{JointThickness, Span, snap};
 use crate::geometry::SAME_PLACE;
-use crate::scene::{Opening, Wall};
+use crate::scene::opening::FlatArch;
+use crate::scene::{Arch, Courses, Fault, KeyPath, Opening, Wall, arch};
 
 /// Pieces shorter than this part of a brick are laid as one with their neighbours.
 const SHORT: f64 = 0.25;
 
-/// The stretch of a course in the place of an opening or its lintel, in units of one brick and its head joint.
+/// The stretch of a course in the place of an opening or its lintel, in units of one brick and its head joint, and whether
+/// one block fills it. The stretch of a flat arch is that at the top of the course.
 pub(crate) fn taken(
     wall: &Wall,
     joints: JointThickness,
@@ -21,9 +23,14 @@ pub(crate) fn taken(
     if rows.contains(&course) {
         return Some(([unit(from + joints.head), unit(to)], false));
     }
-    let bearing = opening.bearing_on(wall.brick.length);
-    let lintel = [unit(from - bearing), unit(to + bearing + joints.head)];
-    (course == rows.end).then_some((lintel, true))
+    if !opening.lintel_rows().contains(&course) {
+        return None;
+    }
+    let beside = match opening.arch() {
+        Some(arch) => arch.lean(course + 1 - rows.end, wall.brick.height),
+        None => opening.bearing_on(wall.brick),
+    };
+    Some(([unit(from - beside), unit(to + beside + joints.head)], opening.arch().is_none()))
 }
 
 /// A course without its openings, and with its lintels.
@@ -44,6 +51,60 @@ pub(super) fn cut(
     bricks.extend(lintels);
     bricks.sort_by(|a, b| a[0].total_cmp(&b[0]));
     bricks
+}
+
+/// The opening whose lintel begins at a place of a course.
+pub(super) fn lintel_at(
+    wall: &Wall,
+    joints: JointThickness,
+    course: usize,
+    start: f64,
+) -> Option<usize> {
+    wall.openings.iter().position(|opening| {
+        let place = taken(wall, joints, opening, course);
+        place.is_some_and(|([from, _], is_lintel)| is_lintel && touches(from, start))
+    })
+}
+
+/// How much farther a brick reaches at its bottom than at its top, to the left and to the right \[length\]: beside a flat arch.
+pub(super) fn leans(
+    wall: &Wall,
+    joints: JointThickness,
+    course: usize,
+    [start, end]: Span,
+) -> [f64; 2] {
+    let mut leans = [0.0; 2];
+    for opening in &wall.openings {
+        let Some(arch) = opening.arch().filter(|_| opening.lintel_rows().contains(&course)) else {
+            continue;
+        };
+        let Some(([from, to], _)) = taken(wall, joints, opening, course) else { continue };
+        let lean = arch.lean(1, wall.brick.height);
+        leans[0] += if touches(to, start) { lean } else { 0.0 };
+        leans[1] += if touches(from, end) { lean } else { 0.0 };
+    }
+    leans
+}
+
+/// The voussoirs of the flat arch above an opening, from the left: their corners \[length\].
+pub(crate) fn voussoirs(
+    wall: &Wall,
+    opening: &Opening,
+    at: &KeyPath,
+) -> Result<Vec<[[f64; 2]; 4]>, Fault> {
+    let Some(FlatArch { voussoirs, skew_deg, courses }) = opening.arch() else {
+        return Ok(Vec::new());
+    };
+    let first = opening.rows().end;
+    if !matches!(wall.courses, Courses::RunningBond(count) if first < count as usize) {
+        return Ok(Vec::new());
+    }
+    let top = first as f64 * wall.brick.height;
+    let height = f64::from(courses) * wall.brick.height;
+    let arch = Arch::flat("lintel", &wall.material, opening.width, skew_deg, height, voussoirs)
+        .origin([wall.origin[0] + opening.x, wall.origin[1] + top]);
+    let blocks = arch::blocks(&arch, at)?;
+    Ok(blocks.into_iter().map(|it| it.corners.map(|corner| wall.turned(corner))).collect())
 }
 
 /// Bricks cut at a gap; short pieces go to their neighbours.

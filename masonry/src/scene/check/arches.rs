@@ -1,6 +1,6 @@
 //! Checks of arches.
 
-use super::{Check, check_mesh, point, value};
+use super::{Check, check_mesh, point, unwanted, value};
 use crate::scene::{Arch, Fault, Joint, KeyPath, Scene, arch};
 
 impl Scene {
@@ -12,7 +12,20 @@ impl Scene {
             point(&at.key("lines").item(k).item(0), line[0])?;
             point(&at.key("lines").item(k).item(1), line[1])?;
         }
-        for (key, class) in [("joint", &arch.joint), ("springing", &arch.springing)] {
+        let because = "is for an arch of several rings";
+        unwanted(
+            arch.ring_joint.is_some() && arch.rings.unwrap_or(1) < 2,
+            at,
+            "ring_joint",
+            because,
+            ", or add `rings = 2`",
+        )?;
+        let classes = [
+            ("joint", &arch.joint),
+            ("ring_joint", &arch.ring_joint),
+            ("springing", &arch.springing),
+        ];
+        for (key, class) in classes {
             let Some(class) = class else { continue };
             self.check_class(at.key(key), class)?;
             let mortar = self.joints.get(class).map_or(0.0, Joint::mortar_thickness);

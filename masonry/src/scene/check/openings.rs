@@ -1,10 +1,12 @@
 //! Checks of openings.
 
-use super::{Check, MAGNITUDES, at_least_one, not_negative, positive, value};
+use super::{
+    Check, MAGNITUDES, at_least_one, check_mesh, needed, not_negative, positive, unwanted, value,
+};
 use crate::geometry::SAME_PLACE;
 use crate::rounding::rounded;
-use crate::scene::bond::{JointThickness, taken};
-use crate::scene::{Fault, KeyPath, Opening, OpeningError, Wall};
+use crate::scene::bond::{JointThickness, taken, voussoirs};
+use crate::scene::{Fault, Joint, KeyPath, Lintel, Opening, OpeningError, Scene, Wall};
 
 /// How large a wall is.
 #[derive(Clone, Copy)]
@@ -26,8 +28,9 @@ pub(super) fn check(at: &KeyPath, wall: &Wall, joints: JointThickness, size: Wal
                 both.is_some_and(|([a, b], [c, d])| a < d - SAME_PLACE && c < b - SAME_PLACE)
             };
             let lowest = opening.rows().start.max(before.rows().start);
-            let highest = opening.rows().end.min(before.rows().end);
-            if let Some(course) = (lowest..=highest).find(meets) {
+            let highest = opening.lintel_rows().end.min(before.lintel_rows().end);
+            let highest = highest.min(size.courses as usize + 1);
+            if let Some(course) = (lowest..highest).find(meets) {
                 let error = OpeningError::Meets { other, course: course + 1 };
                 return Err(Fault::new(at, error));
             }
@@ -41,7 +44,7 @@ pub(super) fn check(at: &KeyPath, wall: &Wall, joints: JointThickness, size: Wal
 
 fn check_place(at: &KeyPath, wall: &Wall, opening: &Opening, size: WallSize) -> Check {
     let WallSize { width: wide, courses: high } = size;
-    let Opening { x, width, course, courses, bearing } = *opening;
+    let &Opening { x, width, course, courses, bearing, .. } = opening;
     not_negative(at.key("x"), x)?;
     positive(at.key("width"), width)?;
     let room = wide - x;
@@ -61,6 +64,57 @@ fn check_place(at: &KeyPath, wall: &Wall, opening: &Opening, size: WallSize) -> 
     bearing.map_or(Ok(()), |it| value(at.key("bearing"), it, MAGNITUDES.contains(&it), wanted))
 }
 
+impl Scene {
+    /// The lintel of the opening at `at`: its material, joints and shape.
+    pub(super) fn check_lintel(
+        &self,
+        at_wall: &KeyPath,
+        at: &KeyPath,
+        wall: &Wall,
+        opening: &Opening,
+    ) -> Check {
+        let Some(lintel) = &opening.lintel else { return Ok(()) };
+        let because = "is for a lintel of one block: a flat arch rests on its springings";
+        let has_bearing = opening.bearing.is_some() && lintel.voussoirs.is_some();
+        unwanted(has_bearing, at, "bearing", because, "")?;
+        let at = &at.key("lintel");
+        if let Some(material) = &lintel.material {
+            check_mesh(at_wall, wall.mesh, self.material_of(at, material)?)?;
+        }
+        self.check_flat_arch(at, wall, lintel)?;
+        voussoirs(wall, opening, at)?;
+        let Some(class) = &lintel.joint else { return Ok(()) };
+        let at = at.key("joint");
+        self.check_class(at.clone(), class)?;
+        let thickness = self.joints.get(class).map_or(0.0, Joint::mortar_thickness);
+        let JointThickness { bed, head } = JointThickness::of(self, wall);
+        let is_same = [bed, head].iter().all(|it| (it - thickness).abs() <= SAME_PLACE * it);
+        let wanted =
+            "the mortar around a lintel is as thick as that in the beds and heads of its wall";
+        value(at, thickness, is_same, wanted)
+    }
+
+    /// A lintel is one block, or a flat arch of voussoirs with a skew in a dry wall.
+    fn check_flat_arch(&self, at: &KeyPath, wall: &Wall, lintel: &Lintel) -> Check {
+        let Lintel { voussoirs, skew_deg, courses, .. } = *lintel;
+        if voussoirs.is_none() && skew_deg.is_none() && courses.is_none() {
+            return Ok(());
+        }
+        let because = "for a flat arch above an opening";
+        needed(voussoirs, at, "voussoirs", because, "voussoirs = 7")?;
+        needed(skew_deg, at, "skew_deg", because, "skew_deg = 20.0")?;
+        at_least_one(
+            at.key("courses"),
+            courses.unwrap_or(1),
+            "a flat arch is at least one course high",
+        )?;
+        let JointThickness { bed, head } = JointThickness::of(self, wall);
+        let wanted =
+            "the wall around a flat arch has no mortar; build the arch of blocks, or leave it out";
+        value(at.key("voussoirs"), bed.max(head), bed.max(head) <= 0.0, wanted)
+    }
+}
+
 /// The wall on both sides of an opening is as wide as its lintel needs: up to the end, or to another opening.
 fn check_lintel(at: &KeyPath, wall: &Wall, k: usize, size: WallSize) -> Check {
     let WallSize { width: wide, courses: high } = size;
@@ -69,6 +123,10 @@ fn check_lintel(at: &KeyPath, wall: &Wall, k: usize, size: WallSize) -> Check {
     if top >= high as usize {
         return Ok(());
     }
+    let courses = opening.lintel_rows().len() as f64;
+    let wanted = "a flat arch reaches no higher than its wall";
+    let at_courses = at.key("lintel").key("courses");
+    value(at_courses, courses, opening.lintel_rows().end <= high as usize, wanted)?;
     let others = wall.openings.iter().enumerate();
     let others = others.filter(|(other, it)| *other != k && it.rows().contains(&(top - 1)));
     let (mut left, mut right) = (opening.x, wide - opening.x - opening.width);
@@ -79,7 +137,7 @@ fn check_lintel(at: &KeyPath, wall: &Wall, k: usize, size: WallSize) -> Check {
             right = right.min(other.x - opening.x - opening.width);
         }
     }
-    let bearing = opening.bearing_on(wall.brick.length);
+    let bearing = opening.bearing_on(wall.brick);
     for (side, room) in [("left", left), ("right", right)] {
         if bearing > room + SAME_PLACE * wall.brick.length {
             let (bearing, room) = (rounded(bearing), rounded(room.max(0.0)));
