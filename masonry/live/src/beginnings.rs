@@ -14,7 +14,7 @@ pub struct Beginning {
 }
 
 /// All of them.
-pub const BEGINNINGS: [Beginning; 4] = [
+pub const BEGINNINGS: [Beginning; 7] = [
     Beginning {
         name: "wall",
         meaning: "A wall of rigid bricks with a window, pushed to the side",
@@ -34,5 +34,20 @@ pub const BEGINNINGS: [Beginning; 4] = [
         name: "panel",
         meaning: "An elastic panel between rigid walls",
         text: include_str!("../scenes/panel.toml"),
+    },
+    Beginning {
+        name: "facade",
+        meaning: "A facade with floors and a roof that have mass, in an earthquake",
+        text: include_str!("../scenes/facade.toml"),
+    },
+    Beginning {
+        name: "bridge",
+        meaning: "An arch bridge with earth behind its abutments and a lorry on it",
+        text: include_str!("../scenes/bridge.toml"),
+    },
+    Beginning {
+        name: "rubble",
+        meaning: "A dry wall of irregular stones",
+        text: include_str!("../scenes/rubble.toml"),
     },
 ];

@@ -7,7 +7,7 @@ use std::process::{Command, Output};
 use masonry::Scene;
 use serde_json::{Value, json};
 
-const KINDS: [&str; 4] = ["wall", "arch", "panel", "door"];
+const KINDS: [&str; 7] = ["wall", "arch", "panel", "door", "facade", "bridge", "rubble"];
 
 fn masonry(arguments: &[&str]) -> Output {
     Command::new(env!("CARGO_BIN_EXE_masonry")).args(arguments).output().unwrap()

@@ -310,7 +310,10 @@ fn without_a_scene_the_page_begins_with_a_choice() {
     page.wait(SETTLED);
     let names =
         page.run("return Array.from(document.querySelectorAll('#begin option'), it => it.value)");
-    assert_eq!(names, serde_json::json!(["", "wall", "door", "arch", "panel"]));
+    assert_eq!(
+        names,
+        serde_json::json!(["", "wall", "door", "arch", "panel", "facade", "bridge", "rubble"])
+    );
     page.run("window.prompt = () => 'mine.toml'");
     page.click("#save");
     page.wait("document.getElementById('name').textContent === 'mine.toml'");
