@@ -23,7 +23,7 @@ use serde::{Deserialize, Serialize};
 use crate::data::info::Way;
 use crate::data::state::Reaction;
 use crate::model::{Body, Model};
-use crate::scene::{Load, Movement, Route, Scene, Stage};
+use crate::scene::{Movement, Route, Scene, Stage, factor_in};
 
 pub(crate) mod energy;
 pub(crate) mod spread;
@@ -59,7 +59,7 @@ impl Actions {
             actions.gravity = 0.0;
         }
         for (load, factor) in scene.loads.iter().zip(&mut actions.loads) {
-            if named(&|stage| factor_of(stage, load).is_some()) {
+            if named(&|stage| factor_in(&stage.loads, load).is_some()) {
                 *factor = 0.0;
             }
         }
@@ -71,7 +71,7 @@ impl Actions {
         let mut actions = self.clone();
         actions.gravity = stage.gravity.unwrap_or(self.gravity);
         for (load, factor) in scene.loads.iter().zip(&mut actions.loads) {
-            *factor = factor_of(stage, load).unwrap_or(*factor);
+            *factor = factor_in(&stage.loads, load).unwrap_or(*factor);
         }
         for (support, place) in scene.all_supports().iter().zip(&mut actions.movements) {
             let end = stage.moves.get(&support.name);
@@ -89,11 +89,6 @@ impl Actions {
             movements: moves.map(|(from, to)| from.towards(*to, fraction)).collect(),
         }
     }
-}
-
-/// The final factor of a load in a stage; `None` if the stage names neither it nor its group.
-fn factor_of(stage: &Stage, load: &Load) -> Option<f64> {
-    stage.loads.iter().find(|(name, _)| load.is_called(name)).map(|(_, factor)| *factor)
 }
 
 /// One step of the load history.

@@ -20,6 +20,7 @@ pub mod heal;
 pub mod joints;
 pub mod loads;
 pub mod mesh;
+mod place_fills;
 mod place_loads;
 mod placement;
 mod unusual;

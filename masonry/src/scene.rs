@@ -26,12 +26,15 @@ mod block_list;
 pub mod bond;
 mod builder;
 mod check;
+mod combinations;
 mod contact;
 mod courses;
 mod error;
+mod fill;
 pub(crate) mod groups;
 mod json_span;
 mod key_path;
+mod limit;
 mod load;
 mod materials;
 mod opening;
@@ -53,10 +56,14 @@ use serde::{Deserialize, Serialize};
 
 pub use self::arch::{Arch, Line, Piers, Shape};
 pub use self::arch_error::ArchError;
+pub use self::combinations::{Combination, Combined};
 pub use self::contact::{Contact, Films, PointRule};
 pub(crate) use self::error::Fault;
 pub use self::error::{ContactError, Known, SceneError, SceneErrorKind};
+pub use self::fill::{Axle, Fill};
 pub use self::key_path::KeyPath;
+pub use self::limit::{LimitLoad, Seismic, Train};
+pub(crate) use self::load::factor_in;
 pub use self::load::{Load, LoadError, LoadKind};
 pub use self::materials::{Between, Joint, Material};
 pub use self::opening::{Bond, Brick, Lintel, Opening, OpeningError};
@@ -69,9 +76,9 @@ pub use crate::data::route::Route;
 pub use crate::material::Plane;
 use crate::units::Units;
 
-strict::tables!(Arch, Between, Block, Brick, Contact, Earth, Joint, LimitLoad, Lintel, Load);
-strict::tables!(Material, Movement, Opening, Output, Piers, SolverSettings, Stage, Support);
-strict::tables!(Units, Wall, WallJoints);
+strict::tables!(Arch, Axle, Between, Block, Brick, Combination, Contact, Earth, Fill, Joint);
+strict::tables!(LimitLoad, Lintel, Load, Material, Movement, Opening, Output, Piers, Seismic);
+strict::tables!(SolverSettings, Stage, Support, Train, Units, Wall, WallJoints);
 
 /// Name of the class of the joints between blocks whose normal is closer to the vertical.
 pub(crate) const BED: &str = "bed";
@@ -137,8 +144,15 @@ pub struct Scene {
     /// The load history; without stages all loads act at once.
     #[serde(default, skip_serializing_if = "Vec::is_empty", deserialize_with = "strict::read")]
     pub stages: Vec<Stage>,
-    /// Limit loads: which load grows.
-    #[serde(default, deserialize_with = "strict::read", skip_serializing_if = "is_empty")]
+    /// Combinations of loads, in the place of stages: each is solved by itself.
+    #[serde(default, skip_serializing_if = "Vec::is_empty", deserialize_with = "strict::read")]
+    pub combinations: Vec<Combination>,
+    /// Limit loads: which load grows, and the seismic check.
+    #[serde(
+        default,
+        deserialize_with = "strict::read",
+        skip_serializing_if = "LimitLoad::is_empty"
+    )]
     pub limit: LimitLoad,
     /// Contact: positions of contact points, gaps that close, and mortar films.
     #[serde(default, deserialize_with = "strict::read")]
@@ -188,15 +202,6 @@ pub struct Support {
     pub joint: String,
 }
 
-/// Settings of a [limit load](crate::analysis::limit).
-#[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
-pub struct LimitLoad {
-    /// The load, or the group of loads, whose factor grows; without it the only group, or the only one with a factor.
-    pub group: Option<String>,
-}
-
 /// Output.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
@@ -210,8 +215,4 @@ impl Default for Output {
     fn default() -> Self {
         Self { stresses: true }
     }
-}
-
-fn is_empty(limit: &LimitLoad) -> bool {
-    *limit == LimitLoad::default()
 }

@@ -11,9 +11,11 @@ use crate::out_dir::OutDir;
 use crate::page;
 use crate::progress::Progress;
 use masonry::analysis::limit::{
-    Bracket, Directions, Laws, Limit, least_thickness_observed, limit_observed, ranges_observed,
+    Bracket, Directions, Laws, Limit, growing, least_thickness_observed, limit_observed,
+    ranges_observed, train_observed,
 };
-use masonry::scene::Scene;
+use masonry::scene::{Combined, Scene};
+use masonry_report::cases::Cases;
 use masonry_report::{self as report, limit as output};
 
 /// The law of friction of a limit load.
@@ -38,6 +40,7 @@ impl From<Law> for Laws {
 }
 
 #[derive(Debug, Args)]
+#[expect(clippy::struct_excessive_bools, reason = "each is a switch of the command")]
 pub(super) struct LimitArgs {
     /// The scene file (TOML).
     scene: PathBuf,
@@ -56,6 +59,9 @@ pub(super) struct LimitArgs {
     /// Find the least thickness of an arch under the loads of the scene instead.
     #[arg(long, value_name = "ARCH", conflicts_with_all = ["range", "group"])]
     thickness: Option<String>,
+    /// Find the limit load of the train of the scene at all of its positions instead.
+    #[arg(long, conflicts_with_all = ["range", "thickness", "group", "both"])]
+    train: bool,
     /// Directory for the pictures; created if it does not exist.
     #[arg(long, conflicts_with = "range")]
     out: Option<PathBuf>,
@@ -81,21 +87,63 @@ pub(super) fn run(args: &LimitArgs) -> Result<u8, Failure> {
     interrupt::listen();
     let out = out_dir(args)?;
     page::check(args.report.as_deref(), &scene, args.out.as_deref())?;
+    let Search { found, failed } = if args.train {
+        crossing(&scene, args)?
+    } else if scene.combinations.is_empty() {
+        search(&scene, args)?
+    } else {
+        combined(&scene, args)?
+    };
+    let limit = found.limit();
+    let written = match &out {
+        Some(out) => output::write_of(limit, found.cases(), out.path()),
+        None => Ok(Vec::new()),
+    };
+    // What was computed is printed even when a file could not be written.
+    let in_out = written.as_deref().unwrap_or_default();
+    let mut files = in_out.to_vec();
+    let page = || report::page::limit_of(limit, found.cases());
+    let page = page::write(args.report.as_deref(), page, &mut files);
+    let names = names(&files);
+    let text = match (&found, args.json) {
+        (Found::Given(limit), true) => output::json(limit, &names)?,
+        (Found::Both(both), true) => output::json_both(both, &names)?,
+        (Found::Combined(All { lines, .. }) | Found::Crossing(_, lines), true) => {
+            lines.json("limit", &output::json(limit, &names)?)?
+        }
+        (Found::Given(limit), false) => output::table(limit),
+        (Found::Both(both), false) => output::table_both(both),
+        (Found::Combined(All { lines, .. }) | Found::Crossing(_, lines), false) => {
+            lines.head() + &output::table(limit)
+        }
+    };
+    let text = if args.json { text } else { format!("{text}\n{}", listing(&files)) };
+    print(&text)?;
+    out.map_or(Ok(()), |out| out.finish(in_out, found.is_interrupted()))?;
+    written?;
+    page?;
+    if let Some(error) = failed {
+        return Err(error);
+    }
+    Ok(if found.is_solved() { SOLVED } else { NOT_SOLVED })
+}
+
+/// The limit load of a scene, in one direction or in both.
+fn search(scene: &Scene, args: &LimitArgs) -> Result<Search, Failure> {
     let progress = Progress::new();
-    let mut given = limit_observed(&scene, args.law.into(), &mut |at| follow(&progress, at))?;
+    let mut given = limit_observed(scene, args.law.into(), &mut |at| follow(&progress, at))?;
     progress.clear();
     let group = given.group.clone();
-    let has_directions = !scene.is_weight(&group);
     let mut failed = None;
-    let found = if args.both && has_directions {
+    let found = if args.both && !scene.is_weight(&group) {
         let laws = args.law.into();
-        let opposite = Directions::opposite(&given, &scene, laws, &mut |at| follow(&progress, at));
+        let opposite = Directions::opposite(&given, scene, laws, &mut |at| follow(&progress, at));
         progress.clear();
         match opposite {
             Ok(opposite) => Found::Both(Box::new(Directions::of(given, opposite))),
             // The bounds of the given direction are reported all the same.
             Err(error) => {
-                failed = Some(error);
+                failed = Some(format!("the opposite direction has no answer: {error}").into());
                 Found::Given(Box::new(given))
             }
         }
@@ -110,50 +158,99 @@ pub(super) fn run(args: &LimitArgs) -> Result<u8, Failure> {
         }
         Found::Given(Box::new(given))
     };
-    let limit = found.limit();
-    let written = match &out {
-        Some(out) => output::write(limit, out.path()),
-        None => Ok(Vec::new()),
-    };
-    // What was computed is printed even when a file could not be written.
-    let in_out = written.as_deref().unwrap_or_default();
-    let mut files = in_out.to_vec();
-    let page = page::write(args.report.as_deref(), || report::page::limit(limit), &mut files);
-    let text = match (&found, args.json) {
-        (Found::Given(limit), true) => output::json(limit, &names(&files))?,
-        (Found::Both(both), true) => output::json_both(both, &names(&files))?,
-        (Found::Given(limit), false) => format!("{}\n{}", output::table(limit), listing(&files)),
-        (Found::Both(both), false) => format!("{}\n{}", output::table_both(both), listing(&files)),
-    };
-    print(&text)?;
-    out.map_or(Ok(()), |out| out.finish(in_out, found.is_interrupted()))?;
-    written?;
-    page?;
-    if let Some(error) = failed {
-        return Err(format!("the opposite direction has no answer: {error}").into());
+    Ok(Search { found, failed })
+}
+
+/// The limit loads of all combinations in which the group acts. Earthquakes come from both sides in any case, other loads with
+/// `--both`.
+fn combined(scene: &Scene, args: &LimitArgs) -> Result<Search, Failure> {
+    let group = growing(scene)?;
+    let mut scenes = scene.combined();
+    scenes.retain(|it| it.of.acts(&group));
+    if args.both && !scene.is_weight(&group) && !scene.is_earthquake(&group) {
+        let both = |it: Combined<Scene>| {
+            let (name, of) = (format!("{}, opposite", it.name), it.of.reversed(&group));
+            [it, Combined { name, of }]
+        };
+        scenes = scenes.into_iter().flat_map(both).collect();
     }
-    Ok(if found.is_solved() { SOLVED } else { NOT_SOLVED })
+    let progress = Progress::new();
+    let (mut list, mut failed) = (Vec::new(), None);
+    for Combined { name, of } in scenes {
+        let scene = of.limit_group(&group);
+        match limit_observed(&scene, args.law.into(), &mut |at| follow(&progress, at)) {
+            Ok(of) => list.push(Combined { name, of }),
+            Err(error) => {
+                failed = Some(format!("combination \"{name}\" has no answer: {error}").into());
+            }
+        }
+        progress.clear();
+        if list.last().is_some_and(|it| it.of.is_interrupted) {
+            break;
+        }
+    }
+    match (Cases::of_limits(&list), failed) {
+        (Some(lines), failed) => Ok(Search { found: Found::Combined(All { list, lines }), failed }),
+        (None, Some(failed)) => Err(failed),
+        (None, None) => Err(format!(
+            "\"{group}\" acts in no combination: name it in one, or choose another --group"
+        )
+        .into()),
+    }
+}
+
+/// The limit load of a train where it governs.
+fn crossing(scene: &Scene, args: &LimitArgs) -> Result<Search, Failure> {
+    let progress = Progress::new();
+    let crossing = train_observed(scene, args.law.into(), &mut |at| follow(&progress, at))?;
+    progress.clear();
+    let lines = Cases::of_train(&crossing);
+    Ok(Search { found: Found::Crossing(Box::new(crossing.limit), lines), failed: None })
+}
+
+/// What a search has found, and what it could not find beside it.
+struct Search {
+    found: Found,
+    failed: Option<Failure>,
 }
 
 /// What was found.
 enum Found {
     Given(Box<Limit>),
     Both(Box<Directions>),
+    Combined(All),
+    /// A train at the position that governs.
+    Crossing(Box<Limit>, Cases),
+}
+
+/// The limit loads of all combinations.
+struct All {
+    list: Vec<Combined<Limit>>,
+    lines: Cases,
 }
 
 impl Found {
     /// The limit that is shown in pictures.
     fn limit(&self) -> &Limit {
         match self {
-            Self::Given(limit) => limit,
+            Self::Given(limit) | Self::Crossing(limit, _) => limit,
             Self::Both(both) => both.governing(),
+            Self::Combined(all) => &all.list[all.lines.governs()].of,
+        }
+    }
+
+    fn cases(&self) -> Option<&Cases> {
+        match self {
+            Self::Given(_) | Self::Both(_) => None,
+            Self::Combined(All { lines, .. }) | Self::Crossing(_, lines) => Some(lines),
         }
     }
 
     fn all(&self, is_so: impl Fn(&Limit) -> bool) -> bool {
         match self {
-            Self::Given(limit) => is_so(limit),
+            Self::Given(limit) | Self::Crossing(limit, _) => is_so(limit),
             Self::Both(both) => is_so(&both.given) && is_so(&both.opposite),
+            Self::Combined(all) => all.list.iter().all(|it| is_so(&it.of)),
         }
     }
 

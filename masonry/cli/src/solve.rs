@@ -15,7 +15,8 @@ use masonry::Verdict;
 use masonry::analysis::checkpoint::{Checkpoint, CheckpointError};
 use masonry::analysis::outcome::{Frame, Outcome};
 use masonry::analysis::solve::Run;
-use masonry::scene::Scene;
+use masonry::scene::{Combined, Scene};
+use masonry_report::cases::Cases;
 use masonry_report::svg::ReferenceLines;
 use masonry_report::{self as report, Options, json, table};
 
@@ -55,7 +56,12 @@ pub(super) fn run(args: &SolveArgs) -> Result<u8, Failure> {
     let from = args.resume.then_some(CHECKPOINT);
     let mut out = args.out.as_deref().map(|out| OutDir::open(out, "solve", from)).transpose()?;
     page::check(args.report.as_deref(), &scene, args.out.as_deref())?;
-    let Ran { outcome, frames, files: mut in_out, end } = run_steps(&scene, args, out.as_mut())?;
+    let (Ran { outcome, frames, files: mut in_out, end }, lines) = if scene.combinations.is_empty()
+    {
+        (run_steps(&scene, args, out.as_mut())?, None)
+    } else {
+        run_combinations(&scene, args)?
+    };
     let options = Options { reference: ReferenceLines::of(&scene), ..Options::default() };
     let written = match &out {
         Some(out) => report::write_all(&outcome, out.path(), &options),
@@ -64,22 +70,49 @@ pub(super) fn run(args: &SolveArgs) -> Result<u8, Failure> {
     // What was computed is printed even when a file could not be written.
     in_out.extend_from_slice(written.as_deref().unwrap_or_default());
     let mut files = in_out.clone();
-    let page = || report::page::solved(&outcome, &frames, options.reference.as_ref());
+    let (reference, lines) = (options.reference.as_ref(), lines.as_ref());
+    let page = || report::page::solved_of(&outcome, &frames, reference, lines);
     let page = page::write(args.report.as_deref(), page, &mut files);
-    if args.json {
-        print(&json::result(&outcome, &names(&files))?)?;
-    } else {
-        print(&format!("{}\n{}", table::report(&outcome), listing(&files)))?;
-    }
+    let names = names(&files);
+    print(&match (lines, args.json) {
+        (None, true) => json::result(&outcome, &names)?,
+        (Some(lines), true) => lines.json("result", &json::result(&outcome, &names)?)?,
+        (None, false) => format!("{}\n{}", table::report(&outcome), listing(&files)),
+        (Some(lines), false) => {
+            format!("{}{}\n{}", lines.head(), table::report(&outcome), listing(&files))
+        }
+    })?;
     let is_cancelled = outcome.solve.status == Status::Cancelled;
     out.map_or(Ok(()), |out| out.finish(&in_out, is_cancelled))?;
-    if is_cancelled {
+    if is_cancelled && lines.is_none() {
         say_how_to_go_on(args, &outcome);
     }
     written?;
     page?;
     end?;
     Ok(if outcome.judgement.verdict == Verdict::Stands { SOLVED } else { NOT_SOLVED })
+}
+
+/// Solves all combinations, until Ctrl-C; what became of the one that governs, and a line for each.
+fn run_combinations(scene: &Scene, args: &SolveArgs) -> Result<(Ran, Option<Cases>), Failure> {
+    if args.resume {
+        return Err(CheckpointError::OneStep.into());
+    }
+    let mut list: Vec<Combined<Outcome>> = Vec::new();
+    for Combined { name, of } in scene.combined() {
+        let ran = run_steps(&of, args, None);
+        let ran = ran.map_err(|error| format!("combination \"{name}\": {error}"))?;
+        ran.end?;
+        list.push(Combined { name, of: ran.outcome });
+        if list.last().is_some_and(|it| it.of.solve.status == Status::Cancelled) {
+            break;
+        }
+    }
+    let lines = Cases::of_outcomes(&list);
+    let governs = lines.as_ref().map_or(0, Cases::governs);
+    let outcome = list.swap_remove(governs).of;
+    // Without stages there is nothing to go on from, and no step has pictures of its own.
+    Ok((Ran { outcome, frames: Vec::new(), files: Vec::new(), end: Ok(()) }, lines))
 }
 
 /// What became of all steps.

@@ -1,8 +1,9 @@
 //! What analyses have found: plans, limits, ranges, thicknesses, studies.
 
-use masonry::analysis::limit::Directions;
+use masonry::analysis::limit::{CrossingTrain, Directions};
 use masonry::analysis::study::Study;
 use masonry::{Plan, Range, Thickness};
+use masonry_report::cases::Cases;
 use masonry_report::{self as report, page};
 use pyo3::prelude::*;
 
@@ -31,6 +32,14 @@ impl Found {
         let json = report::limit::json_both(both, &[]).map_err(failed)?;
         let page = Some(page::limit(both.governing()));
         Ok(Self { text: report::limit::table_both(both), json, page })
+    }
+
+    pub(crate) fn train(crossing: &CrossingTrain) -> PyResult<Self> {
+        let (limit, cases) = (&crossing.limit, Cases::of_train(crossing));
+        let object = report::limit::json(limit, &[]).map_err(failed)?;
+        let json = cases.json("limit", &object).map_err(failed)?;
+        let text = cases.head() + &report::limit::table(limit);
+        Ok(Self { text, json, page: Some(page::limit_of(limit, Some(&cases))) })
     }
 
     pub(crate) fn range(range: &Range) -> PyResult<Self> {

@@ -6,8 +6,9 @@ use std::path::PathBuf;
 use std::time::Duration;
 
 use lcp::Iteration;
-use masonry::analysis::limit::Directions;
+use masonry::analysis::limit::{Directions, train_observed};
 use masonry::analysis::study::{self, StudyError};
+use masonry::scene::Combined;
 use masonry::{Bracket, Event, Laws, LimitError, Plan};
 use masonry_report::svg;
 use pyo3::exceptions::PyValueError;
@@ -96,16 +97,7 @@ impl PyScene {
         both: bool,
         callback: Option<Py<PyAny>>,
     ) -> PyResult<Found> {
-        let laws = match law {
-            "associative" => Laws::Associative,
-            "path" => Laws::Path,
-            "both" => Laws::Both,
-            other => {
-                return Err(PyValueError::new_err(format!(
-                    "law is {other:?}, but must be one of: associative, path, both"
-                )));
-            }
-        };
+        let laws = laws(law)?;
         let mut scene = self.scene.clone();
         if let Some(group) = group {
             scene = scene.limit_group(group);
@@ -126,6 +118,29 @@ impl PyScene {
         })?;
         watch.finish()?;
         found.map_err(wrong)?
+    }
+
+    /// A scene for every combination, with its name.
+    fn combined(&self) -> Vec<(String, Self)> {
+        let scenes = self.scene.combined().into_iter();
+        scenes.map(|Combined { name, of }| (name, Self { scene: of })).collect()
+    }
+
+    /// The limit load of the train of the scene at all of its positions.
+    #[pyo3(signature = (law, callback = None))]
+    fn train(&self, py: Python<'_>, law: &str, callback: Option<Py<PyAny>>) -> PyResult<Found> {
+        let laws = laws(law)?;
+        let mut watch = Watch::new(callback.as_ref());
+        let found = detached(py, || {
+            let mut asked = 0;
+            let mut ask = |known: Bracket| {
+                asked += 1;
+                watch.ask((asked, known.stands.unwrap_or(f64::NAN)))
+            };
+            train_observed(&self.scene, laws, &mut ask)
+        })?;
+        watch.finish()?;
+        Found::train(&found.map_err(wrong)?)
     }
 
     #[pyo3(signature = (callback = None))]
@@ -178,6 +193,18 @@ impl PyScene {
             other => PyValueError::new_err(other.to_string()),
         })?;
         Ok(Studied { study })
+    }
+}
+
+/// The laws of a name.
+fn laws(law: &str) -> PyResult<Laws> {
+    match law {
+        "associative" => Ok(Laws::Associative),
+        "path" => Ok(Laws::Path),
+        "both" => Ok(Laws::Both),
+        other => Err(PyValueError::new_err(format!(
+            "law is {other:?}, but must be one of: associative, path, both"
+        ))),
     }
 }
 

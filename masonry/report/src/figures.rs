@@ -6,6 +6,7 @@
 
 pub(super) mod history;
 pub(super) mod limit;
+pub(super) mod seismic;
 pub(super) mod solved;
 mod table;
 pub(super) mod tables;

@@ -3,6 +3,7 @@
 //! Every result is in the units of the scene, named in titles, columns and legends. The functions
 //! of the modules return the contents of files; [`write_all`] writes them.
 
+pub mod cases;
 pub mod csv;
 mod figures;
 mod format;
@@ -71,7 +72,7 @@ impl Default for Options {
 }
 
 /// Names of all files that reports and runs write into a directory.
-pub const FILES: [&str; 20] = [
+pub const FILES: [&str; 21] = [
     "accuracy.svg",
     "checkpoint.json",
     "contacts.csv",
@@ -92,6 +93,7 @@ pub const FILES: [&str; 20] = [
     "scene.svg",
     "study.csv",
     "study.json",
+    "train.svg",
 ];
 
 /// Why files could not be written.

@@ -10,6 +10,7 @@ use nalgebra::Vector2;
 pub use json::{json, json_both, range_json, thickness_json};
 pub use table::{range_table, table, table_both, thickness_table};
 
+use super::cases::Cases;
 use super::svg::pictures::Pictures;
 use super::svg::{self, Collapse, Growth};
 use super::{OutputError, files, write_files};
@@ -23,7 +24,21 @@ use masonry::model::Model;
 /// # Errors
 /// [`OutputError`] for a directory that cannot be made, and for files that cannot be written.
 pub fn write(limit: &Limit, dir: &Folder) -> Result<Vec<PathBuf>, OutputError> {
-    let list = files(pictures(limit, false)).collect();
+    write_of(limit, None, dir)
+}
+
+/// The same, and `train.svg` if the limit is that of the position of a train.
+///
+/// # Errors
+/// As [`write()`].
+pub fn write_of(
+    limit: &Limit,
+    cases: Option<&Cases>,
+    dir: &Folder,
+) -> Result<Vec<PathBuf>, OutputError> {
+    let mut list = pictures(limit, false);
+    list.extend(cases.and_then(Cases::curve).map(|it| Pictures::one("train.svg", it.to_owned())));
+    let list = files(list).collect();
     write_files(dir, list, Some("limit.json"), |names| json(limit, names))
 }
 

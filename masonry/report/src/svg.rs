@@ -32,6 +32,7 @@ pub(super) use canvas::escape as escaped;
 pub use cracks::cracks;
 pub use deformed::deformed;
 pub use forces::forces;
+pub(super) use history::train;
 pub use history::{history, path};
 pub use mechanism::mechanism;
 pub(super) use mechanism::{Collapse, collapse};

@@ -3,7 +3,7 @@
 //! Loads that are not of the group act in full, and the stages of the scene are not looked at. There are two laws of
 //! friction. With associated flow blocks are rigid, which changes no limit load, and gaps are taken for closed; the answer is
 //! proved, and an upper bound for Coulomb's friction. With Coulomb's friction a path of states at rest is followed
-//! ([`Path`]), on blocks and gaps as they are.
+//! ([`Path`]), on blocks and gaps as they are. A group of accelerations has a [seismic check](SeismicCheck).
 //!
 //! ```
 //! use masonry::analysis::limit::{Answer, limit};
@@ -32,8 +32,10 @@ mod directions;
 mod error;
 mod path;
 mod range;
+mod seismic;
 mod sentence;
 mod thickness;
+mod train;
 mod watch;
 
 use serde::{Deserialize, Serialize};
@@ -45,7 +47,9 @@ pub use directions::{Directions, Governs};
 pub use error::LimitError;
 pub use path::{Change, JointEvent, Path, Stand};
 pub use range::{Extremes, Range, ranges, ranges_observed};
+pub use seismic::SeismicCheck;
 pub use thickness::{Thickness, least_thickness, least_thickness_observed};
+pub use train::{CrossingTrain, TrainPosition, train, train_observed};
 pub use watch::{Bracket, LimitObserver};
 
 use crate::analysis::clock::Clock;
@@ -89,6 +93,8 @@ pub struct Limit {
     pub associative: Option<Associative>,
     /// The limit load of Coulomb's friction along a path, if it was chosen.
     pub path: Option<Path>,
+    /// The seismic check, if accelerations grow and the limit and its mechanism are known.
+    pub seismic: Option<SeismicCheck>,
     /// Whether what grows is the weight, of which it is proved that forces within friction carry no part.
     pub falls_by_weight: bool,
     /// The answer in the words of an engineer.
@@ -158,7 +164,8 @@ pub fn limit_observed<'a>(
     let mut watch = Watch::new(observer);
     let mut clock = Clock::default();
     let began = Instant::now();
-    let group = group(scene)?;
+    scene.check_single()?;
+    let group = growing(scene)?;
     let given = Model::from_scene(scene)?;
     // Both laws solve sparse problems, whatever the route of the scene.
     Plan::of(&scene.clone().route(Route::Interior), &given).fits()?;
@@ -187,6 +194,9 @@ pub fn limit_observed<'a>(
     let carried = associative.load_factor.unwrap_or(1.0);
     let falls_by_weight = weight && associative.carries_nothing();
     let associative = (laws != Laws::Path).then_some(associative);
+    let (by_flow, by_path) = (associative.as_ref(), path.as_ref());
+    let seismic = seismic::of(scene, &group, &structure, by_flow, by_path);
+    warnings.extend(seismic::warning(scene, &group));
     let sentence = if falls_by_weight {
         "The structure falls by its own weight: forces within friction carry no part of it (proved)."
             .to_owned()
@@ -197,6 +207,7 @@ pub fn limit_observed<'a>(
     };
     Ok(Limit {
         title: scene.title.clone(),
+        seismic,
         falls_by_weight,
         sentence,
         warnings,
@@ -210,7 +221,10 @@ pub fn limit_observed<'a>(
 }
 
 /// The group that grows: that which the scene names, else its only one, else the only one with a factor.
-fn group(scene: &Scene) -> Result<String, LimitError> {
+///
+/// # Errors
+/// [`LimitError`] when the scene is wrong, or has several such groups.
+pub fn growing(scene: &Scene) -> Result<String, LimitError> {
     scene.check()?;
     if let Some(group) = &scene.limit.group {
         return Ok(group.clone());

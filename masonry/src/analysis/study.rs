@@ -272,6 +272,7 @@ pub fn study<'a>(
     observer: &'a mut StudyObserver<'a>,
 ) -> Result<Study, StudyError> {
     settings.validate()?;
+    scene.check_single()?;
     let model = Model::from_scene(scene)?;
     let is_elastic = model.blocks.iter().any(|block| block.elasticity.is_some());
     let factors: &[u32] = if is_elastic { &settings.meshes } else { &[1] };

@@ -6,7 +6,8 @@ use std::collections::BTreeMap;
 
 use nalgebra::{Point2, Vector2};
 
-use self::edges::{OnEdges, joined_parts};
+use self::edges::{EdgePart, OnEdges, free_parts, joined_parts};
+use super::place_fills::{self, PlacedAxle, Share, Top};
 use super::{Acceleration, JointPoint, LoadCase, PlacedBlock, PlacedJoint, PointLoad};
 use crate::geometry::{self, SAME_PLACE};
 use crate::ids::LoadId;
@@ -27,6 +28,8 @@ pub(super) fn place(
     moved: f64,
 ) -> Result<(Vec<LoadCase>, Vec<Acceleration>), Fault> {
     let joined = joined_parts(blocks, joints, contacts);
+    let unit = scene.units.length_to_si();
+    let thickness = scene.thickness.unwrap_or(1.0) * unit;
     let places: BTreeMap<String, usize> =
         blocks.iter().enumerate().map(|(k, block)| (block.name.clone(), k)).collect();
     let (mut loads, mut accelerations) = (Vec::new(), Vec::new());
@@ -64,6 +67,24 @@ pub(super) fn place(
                 let value = Vector2::from(value) * load.factor;
                 accelerations.push(Acceleration { value, load: id });
             }
+            Some(LoadKind::Fill(fill)) => {
+                let tops = tops(blocks, &fill.over, &joined);
+                let columns = place_fills::columns(&tops, fill.level * unit);
+                if columns.is_empty() {
+                    return Err(Fault::new(at, SceneErrorKind::IdleLoad(load.name.clone())));
+                }
+                let gamma = fill.gamma * scene.units.stress_to_si() / unit;
+                press(blocks, &columns, gamma * thickness * load.factor, id);
+            }
+            // An axle may be off the bridge.
+            Some(LoadKind::Axle(axle)) => {
+                let tops = tops(blocks, &axle.over, &joined);
+                let slope = axle.angle_deg.to_radians().tan();
+                let level = axle.level.map(|level| level * unit);
+                let placed = PlacedAxle { x: axle.x * unit, level, slope };
+                let force = axle.force * scene.units.force_to_si() * load.factor;
+                press(blocks, &placed.shares(&tops), force, id);
+            }
             // A load of no kind was refused before.
             None => {}
         }
@@ -74,6 +95,19 @@ pub(super) fn place(
     }
     accelerate(scene, blocks, &loads, &accelerations)?;
     Ok((loads, accelerations))
+}
+
+/// The free edges of a body that face upwards.
+fn tops(blocks: &[PlacedBlock], over: &str, joined: &[Vec<Vec<EdgePart>>]) -> Vec<Top> {
+    place_fills::tops(blocks, over, |block, edge| free_parts([0.0, 1.0], &joined[block][edge]))
+}
+
+/// Lets shares of a force press down, `force` for a share of one.
+fn press(blocks: &mut [PlacedBlock], shares: &[Share], force: f64, load: LoadId) {
+    for Share { block, at, size } in shares {
+        let force = Vector2::new(0.0, -force * size);
+        blocks[*block].loads.push(PointLoad { at: *at, force, moment: 0.0, load }.into());
+    }
 }
 
 /// Lets accelerations act on the masses whose weights are loads, at the places of these loads.

@@ -4,7 +4,7 @@ use std::ops::RangeInclusive;
 
 use nalgebra::Vector2;
 
-use super::{Acceleration, Healed, LoadCase, Model};
+use super::{Acceleration, BlockLoad, Healed, LoadCase, Model};
 use crate::geometry::Extent;
 
 /// Elastic moduli of stone, brick, and mortar from fresh to hard \[Pa\].
@@ -28,6 +28,7 @@ impl Model {
             self.weights(),
             self.totals(),
             self.massless(),
+            self.idle(),
             self.moved_corners(),
         ];
         lists.concat()
@@ -73,6 +74,19 @@ impl Model {
             )
         };
         self.loads.iter().enumerate().filter(is_massless).map(sentence).collect()
+    }
+
+    /// Axles that stand on nothing.
+    fn idle(&self) -> Vec<String> {
+        let mut acts = vec![false; self.loads.len()];
+        let on_blocks = self.blocks.iter().flat_map(|block| &block.loads).map(BlockLoad::load);
+        let ids = on_blocks.chain(self.accelerations.iter().map(|it| it.load));
+        ids.for_each(|id| acts[id.index()] = true);
+        let idle = self.loads.iter().zip(acts).filter(|(_, acts)| !acts);
+        idle.map(|(load, _)| {
+            format!("Axle \"{}\" is beside what carries it, and acts on nothing.", load.name)
+        })
+        .collect()
     }
 
     fn elasticities(&self) -> Vec<String> {

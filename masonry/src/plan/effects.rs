@@ -251,8 +251,15 @@ impl Called<'_> {
     }
 
     fn point_loads(&self) -> Effect {
-        let is_kind =
-            |kind: LoadKind<'_>| matches!(kind, LoadKind::Force { .. } | LoadKind::Moment { .. });
+        let is_kind = |kind: LoadKind<'_>| {
+            matches!(
+                kind,
+                LoadKind::Force { .. }
+                    | LoadKind::Moment { .. }
+                    | LoadKind::Fill(_)
+                    | LoadKind::Axle(_)
+            )
+        };
         self.loads(
             "point loads",
             is_kind,

@@ -5,9 +5,9 @@ use std::collections::BTreeMap;
 use super::setters::setters;
 use super::source::Source;
 use super::{
-    Arch, Between, Block, Bond, Brick, Contact, Courses, Films, Form, Joint, LimitLoad, Load,
-    Material, Opening, Output, Plane, PointRule, RouteSetting, Scene, SolverSettings, Stage,
-    Support, Wall, WallJoints,
+    Arch, Between, Block, Bond, Brick, Combination, Contact, Courses, Films, Form, Joint,
+    LimitLoad, Load, Material, Opening, Output, Plane, PointRule, RouteSetting, Scene, Seismic,
+    SolverSettings, Stage, Support, Train, Wall, WallJoints,
 };
 use crate::units::Units;
 
@@ -37,6 +37,7 @@ impl Scene {
             supports: Vec::new(),
             loads: Vec::new(),
             stages: Vec::new(),
+            combinations: Vec::new(),
             limit: LimitLoad::default(),
             contact: Contact::default(),
             solver: SolverSettings::default(),
@@ -77,8 +78,16 @@ impl Scene {
         pub fn load(mut self, load: Load) { self.loads.push(load) }
         /// Adds a stage to the load history.
         pub fn stage(mut self, stage: Stage) { self.stages.push(stage) }
+        /// Adds a combination of loads.
+        pub fn combination(mut self, combination: Combination) {
+            self.combinations.push(combination);
+        }
         /// Names the load or group of loads that grows to its limit.
         pub fn limit_group(mut self, name: &str) { self.limit.group = Some(name.to_owned()) }
+        /// Sets the data of the seismic check of a limit load.
+        pub fn seismic(mut self, seismic: Seismic) { self.limit.seismic = Some(seismic) }
+        /// Sets the train whose limit load is found at every position.
+        pub fn train(mut self, train: Train) { self.limit.train = Some(train) }
         /// Sets the places on a joint at which the contact law is enforced.
         pub fn contact_points(mut self, points: PointRule) { self.contact.points = points }
         /// Sets which terms of mortar films are kept.

@@ -17,6 +17,7 @@ use crate::scene::bond::JointThickness;
 
 mod arches;
 mod joints;
+mod limit;
 mod loads;
 mod openings;
 mod stages;
@@ -69,6 +70,12 @@ impl Scene {
         each("loads", &self.loads, |at, load| self.check_load(at, load))?;
         unique("stage", "stages", self.stages.iter().map(|stage| &stage.name))?;
         each("stages", &self.stages, |at, stage| self.check_stage(at, stage))?;
+        let is_both = !self.stages.is_empty() && !self.combinations.is_empty();
+        let because = "and `stages` exclude one another: a load history is one set of loads";
+        let otherwise = ", or remove `stages`";
+        unwanted(is_both, &KeyPath::default(), "combinations", because, otherwise)?;
+        unique("combination", "combinations", self.combinations.iter().map(|it| &it.name))?;
+        each("combinations", &self.combinations, |at, it| self.check_combination(at, it))?;
         self.check_limit()?;
         self.check_options()
     }

@@ -20,6 +20,12 @@ impl Scene {
         self.loads.iter().any(|load| load.is_called(group) && load.is_earthquake())
     }
 
+    /// Whether a load or a group has a factor other than zero; the weight always acts.
+    pub fn acts(&self, name: &str) -> bool {
+        let acts = |load: &Load| load.is_called(name) && load.factor != 0.0;
+        self.is_weight(name) || self.loads.iter().any(acts)
+    }
+
     /// The scene with the loads of a name or group in the opposite direction.
     #[must_use]
     pub fn reversed(&self, group: &str) -> Self {

@@ -1,7 +1,10 @@
 //! Loads on edges, at places in blocks and on all mass, and their errors.
 
+use std::collections::BTreeMap;
+
 use serde::{Deserialize, Serialize};
 
+use super::fill::{Axle, Fill};
 use super::setters::setters;
 use super::stress::{Earth, EdgeStress, Pressure};
 use super::strict;
@@ -57,6 +60,12 @@ pub struct Load {
     /// An acceleration that acts on mass like gravity \[m/s^2\]: to the right, it pushes to the right.
     #[serde(default, deserialize_with = "strict::read")]
     pub acceleration: Option<[f64; 2]>,
+    /// Fill over an arch.
+    #[serde(default, deserialize_with = "strict::read")]
+    pub fill: Option<Fill>,
+    /// An axle on a fill or on blocks.
+    #[serde(default, deserialize_with = "strict::read")]
+    pub axle: Option<Axle>,
     /// The part of a load on edges or at a place, from 0 to 1, that is the weight of a mass, such as that of a roof: accelerations
     /// act on this mass at the place of the load. `true` is 1 and `false` 0. The mass is that of the component
     /// along gravity, times the factor of the load; factors of stages and limit loads do not change it.
@@ -111,6 +120,10 @@ pub enum LoadKind<'a> {
     },
     /// An acceleration of all mass \[m/s^2\]: `acceleration`.
     Acceleration([f64; 2]),
+    /// Fill over an arch: `fill`.
+    Fill(&'a Fill),
+    /// An axle: `axle`.
+    Axle(&'a Axle),
 }
 
 impl Load {
@@ -154,6 +167,17 @@ impl Load {
     /// An acceleration \[m/s^2\] that acts on all mass like gravity.
     pub fn acceleration(name: &str, acceleration: [f64; 2]) -> Self {
         Self { acceleration: Some(acceleration), ..Self::named(name) }
+    }
+
+    /// Fill over an arch, a wall or a block, up to a level \[length\], of a weight \[force/length^3\].
+    pub fn fill(name: &str, over: &str, level: f64, gamma: f64) -> Self {
+        let fill = Some(Fill { over: over.to_owned(), level, gamma });
+        Self { fill, ..Self::named(name) }
+    }
+
+    /// An axle on a fill or on blocks.
+    pub fn axle(name: &str, axle: Axle) -> Self {
+        Self { axle: Some(axle), ..Self::named(name) }
     }
 
     setters! {
@@ -209,6 +233,8 @@ impl Load {
                 }
             }
             Acts::OnMass => LoadKind::Acceleration(self.acceleration?),
+            Acts::AsFill => LoadKind::Fill(self.fill.as_ref()?),
+            Acts::AsAxle => LoadKind::Axle(self.axle.as_ref()?),
         })
     }
 
@@ -226,6 +252,8 @@ impl Load {
             (Acts::AtPlace, "force", self.force.is_some()),
             (Acts::AtPlace, "moment", self.moment.is_some()),
             (Acts::OnMass, "acceleration", self.acceleration.is_some()),
+            (Acts::AsFill, "fill", self.fill.is_some()),
+            (Acts::AsAxle, "axle", self.axle.is_some()),
         ];
         let mut kinds: Vec<_> = keys
             .into_iter()
@@ -252,6 +280,8 @@ impl Load {
             force: None,
             moment: None,
             acceleration: None,
+            fill: None,
+            axle: None,
             mass: None,
         }
     }
@@ -263,6 +293,8 @@ pub(super) enum Acts {
     OnEdges,
     AtPlace,
     OnMass,
+    AsFill,
+    AsAxle,
 }
 
 impl Acts {
@@ -272,6 +304,8 @@ impl Acts {
             Self::OnEdges => "on edges",
             Self::AtPlace => "at a place of a block",
             Self::OnMass => "on all mass",
+            Self::AsFill => "of fill",
+            Self::AsAxle => "of an axle",
         }
     }
 }
@@ -283,7 +317,8 @@ pub enum LoadError {
     /// The load of this name is of no kind.
     #[error(
         "load \"{0}\" has no keys of any kind of load: add `from`, `to` and `pressure`, `traction` or `earth` (on \
-         edges), or `block`, `at` and `force` or `moment` (at a place of a block), or `acceleration` (on all mass)"
+         edges), or `block`, `at` and `force` or `moment` (at a place of a block), or `acceleration` (on all mass), \
+         or `fill`, or `axle`"
     )]
     NoKind(String),
     /// A segment without a force per area.
@@ -400,7 +435,12 @@ fn listed(names: &[String]) -> String {
     names.join(", ")
 }
 
-fn one() -> f64 {
+/// The factor of a load by its name or that of its group; `None` if neither is named.
+pub(crate) fn factor_in(factors: &BTreeMap<String, f64>, load: &Load) -> Option<f64> {
+    factors.iter().find(|(name, _)| load.is_called(name)).map(|(_, factor)| *factor)
+}
+
+pub(super) fn one() -> f64 {
     1.0
 }
 
@@ -410,7 +450,7 @@ fn is_false(it: &bool) -> bool {
 }
 
 #[expect(clippy::trivially_copy_pass_by_ref, reason = "the signature that serde asks for")]
-fn is_one(factor: &f64) -> bool {
+pub(super) fn is_one(factor: &f64) -> bool {
     // The bits: what differs in any of them is written.
     factor.to_bits() == 1_f64.to_bits()
 }

@@ -1,4 +1,6 @@
 //! Mistakes in scenes: each is found, shown at its line and column, and told how to mend.
+mod combinations;
+mod limit;
 mod loads;
 mod mortar;
 mod places;

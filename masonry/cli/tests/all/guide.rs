@@ -12,13 +12,15 @@ use std::process::Command;
 const GUIDE: &str = include_str!("../../../../docs/guide.md");
 
 /// The pictures of the guide, and the files of its commands from which they come.
-const PICTURES: [(&str, &str); 6] = [
+const PICTURES: [(&str, &str); 8] = [
     ("guide_stresses.svg", "wall/principal_stresses.svg"),
     ("guide_forces.svg", "door/forces.svg"),
     ("guide_settlement.svg", "settlement/deformed.svg"),
     ("guide_arch.svg", "arch/forces.svg"),
     ("guide_gate.svg", "gate/forces.svg"),
     ("guide_mechanism.svg", "limit/path_mechanism.svg"),
+    ("guide_train.svg", "bridge/train.svg"),
+    ("guide_bridge.svg", "bridge/path_mechanism.svg"),
 ];
 
 /// Pages with larger pictures are slow to open.

@@ -9,6 +9,7 @@ mod block_list;
 mod broken_scenes;
 mod cli;
 mod cli_runs;
+mod combinations;
 mod guide;
 mod import_command;
 mod limit;

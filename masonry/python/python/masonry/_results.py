@@ -196,7 +196,7 @@ class Limit:
     Attributes
     ----------
     details : dict
-        Everything that ``limit.json`` has: factors and proofs by both laws, reactions, thicknesses.
+        Everything that ``limit.json`` has: factors and proofs by both laws, reactions, the seismic check, thicknesses.
     """
 
     def __init__(self, native: _native.Found) -> None:

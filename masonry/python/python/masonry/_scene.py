@@ -192,6 +192,33 @@ class Scene:
             told = _told(callback, shown, "stands at")
             return Limit(self._checked().limit(group, law, both, told))
 
+    def combined(self) -> dict[str, Scene]:
+        """Give a scene for every combination of loads, by name; earthquakes come from both sides.
+
+        Other methods take one set of loads, and refuse a scene with combinations.
+        """
+        return {name: Scene._of(native) for name, native in self._checked().combined()}
+
+    def train(
+        self, *, law: str = "both", callback: Callback | None = None, progress: bool = False
+    ) -> Limit:
+        """Find the limit load of the train of the scene at all of its positions.
+
+        Its ``details`` have ``positions``, the one that ``governs``, and the ``limit`` there.
+
+        Parameters
+        ----------
+        law : str
+            The law at the position that governs, as of :meth:`limit`; positions are compared by associative flow.
+        callback : callable, optional
+            As of :meth:`limit`.
+        progress : bool
+            Show a bar, as :meth:`solve` does.
+        """
+        with bar(progress, "train") as shown:
+            told = _told(callback, shown, "stands at")
+            return Limit(self._checked().train(law, told))
+
     def ranges(self, *, callback: Callback | None = None, progress: bool = False) -> Limit:
         """Find the least and the largest reactions that forces within friction allow.
 

@@ -20,7 +20,9 @@ type Written = Result<Value, serde_json::Error>;
 /// corners of every block, the largest component one. If a single block or a tenth of them at most move in the mechanism, `rest` has the
 /// `load_factor` and the `bound` of the other blocks while the moving ones are held. `path` has the `load_factor` up to which blocks rest, the factor at which
 /// it `falls`, whether that is `decided`, the `last_stable` state, the `mechanism` after it, the `events` on the way and the
-/// `curve`. Unknown values are null, and so is a law of friction that was not chosen. `units` names the units.
+/// `curve`. `seismic` has the check of a group of accelerations: the `law` of factor and mechanism, `alpha_0`, the `weight` that
+/// moves, `mass` M* in kg, `fraction` e*, `FC`, `a_0` in m/s^2, the data of the site, the `demand` and whether it is `satisfied`.
+/// Unknown values are null, and so is a law of friction that was not chosen. `units` names the units.
 ///
 /// # Errors
 /// None that this data can cause; the signature is that of the serialiser.
@@ -48,6 +50,8 @@ pub fn json_both(both: &Directions, files: &[String]) -> Result<String, serde_js
 fn report(limit: &Limit, files: &[String]) -> Written {
     let model = &limit.model;
     let found = limit.associative.as_ref().map(|found| associative(found, model)).transpose()?;
+    let units = InUnits(model.units);
+    let seismic = limit.seismic.as_ref().map(|it| figures::seismic::seismic(it, units));
     Ok(Value::Object(members! {
         "sentence": &limit.sentence,
         "warnings": limit.warnings.as_slice(),
@@ -57,6 +61,7 @@ fn report(limit: &Limit, files: &[String]) -> Written {
         "units": names_of_units(model),
         "associative": found,
         "path": limit.path.as_ref().map(path).transpose()?,
+        "seismic": seismic.map(in_json),
         "time_s": times(&limit.times),
         "files": files,
     }))
@@ -117,6 +122,8 @@ fn names_of_units(model: &Model) -> Value {
         "length": units.length_name(),
         "force": units.force_name(),
         "moment": units.energy_name(),
+        "mass": "kg",
+        "a_0": "m/s2",
         "time_s": "s",
     })
 }

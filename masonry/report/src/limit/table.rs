@@ -10,7 +10,7 @@ use masonry::data::state::Reaction;
 /// So many events are printed; all are in the JSON object.
 const EVENTS: usize = 20;
 
-/// The report: the sentence, what was found by each law, and the times.
+/// The report: the sentence, what was found by each law, the seismic check, and the times.
 pub fn table(limit: &Limit) -> String {
     let mut text = heads(&limit.sentence, &limit.warnings);
     let units = InUnits(limit.model.units);
@@ -30,6 +30,10 @@ pub fn table(limit: &Limit) -> String {
         text += &pairs(&on_text(&figures::limit::path(path)));
         text += &of_reactions("Reactions in the last state at rest", &path.reactions, units);
         text += &of_events(path);
+    }
+    if let Some(check) = &limit.seismic {
+        text += &section("Seismic check, linear kinematic analysis (Circolare 7/2019, C8.7.1.2.1)");
+        text += &pairs(&on_text(&figures::seismic::seismic(check, units)));
     }
     text += &section("Times");
     let millis = |seconds: f64| format!("{} ms", significant(1e3 * seconds, 4));

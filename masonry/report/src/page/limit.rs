@@ -2,15 +2,25 @@
 
 use super::tables::{self, section};
 use super::{Page, size, taken};
+use crate::cases::Cases;
 use crate::figures::{self, Said, on_page};
+use crate::format::InUnits;
 use crate::limit::{ByLaw, by_law, pictures, pictures_of_thickness, table, thickness_table};
 use crate::svg::{self, pictures::Pictures};
 use masonry::analysis::limit::{Answer, Associative, Limit, Path, Thickness};
 
 /// The page of a limit load.
 pub fn limit(limit: &Limit) -> String {
+    limit_of(limit, None)
+}
+
+/// The page of a limit load, with a table of the cases of which it governs, if there are several.
+pub fn limit_of(limit: &Limit, cases: Option<&Cases>) -> String {
     let mut pictures = pictures(limit, true);
     pictures.push(Pictures::one("scene.svg", svg::scene(&limit.title, &limit.model)));
+    pictures.extend(
+        cases.and_then(|it| it.curve()).map(|it| Pictures::one("train.svg", it.to_owned())),
+    );
     Page {
         title: limit.title.clone(),
         verdict: verdict(limit),
@@ -20,7 +30,8 @@ pub fn limit(limit: &Limit) -> String {
         pictures,
         steps: Vec::new(),
         // The headline is about the path, if there is one.
-        tables: by_law(limit).rev().map(|it| tables_of(&it)).collect(),
+        tables: cases.map_or_else(String::new, tables::cases)
+            + &by_law(limit).rev().map(|it| tables_of(&it)).collect::<String>(),
         text: table(limit),
     }
     .finish()
@@ -107,6 +118,9 @@ fn figures(limit: &Limit) -> Vec<Said> {
         found.retain(|it| it.key != "mechanism" || limit.path.is_none());
         found.sort_by_key(|it| place(it.key).unwrap_or(usize::MAX));
         list.extend(on_page(&found));
+    }
+    if let Some(check) = &limit.seismic {
+        list.extend(on_page(&figures::seismic::seismic(check, InUnits(limit.model.units))));
     }
     list.extend([("size", size(&limit.model)), ("time", taken(&limit.times))]);
     list

@@ -2,6 +2,7 @@
 
 use super::tables::{self, section};
 use super::{Page, PictureStep, size, taken};
+use crate::cases::Cases;
 use crate::figures::history::place;
 use crate::figures::{self, Said, on_page};
 use crate::format::{InUnits, significant};
@@ -25,6 +26,16 @@ pub fn is_framed(position: usize, steps: usize) -> bool {
 /// The page of an outcome. Of a load history, `frames` are the steps that have pictures; the last one that was solved
 /// has them always.
 pub fn solved(outcome: &Outcome, frames: &[Frame], reference: Option<&ReferenceLines>) -> String {
+    solved_of(outcome, frames, reference, None)
+}
+
+/// The page of an outcome, with a table of the cases of which it governs, if there are several.
+pub fn solved_of(
+    outcome: &Outcome,
+    frames: &[Frame],
+    reference: Option<&ReferenceLines>,
+    cases: Option<&Cases>,
+) -> String {
     let steps = steps(outcome, frames);
     let judgement = &outcome.judgement;
     Page {
@@ -35,7 +46,7 @@ pub fn solved(outcome: &Outcome, frames: &[Frame], reference: Option<&ReferenceL
         figures: figures(outcome),
         pictures: pictures(outcome, frames, &steps, reference),
         steps,
-        tables: tables_of(outcome),
+        tables: cases.map_or_else(String::new, tables::cases) + &tables_of(outcome),
         text: table::report(outcome),
     }
     .finish()

@@ -3,6 +3,7 @@
 use masonry::data::state::{PointState, Reaction};
 use nalgebra::Vector2;
 
+use crate::cases::Cases;
 use crate::figures::{Column, Digits, Table, Value, tables};
 use crate::format::{InUnits, significant};
 use crate::svg::escaped;
@@ -49,6 +50,11 @@ fn cell(value: &Value, column: &Column) -> String {
         Value::Count(it) => number(*it as f64, &it.to_string()),
         _ => "<td></td>".to_owned(),
     }
+}
+
+/// The lines of all cases.
+pub(super) fn cases(cases: &Cases) -> String {
+    section(cases.title(), &cases.note(), &cases.shown())
 }
 
 /// The reactions of supports.

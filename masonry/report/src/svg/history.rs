@@ -2,9 +2,9 @@
 //! a limit load.
 
 use super::diagram::{Beginning, Diagram, Look, Series, picture};
-use crate::figures::Table;
 use crate::figures::history::steps;
 use crate::figures::limit::curve;
+use crate::figures::{Table, Value};
 use masonry::analysis::limit::Path;
 use masonry::history::{History, StepRecord};
 use masonry::model::Model;
@@ -180,4 +180,42 @@ pub fn path(title: &str, group: &str, path: &Path) -> Option<String> {
     let series = std::iter::once(rest).chain(falls).collect();
     let diagram = Diagram::linear([&across, &up], series);
     picture(&format!("{title}: load factor along the path"), &[diagram], &[])
+}
+
+/// Factors of a train beyond this multiple of the least are not drawn. Chosen: curves show where the train governs.
+const SHOWN: f64 = 10.0;
+
+/// The load factor of a train against its position, from the table of its positions, and the position that governs. `None` for
+/// less than two factors.
+pub(crate) fn train(title: &str, positions: &Table, critical: usize) -> Option<String> {
+    let places = positions.numbers("position");
+    let factor = |row: &Vec<Value>| match row[1] {
+        Value::Number(factor) => Some(factor),
+        _ => None,
+    };
+    let points = places.iter().zip(&positions.rows);
+    let points: Vec<Option<[f64; 2]>> =
+        points.map(|(place, row)| Some([*place, factor(row)?])).collect();
+    let governs = points[critical]?;
+    let is_shown = |it: &Option<[f64; 2]>| it.is_some_and(|it| it[1] <= SHOWN * governs[1]);
+    // The curve has gaps where a factor is too large or none.
+    let runs = points.chunk_by(|a, b| is_shown(a) == is_shown(b)).filter(|run| is_shown(&run[0]));
+    let runs: Vec<Vec<[f64; 2]>> =
+        runs.map(|run| run.iter().flatten().copied().collect()).collect();
+    if runs.concat().len() < 2 {
+        return None;
+    }
+    let mut names = ["associative flow"].into_iter();
+    let mut series: Vec<Series> = Vec::new();
+    for points in runs {
+        let name = names.next().unwrap_or_default().to_owned();
+        series.push(Series { name, style: 0, look: Look::Full, points });
+    }
+    let name = "governs".to_owned();
+    series.push(Series { name, style: 1, look: Look::Full, points: vec![governs] });
+    let length = positions.units.0.length_name();
+    let axes = [&format!("position of the train [{length}]"), "factor of the train [-]"];
+    // All runs have the style of the one curve that they are.
+    let diagram = Diagram { series, ..Diagram::linear(axes, Vec::new()) };
+    picture(&format!("{title}: load factor by position"), &[diagram], &[])
 }

@@ -50,6 +50,17 @@ pub enum LimitError {
         /// Name of the arch.
         name: String,
     },
+    /// A crossing without a train.
+    #[error("the scene has no train: add `[limit.train]` with `over`, `axles`, `from` and `to`")]
+    NoTrain,
+    /// A train that stands on nothing, wherever it is.
+    #[error(
+        "no axle of the train stands on \"{over}\" at any of its positions: correct `from`, `to` or `over` of [limit.train]"
+    )]
+    NoAxle {
+        /// What should carry it.
+        over: String,
+    },
     /// Blocks without weight, which was to grow.
     #[error(
         "the blocks have no weight of which a factor could grow: give their materials a `density`, or name a group of loads"

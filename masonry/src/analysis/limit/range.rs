@@ -71,6 +71,7 @@ pub fn ranges_observed(scene: &Scene, observer: &mut Observer<'_>) -> Result<Ran
         is_interrupted.set(is_interrupted.get() || observer(at).is_break());
         if is_interrupted.get() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     };
+    scene.check_single()?;
     let model = rigid(Model::from_scene(scene)?);
     let system = System::without_factors(&model)?;
     let title = scene.title.clone();

@@ -67,6 +67,7 @@ pub fn least_thickness_observed<'a>(
     observer: &'a mut LimitObserver<'a>,
 ) -> Result<Thickness, LimitError> {
     scene.check()?;
+    scene.check_single()?;
     let Some(place) = scene.arches.iter().position(|it| it.name == arch) else {
         let names = scene.arches.iter().map(|it| it.name.clone()).collect();
         let (name, known) = (arch.to_owned(), Known::near(arch, names));

@@ -106,6 +106,7 @@ impl Run {
         scene: &Scene,
         observer: &mut dyn FnMut(Event) -> ControlFlow<()>,
     ) -> Result<Self, SolveError> {
+        scene.check_single()?;
         let mut clock = Clock::default();
         let mut model = clock.time("model", observer, || Model::from_scene(scene))?;
         let unusual = model.unusual();

@@ -9,7 +9,7 @@ use crate::scene::{self, Earth, EdgeStress};
 use crate::units::Units;
 
 /// A part of an edge, as fractions of it.
-type EdgePart = [f64; 2];
+pub(super) type EdgePart = [f64; 2];
 
 /// A load on all free parts of edges that lie on a segment.
 pub(super) struct OnEdges<'a> {
@@ -133,7 +133,7 @@ fn covered_part(
 }
 
 /// The parts of `covered` without the joined parts.
-fn free_parts(covered: EdgePart, joined: &[EdgePart]) -> Vec<EdgePart> {
+pub(super) fn free_parts(covered: EdgePart, joined: &[EdgePart]) -> Vec<EdgePart> {
     let mut free = vec![covered];
     for [from, to] in joined {
         free = free

@@ -1,14 +1,15 @@
-//! Checks of loads, and of the names by which stages call them.
+//! Checks of loads, and of the names by which stages and combinations call them.
+
+use std::collections::BTreeMap;
 
 use nalgebra::Vector2;
 
 use super::{Check, finite, needed, point, positive, segment, unwanted, value};
 use crate::geometry::SAME_PLACE;
-use crate::scene::groups::WEIGHT;
 use crate::scene::load::Acts;
 use crate::scene::rules::{One, exactly_one, plain, unknown};
 use crate::scene::{
-    Earth, EdgeStress, Fault, KeyPath, Load, LoadError, LoadKind, Scene, SceneErrorKind, Stage,
+    Axle, Earth, EdgeStress, Fault, Fill, KeyPath, Load, LoadError, LoadKind, Scene, SceneErrorKind,
 };
 
 impl Scene {
@@ -26,6 +27,7 @@ impl Scene {
             [(Acts::OnEdges, _)] => check_edge(at, load),
             [(Acts::AtPlace, key)] => check_force(at, load, key),
             [(Acts::OnMass, _)] => self.check_acceleration(at, load),
+            [(Acts::AsFill | Acts::AsAxle, _)] => self.check_on_top(at, load),
             [(one, first), (other, second), ..] => {
                 let (one, other) = (one.words(), other.words());
                 let error = LoadError::TwoKinds { first, one, second, other };
@@ -33,6 +35,21 @@ impl Scene {
             }
             [] => Err(Fault::new(at.clone(), LoadError::NoKind(load.name.clone()))),
         }
+    }
+
+    /// A fill or an axle: what carries it, and numbers in their range.
+    fn check_on_top(&self, at: &KeyPath, load: &Load) -> Check {
+        if let Some(Fill { over, level, gamma }) = &load.fill {
+            let at = at.key("fill");
+            self.check_body(at.key("over"), over)?;
+            finite(at.key("level"), *level)?;
+            positive(at.key("gamma"), *gamma)?;
+        }
+        let Some(Axle { over, x, force, level, angle_deg }) = &load.axle else { return Ok(()) };
+        let at = at.key("axle");
+        finite(at.key("x"), *x)?;
+        finite(at.key("force"), *force)?;
+        self.check_on_fill(&at, over, *level, *angle_deg)
     }
 
     fn check_mass(&self, at: &KeyPath, load: &Load) -> Check {
@@ -65,15 +82,15 @@ impl Scene {
         Err(Fault::new(at, LoadError::NoMass(load.name.clone())))
     }
 
-    /// The loads of a stage: names that mean one load or one group, no load twice, factors in their range.
-    pub(super) fn check_stage_loads(&self, at: &KeyPath, stage: &Stage) -> Check {
-        for (name, factor) in &stage.loads {
+    /// Factors of a stage or a combination: names that mean one load or one group, no load twice, numbers in their range.
+    pub(super) fn check_factors(&self, at: &KeyPath, factors: &BTreeMap<String, f64>) -> Check {
+        for (name, factor) in factors {
             let at = at.key(name);
             self.check_load_name(&at, name, None)?;
             finite(at, *factor)?;
         }
         for load in &self.loads {
-            let mut names = stage.loads.keys().filter(|name| load.is_called(name));
+            let mut names = factors.keys().filter(|name| load.is_called(name));
             if let (Some(first), Some(second)) = (names.next(), names.next()) {
                 let (load, first) = (load.name.clone(), first.clone());
                 let error = LoadError::Twice { load, first, second: second.clone() };
@@ -83,23 +100,8 @@ impl Scene {
         Ok(())
     }
 
-    /// The group of the limit load is one of loads, and no support.
-    pub(super) fn check_limit(&self) -> Check {
-        let Some(name) = &self.limit.group else { return Ok(()) };
-        if self.is_weight(name) {
-            return Ok(());
-        }
-        let at = KeyPath::of("limit").key("group");
-        if self.all_supports().iter().any(|support| support.name == *name)
-            && !self.loads.iter().any(|load| load.is_called(name))
-        {
-            return Err(Fault::new(at, LoadError::Support(name.clone())));
-        }
-        self.check_load_name(&at, name, self.gravity.map(|_| WEIGHT))
-    }
-
     /// One load or one group has this name; `also` is another that it could have had.
-    fn check_load_name(&self, at: &KeyPath, name: &str, also: Option<&str>) -> Check {
+    pub(super) fn check_load_name(&self, at: &KeyPath, name: &str, also: Option<&str>) -> Check {
         let names = |of: &dyn Fn(&&Load) -> bool| -> Vec<String> {
             self.loads.iter().filter(of).map(|load| load.name.clone()).collect()
         };

@@ -1,8 +1,8 @@
-//! Checks of the load history.
+//! Checks of the load history, and of combinations.
 
-use super::{Check, at_least_one, at_most, finite, unwanted, value};
+use super::{Check, at_least_one, at_most, finite, not_negative, unwanted, value};
 use crate::scene::rules::unknown;
-use crate::scene::{KeyPath, Scene, Stage};
+use crate::scene::{Combination, KeyPath, Scene, Stage};
 
 /// Rotation of a support \[rad\] at which its joints' normals are off by a tenth.
 const LARGEST_TURN: f64 = 0.1;
@@ -21,7 +21,7 @@ impl Scene {
             unwanted(self.gravity.is_none(), at, "gravity", because, otherwise)?;
             finite(at.key("gravity"), factor)?;
         }
-        self.check_stage_loads(&at.key("loads"), stage)?;
+        self.check_factors(&at.key("loads"), &stage.loads)?;
         let supports = self.all_supports();
         for (name, to) in &stage.moves {
             let at = at.key("moves").key(name);
@@ -37,5 +37,10 @@ impl Scene {
             value(at.key("turn"), to.turn, to.turn.abs() <= LARGEST_TURN, wanted)?;
         }
         Ok(())
+    }
+    /// A combination: loads that exist, numbers in their range.
+    pub(super) fn check_combination(&self, at: &KeyPath, combination: &Combination) -> Check {
+        not_negative(at.key("gravity"), combination.gravity)?;
+        self.check_factors(&at.key("loads"), &combination.loads)
     }
 }

@@ -276,3 +276,31 @@ fn names_of_loads_in_stages() {
         "load \"wind\" is named twice in this stage, as \"side\" and as \"wind\": keep one of them",
     );
 }
+
+#[test]
+fn fill_and_axles() {
+    let not_there = "there is no arch, wall or block \"wal\"";
+    for (keys, marked, key, message) in [
+        ("fill = { over = \"wal\", level = 1, gamma = 20 }", "\"wal\"", "fill.over", not_there),
+        (
+            "fill = { over = \"wall\", level = 1, gamma = -20 }",
+            "-20",
+            "fill.gamma",
+            "-20 is not allowed",
+        ),
+        (
+            "axle = { over = \"wall\", x = 1, force = inf }",
+            "inf",
+            "axle.force",
+            "inf is not allowed",
+        ),
+        (
+            "axle = { over = \"wall\", x = 1, force = 1, level = 2, angle_deg = 0.0 }",
+            "0.0 }",
+            "axle.angle_deg",
+            "0 is not allowed: an angle of spread is above 0 and at most 80 degrees",
+        ),
+    ] {
+        assert_load_error(keys, marked, &format!("loads[1].{key}"), message);
+    }
+}

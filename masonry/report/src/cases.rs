@@ -1,0 +1,171 @@
+//! Several cases of loads, combinations or positions of a train: a line for each, and the one that governs.
+
+use super::figures::Digits::Significant;
+use super::figures::{Columns, Table, Value, members, yes_or_no};
+use super::format::InUnits;
+use super::format::Quantity::{Length, Percent, Pure};
+use super::text::{section, table};
+use super::{joints, svg};
+use masonry::Verdict;
+use masonry::analysis::limit::{Answer, CrossingTrain, Limit, TrainPosition};
+use masonry::analysis::outcome::Outcome;
+use masonry::rounding::largest;
+use masonry::scene::Combined;
+
+/// What was found of all cases, a line for each.
+#[derive(Debug, Clone)]
+pub struct Cases {
+    /// The list in JSON, and its title.
+    names: [&'static str; 2],
+    governs: usize,
+    /// What governs.
+    name: String,
+    rows: Table,
+    /// The factor against the position of a train.
+    curve: Option<String>,
+}
+
+/// What becomes of a train at a position.
+fn answer(it: Option<Answer>) -> &'static str {
+    match it {
+        Some(Answer::Fails) => "fails",
+        Some(Answer::Unlimited) => "does not fail",
+        Some(Answer::Falls) => "falls without the train",
+        Some(Answer::Undecided) => "undecided",
+        None => "no axle on it",
+    }
+}
+
+const COMBINATIONS: [&str; 2] = ["combinations", "Combinations"];
+const POSITIONS: [&str; 2] = ["positions", "Positions of the train, associative flow"];
+
+/// The worst verdict, and among equals the outcome that uses most of the friction of a joint.
+fn worst(list: &[Combined<Outcome>]) -> Option<usize> {
+    let rank = |it: &Outcome| match it.verdict() {
+        Verdict::Falls => 2,
+        Verdict::Undecided => 1,
+        Verdict::Stands => 0,
+    };
+    let used = |it: &Outcome| friction_used(it).unwrap_or(0.0);
+    let worse = |a: &Outcome, b: &Outcome| rank(a).cmp(&rank(b)).then(used(a).total_cmp(&used(b)));
+    // Of equals the first one.
+    (0..list.len()).rev().max_by(|a, b| worse(&list[*a].of, &list[*b].of))
+}
+
+/// The smallest factor that is carried.
+fn smallest(list: &[Combined<Limit>]) -> Option<usize> {
+    let carried = |k: &usize| list[*k].of.carried();
+    (0..list.len()).min_by(|a, b| carried(a).total_cmp(&carried(b)))
+}
+
+/// The largest part of its friction that a joint uses \[-\], if there is a state.
+fn friction_used(outcome: &Outcome) -> Option<f64> {
+    let state = outcome.state.as_ref()?;
+    let forces = joints::forces(&outcome.model, &state.contacts);
+    Some(largest(forces.iter().filter_map(|it| it.utilisation)))
+}
+
+impl Cases {
+    /// The verdicts of all combinations. The worst one governs, and among equals the one that uses most of the friction of a
+    /// joint. `None` of no combinations.
+    pub fn of_outcomes(list: &[Combined<Outcome>]) -> Option<Self> {
+        let governs = worst(list)?;
+        let rows = Columns::<&Combined<Outcome>>::new()
+            .words("combination", |it| &it.name)
+            .words("verdict", |it| it.of.verdict().to_string().to_lowercase())
+            .number("friction_used", Percent, Significant(3), |it| friction_used(&it.of))
+            .named("friction used")
+            .table(InUnits(list[governs].of.model.units), list);
+        let name = list[governs].name.clone();
+        Some(Self { names: COMBINATIONS, governs, name, rows, curve: None })
+    }
+
+    /// The limit loads of all combinations. The smallest factor governs. `None` of no combinations.
+    pub fn of_limits(list: &[Combined<Limit>]) -> Option<Self> {
+        let governs = smallest(list)?;
+        let finite = |factor: f64| Some(factor).filter(|it| it.is_finite());
+        let rows = Columns::<&Combined<Limit>>::new()
+            .words("combination", |it| &it.name)
+            .number("load_factor", Pure, Significant(5), move |it| finite(it.of.carried()))
+            .named("carries")
+            .number("falls", Pure, Significant(5), move |it| finite(it.of.not_carried()))
+            .words("decided", |it| it.of.is_solved())
+            .table(InUnits(list[governs].of.model.units), list);
+        let name = list[governs].name.clone();
+        Some(Self { names: COMBINATIONS, governs, name, rows, curve: None })
+    }
+
+    /// The limit loads of a train at its positions.
+    pub fn of_train(crossing: &CrossingTrain) -> Self {
+        let CrossingTrain { positions, critical, limit, .. } = crossing;
+        let units = InUnits(limit.model.units);
+        let rows = Columns::<&TrainPosition>::new()
+            .number("position", Length, Significant(5), |it| it.at)
+            .number("load_factor", Pure, Significant(5), |it| it.load_factor)
+            .named("carries")
+            .number("bound", Pure, Significant(5), |it| it.bound)
+            .words("answer", |it| answer(it.answer))
+            .table(units, positions);
+        let name = format!("position {}", units.length_text(positions[*critical].at));
+        let curve = svg::train(&limit.title, &rows, *critical);
+        Self { names: POSITIONS, governs: *critical, name, rows, curve }
+    }
+
+    /// The picture of the factor against the position of a train, if there is one.
+    pub fn curve(&self) -> Option<&str> {
+        self.curve.as_deref()
+    }
+
+    /// The number of the case that governs, from zero.
+    pub fn governs(&self) -> usize {
+        self.governs
+    }
+
+    /// The head of a report: the lines, and which one the rest of the report is of.
+    pub fn head(&self) -> String {
+        let name = self.quoted();
+        section(self.title()).trim_start().to_owned()
+            + &table(&self.shown())
+            + &format!("\n{name} governs:\n\n")
+    }
+
+    /// The object of `--json` of several cases, pretty-printed: which one `governs`; the `combinations`, of `masonry solve` with
+    /// `verdict` and `friction_used`, of `masonry limit` with the `load_factor` that is carried, the one that `falls` and whether
+    /// the limit is `decided`, or the `positions` of a train with `load_factor`, `bound` and `answer`; and, with a key of its
+    /// own, the `object` of the one that governs.
+    ///
+    /// # Errors
+    /// None that this data can cause; the signature is that of the serialiser.
+    pub fn json(&self, key: &str, object: &str) -> Result<String, serde_json::Error> {
+        let rows = self.rows.objects().into_iter().map(Value::Object).collect();
+        let mut members = members! { "governs": &self.name };
+        members.push((self.names[0].to_owned(), Value::List(rows)));
+        members.push((key.to_owned(), Value::Json(object.trim_end().to_owned())));
+        Value::Object(members).file()
+    }
+
+    pub(super) fn title(&self) -> &'static str {
+        self.names[1]
+    }
+
+    /// What governs: the name of a combination is in quotes.
+    fn quoted(&self) -> String {
+        if self.names == COMBINATIONS { format!("\"{}\"", self.name) } else { self.name.clone() }
+    }
+
+    /// What a page says of its table.
+    pub(super) fn note(&self) -> String {
+        format!("{} governs, and the page is of it.", self.quoted())
+    }
+
+    /// The lines for readers.
+    pub(super) fn shown(&self) -> Table {
+        let mut table = self.rows.clone();
+        for cell in table.rows.iter_mut().flatten() {
+            if let Value::Flag(it) = *cell {
+                *cell = yes_or_no(it).into();
+            }
+        }
+        table
+    }
+}

@@ -1,0 +1,93 @@
+//! Checks of the settings of limit loads.
+
+use super::{Check, at_least_one, at_most, finite, needed, positive, value};
+use crate::scene::groups::WEIGHT;
+use crate::scene::rules::unknown;
+use crate::scene::{Fault, KeyPath, LoadError, Scene, SceneErrorKind, Seismic, Train};
+
+impl Scene {
+    pub(super) fn check_limit(&self) -> Check {
+        let at = KeyPath::of("limit");
+        self.check_growing(&at.key("group"))?;
+        self.limit.seismic.as_ref().map_or(Ok(()), |it| check_seismic(&at.key("seismic"), it))?;
+        self.limit.train.as_ref().map_or(Ok(()), |it| self.check_train(&at.key("train"), it))
+    }
+
+    /// What grows is a load, a group of loads, or the weight, and no support.
+    fn check_growing(&self, at: &KeyPath) -> Check {
+        let Some(name) = &self.limit.group else { return Ok(()) };
+        if self.is_weight(name) {
+            return Ok(());
+        }
+        if self.all_supports().iter().any(|support| support.name == *name)
+            && !self.loads.iter().any(|load| load.is_called(name))
+        {
+            return Err(Fault::new(at.clone(), LoadError::Support(name.clone())));
+        }
+        self.check_load_name(at, name, self.gravity.map(|_| WEIGHT))
+    }
+}
+
+/// Positions of a train, at most.
+const MOST_POSITIONS: u32 = 100_000;
+
+impl Scene {
+    fn check_train(&self, at: &KeyPath, train: &Train) -> Check {
+        let axles = at.key("axles");
+        if train.axles.is_empty() {
+            let remedy = "give at least one axle, such as [[0.0, 100.0]]";
+            return Err(Fault::new(axles, SceneErrorKind::EmptyList(remedy)));
+        }
+        for (k, [offset, force]) in train.axles.iter().enumerate() {
+            finite(axles.item(k).item(0), *offset)?;
+            positive(axles.item(k).item(1), *force)?;
+        }
+        finite(at.key("from"), train.from)?;
+        finite(at.key("to"), train.to)?;
+        let positions = at.key("positions");
+        at_least_one(positions.clone(), train.positions, "a train has at least one position")?;
+        at_most(positions, "positions of a train", f64::from(train.positions), MOST_POSITIONS)?;
+        self.check_on_fill(at, &train.over, train.level, train.angle_deg)
+    }
+
+    /// What carries an axle, and how the fill spreads it.
+    pub(super) fn check_on_fill(
+        &self,
+        at: &KeyPath,
+        over: &str,
+        level: Option<f64>,
+        angle: f64,
+    ) -> Check {
+        self.check_body(at.key("over"), over)?;
+        finite(at.key("level"), level.unwrap_or(0.0))?;
+        let wanted = "an angle of spread is above 0 and at most 80 degrees";
+        value(at.key("angle_deg"), angle, angle > 0.0 && angle <= 80.0, wanted)
+    }
+
+    /// An arch, a wall or a block has this name.
+    pub(super) fn check_body(&self, at: KeyPath, name: &str) -> Check {
+        let names =
+            self.arches.iter().map(|it| &it.name).chain(self.walls.iter().map(|it| &it.name));
+        let names: Vec<String> =
+            names.chain(self.blocks.iter().map(|it| &it.name)).cloned().collect();
+        if names.iter().any(|it| it == name) {
+            return Ok(());
+        }
+        let missing = "it under [[arches]]".to_owned();
+        Err(unknown(at, "arch, wall or block", name, names, missing))
+    }
+}
+
+fn check_seismic(at: &KeyPath, seismic: &Seismic) -> Check {
+    let Seismic { ground, soil, behaviour, confidence } = *seismic;
+    if ground.is_some() || soil.is_some() {
+        let ground = needed(ground, at, "a_g", "with `S`", "a_g = 0.15")?;
+        positive(at.key("a_g"), ground)?;
+        let soil = needed(soil, at, "S", "with `a_g`", "S = 1.0")?;
+        positive(at.key("S"), soil)?;
+    }
+    let wanted = "a behaviour factor is at least 1";
+    value(at.key("q"), behaviour, behaviour >= 1.0 && behaviour.is_finite(), wanted)?;
+    let wanted = "a confidence factor is at least 1";
+    value(at.key("FC"), confidence, confidence >= 1.0 && confidence.is_finite(), wanted)
+}
