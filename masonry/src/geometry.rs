@@ -1,39 +1,23 @@
-//! Convex polygons and segments: area, centroid, shape checks, overlaps.
+//! Polygons and segments: area, centroid, shape checks, overlaps.
 //!
 //! A polygon is given by its corners, counter-clockwise; edge `k` runs from corner `k` to the next one, and the last
 //! edge back to corner 0. Tolerances are relative to the sizes of the shapes involved.
-
-use std::f64::consts::PI;
 
 use nalgebra::{Point2, Vector2};
 
 mod extent;
 mod overlap;
+mod shape;
 
 pub(crate) use extent::Extent;
-pub use overlap::{SegmentOverlap, facing_normal, facing_overlap, overlap_area};
+pub use overlap::{SegmentOverlap, facing_normal, facing_overlap, length_inside, overlap_area};
+pub use shape::{PolygonError, check_convex, check_simple, edge_behind_centroid};
 
 /// Lengths below this part of those around them are rounding errors: places that are as near to each other are one.
 pub(crate) const SAME_PLACE: f64 = 1e-9;
 
 /// Corners of a quadrilateral, counter-clockwise.
 pub type Quad = [Point2<f64>; 4];
-
-/// Why corners are not those of a convex polygon in counter-clockwise order.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[non_exhaustive]
-pub enum PolygonError {
-    /// So many corners, two or less.
-    TooFew(usize),
-    /// A coordinate is not a finite number.
-    NotFinite,
-    /// The corners run clockwise around this signed area \[m^2\].
-    Clockwise(f64),
-    /// The interior angle at this corner, from 0, is 180 degrees or more, or two corners coincide.
-    NotConvex(usize),
-    /// The edges go around more than once, as those of a star do.
-    Crossing,
-}
 
 /// Signed area, positive when the corners run counter-clockwise \[m^2\].
 pub fn area(polygon: &[Point2<f64>]) -> f64 {
@@ -64,40 +48,6 @@ pub fn size(polygon: &[Point2<f64>]) -> f64 {
     let pairs =
         polygon.iter().enumerate().flat_map(|(k, p)| polygon[..k].iter().map(move |q| p - q));
     pairs.map(|apart| apart.norm()).fold(0.0, f64::max)
-}
-
-/// Checks that the corners are finite, run counter-clockwise once and span a strictly convex shape.
-///
-/// A corner counts as convex when twice the area of its triangle exceeds `1e-9` times the square of the polygon's size.
-///
-/// # Errors
-/// [`PolygonError`] tells what is wrong with which corner.
-pub fn check_convex(polygon: &[Point2<f64>]) -> Result<(), PolygonError> {
-    let count = polygon.len();
-    if polygon.iter().any(|p| !(p.x.is_finite() && p.y.is_finite())) {
-        return Err(PolygonError::NotFinite);
-    }
-    if count < 3 {
-        return Err(PolygonError::TooFew(count));
-    }
-    let area = area(polygon);
-    if area < 0.0 {
-        return Err(PolygonError::Clockwise(area));
-    }
-    let least = 1e-9 * size(polygon).powi(2);
-    let sides = |k: usize| {
-        let (before, here) = (polygon[(k + count - 1) % count], polygon[k]);
-        (here - before, polygon[(k + 1) % count] - here)
-    };
-    let mut turned = 0.0;
-    for corner in 0..count {
-        let (before, after) = sides(corner);
-        if cross(before, after) <= least {
-            return Err(PolygonError::NotConvex(corner));
-        }
-        turned += cross(before, after).atan2(before.dot(&after));
-    }
-    if turned < 3.0 * PI { Ok(()) } else { Err(PolygonError::Crossing) }
 }
 
 /// The two ends of edge `k`.
@@ -147,22 +97,35 @@ pub fn reference(quad: &Quad, point: Point2<f64>) -> [f64; 2] {
     [(h - f * s).dot(&along) / along.norm_squared(), s]
 }
 
+/// The point of a segment that is nearest to a point.
+pub fn nearest_on_segment([p, q]: [Point2<f64>; 2], point: Point2<f64>) -> Point2<f64> {
+    let along = q - p;
+    let square = along.norm_squared();
+    let at = if square > 0.0 { (point - p).dot(&along) / square } else { 0.0 };
+    p + along * at.clamp(0.0, 1.0)
+}
+
 /// The point of the boundary of a polygon that is nearest to a point.
 pub fn nearest_on_boundary(polygon: &[Point2<f64>], point: Point2<f64>) -> Point2<f64> {
-    let nearest_on = |k: usize| {
-        let [p, q] = edge(polygon, k);
-        let along = q - p;
-        p + along * ((point - p).dot(&along) / along.norm_squared()).clamp(0.0, 1.0)
-    };
+    let nearest_on = |k: usize| nearest_on_segment(edge(polygon, k), point);
     let near = |a: &Point2<f64>, b: &Point2<f64>| (a - point).norm().total_cmp(&(b - point).norm());
     (0..polygon.len()).map(nearest_on).min_by(near).unwrap_or(point)
 }
 
-/// How far a point lies outside of a convex polygon, across the edge beyond which it is farthest; negative inside \[m\].
+/// The distance of a point from the boundary of a simple polygon; negative inside \[m\].
 pub fn outside(polygon: &[Point2<f64>], point: Point2<f64>) -> f64 {
-    (0..polygon.len())
-        .map(|k| (point - polygon[k]).dot(&outward_normal(polygon, k)))
-        .fold(f64::NEG_INFINITY, f64::max)
+    let distance = (nearest_on_boundary(polygon, point) - point).norm();
+    if contains(polygon, point) { -distance } else { distance }
+}
+
+/// Whether a ray to the right of a point leaves a polygon once more than it enters.
+fn contains(polygon: &[Point2<f64>], point: Point2<f64>) -> bool {
+    let is_crossed = |k: &usize| {
+        let [p, q] = edge(polygon, *k);
+        let is_right = (cross(q - p, point - p) > 0.0) == (q.y > p.y);
+        (p.y > point.y) != (q.y > point.y) && is_right
+    };
+    (0..polygon.len()).filter(is_crossed).count() % 2 == 1
 }
 
 /// Unit outward normal of edge `k`.

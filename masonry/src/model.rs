@@ -84,7 +84,7 @@ impl Model {
     }
 }
 
-/// A block in its place (brick, voussoir): a convex polygon; a quadrilateral if it is elastic.
+/// A block in its place (brick, voussoir): a simple polygon; a convex quadrilateral if it is elastic.
 #[derive(Debug, Clone)]
 pub struct PlacedBlock {
     /// The name by which messages and files refer to it.

@@ -168,7 +168,7 @@ pub struct Scene {
     source: Source,
 }
 
-/// A single block: a convex polygon, of an elastic material a quadrilateral.
+/// A single block: a simple polygon, of an elastic material a convex quadrilateral.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]

@@ -40,6 +40,7 @@ mod panels;
 #[cfg(feature = "long-tests")]
 mod panels_by_all_routes;
 mod patch;
+mod polygons;
 mod properties;
 mod random_walls;
 mod reduction;

@@ -130,19 +130,17 @@ pub enum ImportErrorKind {
         /// The largest tolerance for it \[m\].
         most: String,
     },
-    /// A block has a corner that points inwards.
-    #[error(
-        "the corner at ({x}, {y}) m points inwards: blocks are convex; divide the block there, and give the joint between its parts cohesion and tension"
-    )]
-    NotConvex {
+    /// A block has no width at a corner.
+    #[error("the block has no width at its corner at ({x}, {y}) m: leave the corner out")]
+    NoWidth {
         /// The place of the corner \[m\].
         x: String,
         /// The place of the corner \[m\].
         y: String,
     },
-    /// The edges of an outline cross each other.
+    /// The edges of an outline cross or touch each other.
     #[error(
-        "its edges cross each other: draw it with the corners in the order in which they follow each other"
+        "its edges cross or touch each other: draw it with the corners in the order in which they follow each other"
     )]
     Crossing,
     /// Joints are drawn open, and nobody says what they are.

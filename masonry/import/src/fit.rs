@@ -85,7 +85,7 @@ fn check_overlaps(sheet: &Sheet) -> Result<(), ImportError> {
         let size = geometry::size(a).min(geometry::size(b));
         if area > TOUCHING * size * size {
             let tolerance = sheet.tolerance;
-            let depth = metres(depth(a, b).min(depth(b, a)));
+            let depth = metres(depth(a, b, area));
             let (shown, remedy) = (metres(tolerance), String::new());
             let kind = ImportErrorKind::Overlap { depth, tolerance, shown, remedy };
             return Err(kind.at(&[&stones[first].place, &stones[second].place]));
@@ -94,14 +94,26 @@ fn check_overlaps(sheet: &Sheet) -> Result<(), ImportError> {
     Ok(())
 }
 
-/// How far one polygon reaches into another, across the edge of the other over which the depth is least.
-fn depth(one: &[Point2<f64>], other: &[Point2<f64>]) -> f64 {
-    let across = |k: usize| {
-        let normal = geometry::outward_normal(other, k);
-        let inside = one.iter().map(|corner| (other[k] - corner).dot(&normal));
+/// How far two polygons that overlap by an area reach into each other: if both are convex, across the edge over which the depth is
+/// least; if not, the deepest corner of one in the other, or the mean width of an overlap without corners.
+fn depth(one: &[Point2<f64>], other: &[Point2<f64>], area: f64) -> f64 {
+    let of_convex = |one: &[Point2<f64>], other: &[Point2<f64>]| {
+        let across = |k: usize| {
+            let normal = geometry::outward_normal(other, k);
+            let inside = one.iter().map(|corner| (other[k] - corner).dot(&normal));
+            inside.fold(f64::NEG_INFINITY, f64::max)
+        };
+        (0..other.len()).map(across).fold(f64::INFINITY, f64::min)
+    };
+    if [one, other].iter().all(|it| geometry::check_convex(it).is_ok()) {
+        return of_convex(one, other).min(of_convex(other, one));
+    }
+    let deepest = |one: &[Point2<f64>], other: &[Point2<f64>]| {
+        let inside = one.iter().map(|corner| -geometry::outside(other, *corner));
         inside.fold(f64::NEG_INFINITY, f64::max)
     };
-    (0..other.len()).map(across).fold(f64::INFINITY, f64::min)
+    let width = area / geometry::size(one).min(geometry::size(other));
+    deepest(one, other).max(deepest(other, one)).max(width)
 }
 
 /// Cuts digits that say nothing, so that corners at one place are written alike.

@@ -134,9 +134,6 @@ impl Ring {
 }
 
 /// The distance of a point from a segment.
-pub(crate) fn distance(point: Point2<f64>, [from, to]: [Point2<f64>; 2]) -> f64 {
-    let along = to - from;
-    let square = along.norm_squared();
-    let place = if square > 0.0 { (point - from).dot(&along) / square } else { 0.0 };
-    (point - (from + along * place.clamp(0.0, 1.0))).norm()
+pub(crate) fn distance(point: Point2<f64>, ends: [Point2<f64>; 2]) -> f64 {
+    (point - geometry::nearest_on_segment(ends, point)).norm()
 }

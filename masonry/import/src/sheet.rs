@@ -49,7 +49,7 @@ impl Sheet {
     /// The blocks, supports and marked joints of a drawing.
     ///
     /// # Errors
-    /// A unit that cannot be, too many blocks, and blocks that no tolerance makes convex.
+    /// A unit that cannot be, too many blocks, and blocks whose edges cross at every tolerance.
     pub(crate) fn of(
         drawing: &Drawing,
         options: &Options,
@@ -162,7 +162,7 @@ impl Sheet {
             return Err(self.no_blocks());
         }
         stones::without_duplicates(&mut self.stones, self.tolerance, &mut self.changes)?;
-        stones::check_convex(&self.stones)
+        stones::check_simple(&self.stones, &mut self.changes)
     }
 
     fn no_blocks(&self) -> ImportError {

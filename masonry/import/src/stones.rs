@@ -65,19 +65,22 @@ fn covers(one: &[Point2<f64>], other: &[Point2<f64>], tolerance: f64) -> bool {
     other.iter().all(|corner| one.iter().any(|it| (it - corner).norm() <= tolerance))
 }
 
-/// Refuses blocks that are not convex, with the place of the corner.
-pub(crate) fn check_convex(stones: &[Stone]) -> Result<(), ImportError> {
+/// Refuses blocks whose edges cross or touch; notes those that are not convex.
+pub(crate) fn check_simple(stones: &[Stone], changes: &mut Vec<Change>) -> Result<(), ImportError> {
     for stone in stones {
-        let kind = match geometry::check_convex(&stone.corners) {
-            Ok(()) => continue,
-            Err(PolygonError::NotConvex(corner)) => {
+        match geometry::check_simple(&stone.corners) {
+            Ok(()) => {}
+            Err(PolygonError::NoWidth(corner)) => {
                 let [x, y] = stone.corners[corner].coords.into();
                 let [x, y] = [x, y].map(|it: f64| super::report::metres(it));
-                ImportErrorKind::NotConvex { x, y }
+                return Err(ImportErrorKind::NoWidth { x, y }.at(&[&stone.place]));
             }
-            Err(_) => ImportErrorKind::Crossing,
-        };
-        return Err(kind.at(&[&stone.place]));
+            Err(_) => return Err(ImportErrorKind::Crossing.at(&[&stone.place])),
+        }
+        if geometry::check_convex(&stone.corners).is_err() {
+            let what = "blocks with a corner that points inwards are one rigid body each";
+            changes.push(Change::new(what, &stone.place));
+        }
     }
     Ok(())
 }

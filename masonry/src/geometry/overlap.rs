@@ -1,22 +1,66 @@
-//! Intersection of two convex polygons, and the overlap of two facing segments.
+//! Intersections of simple polygons with each other and with segments, and the overlap of two facing segments.
 
 use nalgebra::{Point2, Vector2};
 
-use super::{area, cross, edge, turn_right};
+use super::{area, check_convex, cross, edge, outside, turn_right};
 
 /// Rounding error of a distance, relative to the coordinates of its ends.
 const ROUNDING: f64 = 8.0 * f64::EPSILON;
 
-/// Area of the intersection of two convex, counter-clockwise polygons \[m^2\].
+/// Area of the intersection of two simple, counter-clockwise polygons \[m^2\].
 ///
-/// The first is clipped by the half planes of the second (Sutherland and Hodgman).
+/// The first is clipped by the half planes of the second (Sutherland and Hodgman), which need only the second to be convex:
+/// parts of the first that fall apart stay joined by edges without area. A second polygon that is not convex is the sum of the
+/// triangles of a corner with all edges, each with the sign of its direction: outside of it they cancel.
 pub fn overlap_area(a: &[Point2<f64>], b: &[Point2<f64>]) -> f64 {
-    let mut polygon = a.to_vec();
-    for k in 0..b.len() {
-        let [p, q] = edge(b, k);
-        polygon = clip(&polygon, |x| cross(q - p, x - p));
+    let is_convex = |polygon| check_convex(polygon).is_ok();
+    let total = if is_convex(b) {
+        clipped_area(a, b)
+    } else if is_convex(a) {
+        clipped_area(b, a)
+    } else {
+        let of_triangle = |k: usize| {
+            let mut triangle = [b[0], b[k], b[k + 1]];
+            let sign = area(&triangle).signum();
+            if sign < 0.0 {
+                triangle.swap(1, 2);
+            }
+            sign * clipped_area(a, &triangle)
+        };
+        (1..b.len().saturating_sub(1)).map(of_triangle).sum()
+    };
+    total.max(0.0)
+}
+
+/// Area of the part of a polygon in a convex one \[m^2\].
+fn clipped_area(polygon: &[Point2<f64>], convex: &[Point2<f64>]) -> f64 {
+    let mut part = polygon.to_vec();
+    for k in 0..convex.len() {
+        let [p, q] = edge(convex, k);
+        part = clip(&part, |x| cross(q - p, x - p));
     }
-    area(&polygon).max(0.0)
+    area(&part)
+}
+
+/// Length of the part of a segment that is in a simple polygon, deeper than `depth` \[m\].
+///
+/// The segment is cut by the lines of all edges, and each piece is as deep as its middle.
+pub fn length_inside(segment: [Point2<f64>; 2], polygon: &[Point2<f64>], depth: f64) -> f64 {
+    let [from, to] = segment;
+    let along = to - from;
+    let cut = |k: usize| {
+        let [p, q] = edge(polygon, k);
+        let [at_from, at_to] = segment.map(|end| cross(q - p, end - p));
+        let at = at_from / (at_from - at_to);
+        (0.0..=1.0).contains(&at).then_some(at)
+    };
+    let mut cuts: Vec<f64> =
+        [0.0, 1.0].into_iter().chain((0..polygon.len()).filter_map(cut)).collect();
+    cuts.sort_by(f64::total_cmp);
+    let is_inside =
+        |piece: &[f64]| outside(polygon, from + along * (0.5 * (piece[0] + piece[1]))) < -depth;
+    let pieces = cuts.windows(2).filter(|piece| is_inside(piece));
+    pieces.map(|piece| piece[1] - piece[0]).sum::<f64>() * along.norm()
 }
 
 /// The part of a polygon on which the linear function `inside` is not negative.

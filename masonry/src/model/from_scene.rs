@@ -177,15 +177,18 @@ fn block(
     block
 }
 
-/// A brick cut to next to nothing is no block.
+/// Refuses a brick cut to next to nothing, and what is left of a block whose corners were moved too far.
 fn check_shapes(blocks: &[PlacedBlock], keys: &[KeyPath]) -> Result<(), Fault> {
     for (block, key) in blocks.iter().zip(keys) {
-        let corner = match geometry::check_convex(&block.corners) {
+        let name = || block.name.clone();
+        let kind = match geometry::check_simple(&block.corners) {
             Ok(()) => continue,
-            Err(PolygonError::NotConvex(corner)) => corner + 1,
-            Err(_) => 1,
+            Err(PolygonError::Crossing) => SceneErrorKind::CrossingEdges(name()),
+            Err(PolygonError::NoWidth(corner)) => {
+                SceneErrorKind::NoWidth { block: name(), corner: corner + 1 }
+            }
+            Err(_) => SceneErrorKind::NoWidth { block: name(), corner: 1 },
         };
-        let kind = SceneErrorKind::NotConvex { block: block.name.clone(), corner };
         return Err(Fault::new(key.clone(), kind));
     }
     Ok(())

@@ -2,8 +2,6 @@
 
 use std::collections::BTreeMap;
 
-use nalgebra::Point2;
-
 use super::{Body, PlacedBlock, PlacedJoint, PlacedSupport};
 use crate::geometry::{self, Extent, SAME_PLACE};
 use crate::model::joints::near_pairs;
@@ -72,9 +70,12 @@ pub(super) fn check_supports(
     units: Units,
 ) -> Result<(), Fault> {
     for (k, support) in supports.iter().enumerate() {
-        for block in blocks {
-            let length = length_inside(support.from, support.to, &block.corners);
-            if length > SAME_PLACE * geometry::size(&block.corners) {
+        let ends = [support.from, support.to];
+        let around = Extent::of(&ends);
+        for block in blocks.iter().filter(|it| Extent::of(&it.corners).meets(&around)) {
+            let near = SAME_PLACE * geometry::size(&block.corners);
+            let length = geometry::length_inside(ends, &block.corners, near);
+            if length > near {
                 let kind = SceneErrorKind::Pierced {
                     support: support.name.clone(),
                     block: block.name.clone(),
@@ -86,26 +87,6 @@ pub(super) fn check_supports(
         }
     }
     Ok(())
-}
-
-/// Length of the part of a segment that is deeper in a block than rounding errors.
-fn length_inside(from: Point2<f64>, to: Point2<f64>, corners: &[Point2<f64>]) -> f64 {
-    let depth = SAME_PLACE * geometry::size(corners);
-    let along = to - from;
-    let (mut start, mut end) = (0.0_f64, 1.0_f64);
-    for k in 0..corners.len() {
-        let inwards = -geometry::outward_normal(corners, k);
-        let at_start = (from - corners[k]).dot(&inwards) - depth;
-        let slope = along.dot(&inwards);
-        if slope > 0.0 {
-            start = start.max(-at_start / slope);
-        } else if slope < 0.0 {
-            end = end.min(-at_start / slope);
-        } else if at_start < 0.0 {
-            return 0.0;
-        }
-    }
-    (end - start).max(0.0) * along.norm()
 }
 
 /// Refuses blocks and supports that meet nothing.

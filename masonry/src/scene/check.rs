@@ -152,7 +152,9 @@ impl Scene {
         }
         self.check_shape(&corners, block)?;
         let count = block.corners.len();
-        if material.young.is_some() && count != 4 {
+        let points: Vec<_> = block.corners.iter().copied().map(Point2::from).collect();
+        let is_quadrilateral = count == 4 && geometry::check_convex(&points).is_ok();
+        if material.young.is_some() && !is_quadrilateral {
             let kind = SceneErrorKind::NoQuadrilateral { block: block.name.clone(), count };
             return Err(Fault::new(corners, kind));
         }
@@ -161,15 +163,15 @@ impl Scene {
 
     fn check_shape(&self, at: &KeyPath, block: &Block) -> Check {
         let corners: Vec<_> = block.corners.iter().copied().map(Point2::from).collect();
-        let Err(error) = geometry::check_convex(&corners) else { return Ok(()) };
+        let Err(error) = geometry::check_simple(&corners) else { return Ok(()) };
         let (block, at) = (block.name.clone(), at.clone());
         Err(match error {
             PolygonError::Clockwise(area) => {
                 let unit = self.units.length_name();
                 Fault::new(at, SceneErrorKind::Clockwise { block, area, unit })
             }
-            PolygonError::NotConvex(corner) => {
-                let kind = SceneErrorKind::NotConvex { block, corner: corner + 1 };
+            PolygonError::NoWidth(corner) | PolygonError::NotConvex(corner) => {
+                let kind = SceneErrorKind::NoWidth { block, corner: corner + 1 };
                 Fault::new(at.item(corner), kind)
             }
             PolygonError::TooFew(count) => {

@@ -47,6 +47,60 @@ fn bad_polygons_are_refused() {
     assert_eq!(geometry::check_convex(&regular(5)), Ok(()));
 }
 
+#[test]
+fn simple_polygons_may_have_corners_that_point_inwards() {
+    let simple = |corners: &[[f64; 2]]| {
+        let corners: Vec<_> = corners.iter().copied().map(Point2::from).collect();
+        geometry::check_simple(&corners)
+    };
+    let hook = [[0.0, 0.0], [3.0, 0.0], [3.0, 1.0], [1.0, 1.0], [1.0, 2.0], [0.0, 2.0]];
+    assert_eq!(simple(&hook), Ok(()));
+    let backwards: Vec<_> = hook.into_iter().rev().collect();
+    assert_eq!(simple(&backwards), Err(PolygonError::Clockwise(-4.0)));
+    // A corner on a straight edge.
+    assert_eq!(simple(&[[0.0, 0.0], [1.0, 0.0], [2.0, 0.0], [0.0, 2.0]]), Ok(()));
+    assert_eq!(
+        simple(&[[0.0, 0.0], [2.0, 2.0], [2.0, 0.0], [0.0, 2.0]]),
+        Err(PolygonError::Crossing)
+    );
+    assert_eq!(
+        simple(&[[0.0, 0.0], [2.0, 0.0], [2.0, 2.0], [1.0, 0.0], [0.0, 2.0]]),
+        Err(PolygonError::Crossing)
+    );
+    assert_eq!(
+        simple(&[[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [3.0, 1.0], [2.0, 1.0], [0.0, 2.0]]),
+        Err(PolygonError::NoWidth(3))
+    );
+    assert_eq!(simple(&[[0.0, 0.0], [1.0, 0.0], [2.0, 0.0]]), Err(PolygonError::NoWidth(0)));
+}
+
+/// A hook of a 3 m by 1 m rectangle and a 1 m square on its left end, by the sums of both.
+#[test]
+fn a_hook_has_the_measures_of_its_rectangles() {
+    let hook = [[0.0, 0.0], [3.0, 0.0], [3.0, 1.0], [1.0, 1.0], [1.0, 2.0], [0.0, 2.0]];
+    let hook = hook.map(Point2::from);
+    assert_eq!(geometry::area(&hook), 4.0);
+    assert!((geometry::centroid(&hook) - Point2::new(1.25, 0.75)).norm() < 1e-15);
+    // 2.5 + 3 / 8 of the rectangle and 1 / 6 + 9 / 8 of the square.
+    assert!((geometry::polar_moment(&hook) - 25.0 / 6.0).abs() < 1e-14);
+    let at = |x, y| geometry::outside(&hook, Point2::new(x, y));
+    assert_eq!([at(0.5, 1.0), at(2.0, 0.75), at(2.0, 1.5), at(2.0, 1.0)], [-0.5, -0.25, 0.5, 0.0]);
+    // Turned by half a circle it fits the hollow, and half a metre lower it overlaps 2 m by half a metre.
+    let turned = hook.map(|p| Point2::new(4.0 - p.x, 2.0 - p.y));
+    assert!(geometry::overlap_area(&hook, &turned).abs() < 1e-14);
+    let deeper = turned.map(|p| p - Vector2::new(0.0, 0.5));
+    assert!((geometry::overlap_area(&hook, &deeper) - 1.0).abs() < 1e-14);
+    let inside = |x: f64| {
+        let ends = [[x, -1.0], [x, 3.0]].map(Point2::from);
+        geometry::length_inside(ends, &hook, 1e-9)
+    };
+    for (x, length) in [(0.5, 2.0), (2.0, 1.0), (0.0, 0.0), (4.0, 0.0)] {
+        assert!((inside(x) - length).abs() < 1e-14);
+    }
+    let level = [[-1.0, 1.0], [5.0, 1.0]].map(Point2::from);
+    assert!((geometry::length_inside(level, &hook, 1e-9) - 1.0).abs() < 1e-14);
+}
+
 /// On the unit circle.
 fn regular(corners: usize) -> Vec<Point2<f64>> {
     let angle = |k| 2.0 * std::f64::consts::PI * k as f64 / corners as f64;

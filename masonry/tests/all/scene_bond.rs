@@ -96,7 +96,7 @@ fn a_brick_cut_to_next_to_nothing_is_refused() {
     let brick = Brick { length: 1.0, height: 1.0 };
     let wall = Wall::from_courses("w", "stone", brick, vec![vec![1.0, 1e-12]]);
     let error = Model::from_scene(&on_floor(wall, 1.0)).unwrap_err();
-    assert!(matches!(error.kind(), SceneErrorKind::NotConvex { .. }), "{error}");
+    assert!(matches!(error.kind(), SceneErrorKind::NoWidth { .. }), "{error}");
     assert_eq!(error.key(), "walls[0].courses");
 }
 

@@ -284,12 +284,12 @@ fn what_cannot_be_mended_has_its_place_and_remedy() {
         "LWPOLYLINE 2 (line 48): blocks[1].corners: block \"brick/2\" touches no other block and no support, so that it \
          can move in every direction: move it, or raise contact.gap_limit",
     );
-    let inwards = vec![[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.5, 0.25], [0.0, 1.0]];
+    let bow = vec![[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.5], [0.5, 2.0]];
     assert_not_imported(
-        &Dxf::new(6).polygons("brick", &[inwards]),
+        &Dxf::new(6).polygons("brick", &[bow]),
         &Options::default(),
-        "LWPOLYLINE 1 (line 22): the corner at (0.5, 0.25) m points inwards: blocks are convex; divide the block there, \
-         and give the joint between its parts cohesion and tension",
+        "LWPOLYLINE 1 (line 22): its edges cross or touch each other: draw it with the corners in the order in which they \
+         follow each other",
     );
     assert_not_imported(
         &Dxf::new(6).polygons("brick", &[square(0.0, 0.0)]),

@@ -313,6 +313,42 @@ fn rubble_that_is_rounded_meets_exactly() {
     assert_eq!(solve(&imported.scene).unwrap().judgement.verdict, Verdict::Stands);
 }
 
+/// A wall whose left end has L-shaped quoins of two courses each, turned and rounded.
+#[test]
+fn quoins_are_one_body_each() {
+    let [length, height] = BRICK;
+    let quoined = |map: &dyn Fn([f64; 2]) -> [f64; 2]| {
+        let mut polygons = exact();
+        polygons.retain(|polygon| polygon[0][0] > 1e-9);
+        for course in [0, 2] {
+            let y = f64::from(course) * height;
+            polygons.push(vec![
+                [0.0, y],
+                [length, y],
+                [length, y + height],
+                [0.5 * length, y + height],
+                [0.5 * length, y + 2.0 * height],
+                [0.0, y + 2.0 * height],
+            ]);
+        }
+        mapped(&polygons, map)
+    };
+    let plain = on_floor(Dxf::new(6).polygons("brick", &quoined(&|it| it)), 0.0).import();
+    assert_eq!(changes(&plain, "corner that points inwards"), 2);
+    assert_eq!(Model::from_scene(&plain.scene).unwrap().blocks.len(), exact().len() - 2);
+    let expected = limit_of(&plain.scene, 0.0);
+    assert!(expected > exact_limit());
+    for (step, part) in [(1e-6, 1e-4), (1e-3, 2e-2)] {
+        let drawn = quoined(&|it| rounded(step)(turned(5.0)(it)));
+        let imported = on_floor(Dxf::new(6).polygons("brick", &drawn), 5.0).import();
+        let [model, exact] = [&imported, &plain].map(|it| Model::from_scene(&it.scene).unwrap());
+        assert_eq!(model.joints.len(), exact.joints.len(), "{}", imported.report());
+        assert_eq!(solve(&imported.scene).unwrap().judgement.verdict, Verdict::Stands);
+        let found = limit_of(&imported.scene, 5.0);
+        assert!((found / expected - 1.0).abs() < part, "{found} against {expected}");
+    }
+}
+
 #[test]
 fn a_wall_of_1500_stones_meets_in_all_its_joints() {
     let polygons = mapped(&mapped(&wall(50, 30, 0.0), turned(3.0)), rounded(1e-4));

@@ -451,7 +451,8 @@ fn forces(model: &Model, labelled: &dyn Fn(LoadId, String) -> String) -> Vec<Pus
         let near = 1e-9 * geometry::size(&block.corners);
         let pulls = (0..block.corners.len()).any(|k| {
             let normal = geometry::outward_normal(&block.corners, k);
-            (load.at - block.corners[k]).dot(&normal) > -near && load.force.dot(&normal) > 0.0
+            let nearest = geometry::nearest_on_segment(geometry::edge(&block.corners, k), load.at);
+            (load.at - nearest).norm() < near && load.force.dot(&normal) > 0.0
         });
         let way = load.force.try_normalize(0.0).unwrap_or_default();
         Push {

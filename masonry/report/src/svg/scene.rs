@@ -144,24 +144,42 @@ fn draw_names(sheet: &mut Sheet, model: &Model) {
     }
     sheet.layer("names", |canvas, frame| {
         for block in &model.blocks {
-            let at = frame.at(geometry::centroid(&block.corners));
+            let at = frame.at(inner_place(&block.corners));
             let base = Pixel::new(at.x, at.y + 0.36 * size);
             canvas.text(base, Anchor::Middle, size, &names::block(block), &block.name);
         }
     });
 }
 
-/// Lengths of the horizontal and of the vertical line through the centroid of a block \[m\].
-fn room(corners: &[Point2<f64>]) -> [f64; 2] {
+/// A place well inside of a block: its centroid, or, if the block is not convex, the deepest of the centroids of the triangles at
+/// its corners and of the block.
+fn inner_place(corners: &[Point2<f64>]) -> Point2<f64> {
     let centre = geometry::centroid(corners);
+    if geometry::check_convex(corners).is_ok() {
+        return centre;
+    }
+    let count = corners.len();
+    let at_corner = |k: usize| {
+        let [before, after] = [(k + count - 1) % count, (k + 1) % count].map(|k| corners[k]);
+        Point2::from((before.coords + corners[k].coords + after.coords) / 3.0)
+    };
+    let depth = |place: &Point2<f64>| -geometry::outside(corners, *place);
+    let deepest = (0..count).map(at_corner).max_by(|a, b| depth(a).total_cmp(&depth(b)));
+    deepest.filter(|it| depth(it) > depth(&centre)).unwrap_or(centre)
+}
+
+/// Lengths of the horizontal and of the vertical line through the place of the name of a block, to its edges \[m\].
+fn room(corners: &[Point2<f64>]) -> [f64; 2] {
+    let centre = inner_place(corners);
     let chord = |along: usize, across: usize| {
         let crossings = (0..corners.len()).filter_map(|k| {
             let [p, q] = geometry::edge(corners, k);
             let at = (centre[across] - p[across]) / (q[across] - p[across]);
             (0.0..=1.0).contains(&at).then(|| p[along] + (q[along] - p[along]) * at)
         });
-        let ends = crossings.clone().reduce(f64::min).zip(crossings.reduce(f64::max));
-        ends.map_or(0.0, |(low, high)| high - low)
+        let before = crossings.clone().filter(|it| *it < centre[along]).reduce(f64::max);
+        let after = crossings.filter(|it| *it > centre[along]).reduce(f64::min);
+        before.zip(after).map_or(0.0, |(low, high)| high - low)
     };
     [chord(0, 1), chord(1, 0)]
 }

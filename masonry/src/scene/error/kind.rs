@@ -151,15 +151,15 @@ pub enum SceneErrorKind {
         /// How many there are.
         count: usize,
     },
-    /// The edges of the block of this name go around more than once.
+    /// The edges of the block of this name cross or touch each other.
     #[error(
-        "the edges of block \"{0}\" cross: list its corners in the order in which they follow each other, \
+        "the edges of block \"{0}\" cross or touch: list its corners in the order in which they follow each other, \
          counter-clockwise"
     )]
     CrossingEdges(String),
-    /// A block of an elastic material that is no quadrilateral.
+    /// A block of an elastic material that is no convex quadrilateral.
     #[error(
-        "block \"{block}\" has {count} corners, but only blocks with four can be elastic: give it a rigid material \
+        "block \"{block}\" has {count} corners, but only convex blocks with four can be elastic: give it a rigid material \
          (one without E), or divide it into quadrilaterals"
     )]
     NoQuadrilateral {
@@ -168,12 +168,9 @@ pub enum SceneErrorKind {
         /// How many corners it has.
         count: usize,
     },
-    /// A block is not strictly convex.
-    #[error(
-        "block \"{block}\" is not strictly convex at corner {corner}: move the corner outwards, or \
-         split the block"
-    )]
-    NotConvex {
+    /// The edges at a corner lie on each other, or the corner coincides with the next.
+    #[error("block \"{block}\" has no width at corner {corner}: leave the corner out, or move it")]
+    NoWidth {
         /// Name of the block.
         block: String,
         /// The corner, from 1.

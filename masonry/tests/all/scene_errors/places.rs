@@ -14,13 +14,13 @@ fn blocks_of_a_wrong_shape() {
         "blocks[0].corners",
         &["block \"lintel\" run clockwise (area -0.2 m2)", "list them counter-clockwise"],
     );
-    let dented = "[[0.0, 0.3], [1.0, 0.3], [0.1, 0.35], [0.0, 0.5]]";
+    let spike = "[[0.0, 0.3], [1.0, 0.3], [1.0, 0.5], [1.0, 0.4], [0.0, 0.5]]";
     assert_error(
         CORNERS,
-        dented,
-        "[0.1",
+        spike,
+        "[1.0, 0.5",
         "blocks[0].corners[2]",
-        &["not strictly convex at corner 3"],
+        &["no width at corner 3", "leave the corner out"],
     );
     let line = "[[0.0, 0.3], [1.0, 0.3]]";
     assert_error(CORNERS, line, "[[", "blocks[0].corners", &["2 corners: give at least three"]);
@@ -30,7 +30,7 @@ fn blocks_of_a_wrong_shape() {
         star,
         "[[",
         "blocks[0].corners",
-        &["the edges of block \"lintel\" cross", "in which they follow each other"],
+        &["the edges of block \"lintel\" cross or touch", "in which they follow each other"],
     );
 }
 

@@ -1,0 +1,121 @@
+//! Whether corners are those of a block: a polygon that is simple, convex, or seen from its centroid.
+
+use std::f64::consts::PI;
+
+use nalgebra::Point2;
+
+use super::{SAME_PLACE, area, centroid, cross, edge, nearest_on_segment, size};
+
+/// Why corners are not those of a polygon in counter-clockwise order.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub enum PolygonError {
+    /// So many corners, two or less.
+    TooFew(usize),
+    /// A coordinate is not a finite number.
+    NotFinite,
+    /// The corners run clockwise around this signed area \[m^2\].
+    Clockwise(f64),
+    /// The interior angle at this corner, from 0, is 180 degrees or more, or two corners coincide.
+    NotConvex(usize),
+    /// Both edges at this corner, from 0, lie on each other, or it coincides with a corner beside it.
+    NoWidth(usize),
+    /// Edges cross or touch, such as those of a star that is drawn in one stroke.
+    Crossing,
+}
+
+/// Checks that the corners are finite, run counter-clockwise once and span a strictly convex shape.
+///
+/// A corner counts as convex when twice the area of its triangle exceeds `1e-9` times the square of the polygon's size.
+///
+/// # Errors
+/// [`PolygonError`] tells what is wrong with which corner.
+pub fn check_convex(polygon: &[Point2<f64>]) -> Result<(), PolygonError> {
+    let count = polygon.len();
+    check_corners(polygon)?;
+    let area = area(polygon);
+    if area < 0.0 {
+        return Err(PolygonError::Clockwise(area));
+    }
+    let least = SAME_PLACE * size(polygon).powi(2);
+    let sides = |k: usize| {
+        let (before, here) = (polygon[(k + count - 1) % count], polygon[k]);
+        (here - before, polygon[(k + 1) % count] - here)
+    };
+    let mut turned = 0.0;
+    for corner in 0..count {
+        let (before, after) = sides(corner);
+        if cross(before, after) <= least {
+            return Err(PolygonError::NotConvex(corner));
+        }
+        turned += cross(before, after).atan2(before.dot(&after));
+    }
+    if turned < 3.0 * PI { Ok(()) } else { Err(PolygonError::Crossing) }
+}
+
+/// Checks that the corners are finite, run counter-clockwise, and that edges meet in their common corners only.
+///
+/// Corners may point inwards or lie on a straight line. What is nearer than `1e-9` of the polygon's size touches.
+///
+/// # Errors
+/// [`PolygonError`] tells what is wrong; never [`PolygonError::NotConvex`].
+pub fn check_simple(polygon: &[Point2<f64>]) -> Result<(), PolygonError> {
+    if check_convex(polygon).is_ok() {
+        return Ok(());
+    }
+    check_corners(polygon)?;
+    let count = polygon.len();
+    let near = SAME_PLACE * size(polygon);
+    for k in 0..count {
+        let [before, after] = [(k + count - 1) % count, k].map(|k| edge(polygon, k));
+        if distance(before[0], after) <= near || distance(after[1], before) <= near {
+            return Err(PolygonError::NoWidth(k));
+        }
+    }
+    for k in 0..count {
+        // The edge before the first one is its neighbour.
+        let last = if k == 0 { count.saturating_sub(1) } else { count };
+        if (k + 2..last).any(|other| touch(edge(polygon, k), edge(polygon, other), near)) {
+            return Err(PolygonError::Crossing);
+        }
+    }
+    let area = area(polygon);
+    if area < 0.0 { Err(PolygonError::Clockwise(area)) } else { Ok(()) }
+}
+
+/// The first edge that a straight line from the centroid does not reach from inside; `None` if the polygon is star-shaped about
+/// its centroid.
+pub fn edge_behind_centroid(polygon: &[Point2<f64>]) -> Option<usize> {
+    let (centre, least) = (centroid(polygon), SAME_PLACE * size(polygon).powi(2));
+    let is_behind = |k: &usize| {
+        let [a, b] = edge(polygon, *k).map(|corner| corner - centre);
+        cross(a, b) <= least
+    };
+    (0..polygon.len()).find(is_behind)
+}
+
+fn check_corners(polygon: &[Point2<f64>]) -> Result<(), PolygonError> {
+    if polygon.iter().any(|p| !(p.x.is_finite() && p.y.is_finite())) {
+        return Err(PolygonError::NotFinite);
+    }
+    if polygon.len() < 3 {
+        return Err(PolygonError::TooFew(polygon.len()));
+    }
+    Ok(())
+}
+
+/// Whether two segments cross, or an end of one is nearer to the other than `near` \[m\].
+fn touch(one: [Point2<f64>; 2], other: [Point2<f64>; 2], near: f64) -> bool {
+    let side = |[p, q]: [Point2<f64>; 2], x: Point2<f64>| cross(q - p, x - p);
+    let divides = |line: [Point2<f64>; 2], [p, q]: [Point2<f64>; 2]| {
+        (side(line, p) > 0.0) != (side(line, q) > 0.0)
+    };
+    let is_near = |end: Point2<f64>, segment| distance(end, segment) <= near;
+    (divides(one, other) && divides(other, one))
+        || one.iter().any(|end| is_near(*end, other))
+        || other.iter().any(|end| is_near(*end, one))
+}
+
+fn distance(point: Point2<f64>, segment: [Point2<f64>; 2]) -> f64 {
+    (nearest_on_segment(segment, point) - point).norm()
+}
