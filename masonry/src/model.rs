@@ -31,7 +31,6 @@ pub use heal::Healed;
 pub use loads::{Acceleration, BlockLoad, EdgeLoad, LoadCase, PlacedForce, PointLoad};
 use nalgebra::{Point2, Vector2};
 
-use crate::geometry::Quad;
 use crate::ids::{BlockId, FilmId, JointId, SupportId};
 use crate::law::{JointLaw, PointLaw};
 pub use crate::material::Elasticity;
@@ -84,7 +83,7 @@ impl Model {
     }
 }
 
-/// A block in its place (brick, voussoir): a simple polygon; a convex quadrilateral if it is elastic.
+/// A block in its place (brick, voussoir): a simple polygon; star-shaped about its centroid if it is elastic.
 #[derive(Debug, Clone)]
 pub struct PlacedBlock {
     /// The name by which messages and files refer to it.
@@ -102,11 +101,6 @@ pub struct PlacedBlock {
 }
 
 impl PlacedBlock {
-    /// Its corners, if there are four.
-    pub fn quad(&self) -> Option<Quad> {
-        self.corners.as_slice().try_into().ok()
-    }
-
     /// The loads on its edges.
     pub fn edge_loads(&self) -> impl Iterator<Item = &EdgeLoad> {
         self.loads

@@ -168,7 +168,7 @@ pub struct Scene {
     source: Source,
 }
 
-/// A single block: a simple polygon, of an elastic material a convex quadrilateral.
+/// A single block: a simple polygon, of an elastic material convex or star-shaped about its centroid.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
@@ -180,9 +180,21 @@ pub struct Block {
     /// Corners, counter-clockwise \[length\].
     #[serde(deserialize_with = "strict::read")]
     pub corners: Vec<[f64; 2]>,
-    /// Elements along edges 0 and 2, and along edges 1 and 3; required when the material is elastic.
-    #[serde(default, deserialize_with = "strict::read")]
+    /// Elements along edges 0 and 2, and along edges 1 and 3, of a convex quadrilateral; of any other block one number, twice as
+    /// many elements along every edge. Required when the material is elastic.
+    #[serde(default, deserialize_with = "strict::mesh")]
+    #[cfg_attr(test, schemars(with = "Option<Elements>"))]
     pub mesh: Option<[u32; 2]>,
+}
+
+/// Elements along both directions, or along each.
+#[cfg(test)]
+#[derive(schemars::JsonSchema)]
+#[serde(untagged)]
+#[allow(dead_code, reason = "it describes what is read")]
+enum Elements {
+    Both(u32),
+    Each([u32; 2]),
 }
 
 /// A rigid straight support, which moves only if a [`Stage`] moves it. Blocks may lie on either side of it.

@@ -249,6 +249,30 @@ fn every_mesh_of_one_block_reproduces_uniform_stress() {
     }
 }
 
+/// Triangles, pentagons, hexagons, an L and a rectangle with a corner on a straight edge, on a foot 2 wide.
+#[test]
+fn every_mesh_of_a_polygon_reproduces_uniform_stress() {
+    let shapes: [&[[f64; 2]]; 5] = [
+        &[[0.0, 0.0], [2.0, 0.0], [0.7, 1.4]],
+        &[[0.0, 0.0], [2.0, 0.0], [2.3, 0.8], [1.1, 1.7], [-0.2, 1.1]],
+        &[[0.0, 0.0], [2.0, 0.0], [2.6, 0.9], [2.0, 1.8], [0.0, 1.8], [-0.6, 0.9]],
+        &[[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [1.0, 1.0], [1.0, 2.0], [0.0, 2.0]],
+        &[[0.0, 0.0], [2.0, 0.0], [2.0, 0.3], [2.0, 1.0], [0.0, 1.0]],
+    ];
+    for corners in shapes {
+        for mesh in [1, 3] {
+            let block = Block::new("block", "stone", corners).mesh([mesh; 2]);
+            let edges = corners[1..].windows(2).map(|ends| [ends[0], ends[1]]);
+            let last = [corners[corners.len() - 1], corners[0]];
+            let edges: Vec<_> = edges.chain([last]).collect();
+            let scene = sheared(&[block], &edges);
+            for route in ROUTES {
+                assert_principal_stresses(&scene, route);
+            }
+        }
+    }
+}
+
 /// An inclined joint of nodes that do not match carries normal stress and shear exactly.
 #[test]
 fn a_joint_transmits_uniform_stress() {

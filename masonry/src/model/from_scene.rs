@@ -97,11 +97,14 @@ fn heal_corners(
             return Err(Fault::new(at, SceneErrorKind::Value { value, wanted }));
         }
     };
-    for block in blocks.iter_mut() {
-        let meshed = block.mesh.as_ref().zip(block.quad());
-        block.mesh = meshed.map(|(mesh, quad)| BlockMesh::new(&quad, mesh.nx, mesh.ny));
-    }
     check_shapes(blocks, keys)?;
+    for (block, key) in blocks.iter_mut().zip(keys) {
+        let Some(mesh) = &block.mesh else { continue };
+        let meshed = BlockMesh::of(&block.corners, mesh.divisions());
+        let edge = geometry::edge_behind_centroid(&block.corners).unwrap_or(0);
+        let kind = || SceneErrorKind::NoMesh { block: block.name.clone(), edge };
+        block.mesh = Some(meshed.ok_or_else(|| Fault::new(key.clone(), kind()))?);
+    }
     placement::check_overlaps(blocks, keys, scene.units)?;
     Ok(Some(healed))
 }
@@ -173,7 +176,7 @@ fn block(
     let density = material.density;
     let mut block =
         PlacedBlock { name, corners, elasticity, density, mesh: None, loads: Vec::new() };
-    block.mesh = mesh.zip(block.quad()).map(|([nx, ny], quad)| BlockMesh::new(&quad, nx, ny));
+    block.mesh = mesh.and_then(|divisions| BlockMesh::of(&block.corners, divisions));
     block
 }
 

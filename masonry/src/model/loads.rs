@@ -196,10 +196,9 @@ impl EdgeLoad {
 impl PointLoad {
     /// A moment does its work on the mean rotation of the material at the place, `(dv/dx - du/dy) / 2`.
     fn on_nodes(&self, mesh: &BlockMesh) -> Vec<(usize, Vector2<f64>)> {
-        let place = mesh.reference(self.at);
-        let mut forces = mesh.interpolate_inside(place).map(|(node, n)| (node, self.force * n));
+        let mut forces = mesh.interpolate_inside(self.at).map(|(node, n)| (node, self.force * n));
         if self.moment.abs() > 0.0 {
-            for (it, (_, gradient)) in forces.iter_mut().zip(mesh.gradients_inside(place)) {
+            for (it, (_, gradient)) in forces.iter_mut().zip(mesh.gradients_inside(self.at)) {
                 it.1 += Vector2::new(-gradient.y, gradient.x) * (0.5 * self.moment);
             }
         }

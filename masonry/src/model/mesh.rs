@@ -1,64 +1,126 @@
 //! Q4 meshes of single blocks.
+//!
+//! A block is divided into quadrilaterals, its patches, and each patch by its bilinear map into as many elements. A convex
+//! quadrilateral is one patch. Another convex polygon has a patch at every corner, between the middles of both edges and the
+//! centroid; these patches are convex, since the centroid is farther from a corner than the middles are. A polygon that is
+//! star-shaped about its centroid has three patches in the triangle of each edge with the centroid.
+
+use std::collections::{BTreeMap, BTreeSet};
 
 use nalgebra::{Point2, Vector2};
 
 use crate::element::quad4;
 use crate::geometry::{self, Quad};
 
-/// A structured mesh of `nx` by `ny` four-node quadrilaterals in one block.
-///
-/// Nodes are numbered row by row from corner 0: node `(i, j)` is `j * (nx + 1) + i`, with `i` along
-/// edge 0 (corner 0 to corner 1) and `j` from edge 0 to edge 2.
+/// A mesh of four-node quadrilaterals in one block: the one place that knows its nodes, its elements and the nodes on its edges.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BlockMesh {
-    /// Elements along edges 0 and 2.
-    pub nx: usize,
-    /// Elements along edges 1 and 3.
-    pub ny: usize,
+    /// Elements along both directions of every patch.
+    divisions: [usize; 2],
     /// Positions of the nodes \[m\].
     pub nodes: Vec<Point2<f64>>,
-    /// Nodes of each element, counter-clockwise.
+    /// Nodes of each element, counter-clockwise; patch by patch, and row by row from the first side of the patch.
     pub elements: Vec<[usize; 4]>,
+    /// The nodes on each edge, from its first corner to its second.
+    edges: Vec<Vec<usize>>,
 }
 
 impl BlockMesh {
     /// Divides a quadrilateral by the bilinear map: every edge is divided evenly.
     ///
+    /// Nodes are numbered row by row from corner 0: node `(i, j)` is `j * (nx + 1) + i`, with `i` along
+    /// edge 0 (corner 0 to corner 1) and `j` from edge 0 to edge 2.
+    ///
     /// # Panics
     /// If `nx` or `ny` is zero.
     pub fn new(corners: &Quad, nx: usize, ny: usize) -> Self {
-        assert!(nx > 0 && ny > 0, "a mesh has at least one element in each direction");
-        let nodes = (0..=ny)
-            .flat_map(|j| (0..=nx).map(move |i| (i as f64 / nx as f64, j as f64 / ny as f64)))
-            .map(|(r, s)| bilinear(corners, r, s))
-            .collect();
-        let row = nx + 1;
-        let elements = (0..ny)
-            .flat_map(|j| (0..nx).map(move |i| j * row + i))
-            .map(|n| [n, n + 1, n + row + 1, n + row])
-            .collect();
-        Self { nx, ny, nodes, elements }
+        let edges = (0..4).map(|k| vec![k, (k + 1) % 4]).collect();
+        let patches = Patches { vertices: corners.to_vec(), quads: vec![[0, 1, 2, 3]], edges };
+        patches.divided([nx, ny])
     }
 
-    /// The corners of the block.
-    pub fn corners(&self) -> Quad {
-        [0, 1, 2, 3].map(|edge| self.nodes[self.edge_node(edge, 0)])
+    /// Divides a block: a convex quadrilateral into as many elements along edges 0 and 2, and along edges 1 and 3, any other into
+    /// patches of as many by as many.
+    ///
+    /// `None` if the block is no quadrilateral and the numbers differ, or if it is not convex and an edge lies [behind its
+    /// centroid](geometry::edge_behind_centroid).
+    ///
+    /// # Panics
+    /// If a number of elements is zero.
+    pub fn of(corners: &[Point2<f64>], divisions: [usize; 2]) -> Option<Self> {
+        let [nx, ny] = divisions;
+        let is_convex = geometry::check_convex(corners).is_ok();
+        if let (true, Ok(quad)) = (is_convex, Quad::try_from(corners)) {
+            return Some(Self::new(&quad, nx, ny));
+        }
+        let patches = if is_convex {
+            Patches::at_corners(corners)
+        } else if geometry::edge_behind_centroid(corners).is_none() {
+            Patches::at_edges(corners)
+        } else {
+            return None;
+        };
+        (nx == ny).then(|| patches.divided(divisions))
     }
 
-    /// Number of elements along an edge, 0..4.
+    /// Elements along both directions of every patch.
+    pub fn divisions(&self) -> [usize; 2] {
+        self.divisions
+    }
+
+    /// Number of elements along an edge.
+    ///
+    /// # Panics
+    /// If there is no such edge.
     pub fn edge_elements(&self, edge: usize) -> usize {
-        if edge.is_multiple_of(2) { self.nx } else { self.ny }
+        self.edges[edge].len() - 1
     }
 
     /// The nodes on an edge, from its first corner to its second.
     ///
     /// # Panics
-    /// If `edge > 3`.
-    pub fn edge_nodes(&self, edge: usize) -> Vec<usize> {
-        (0..=self.edge_elements(edge)).map(|k| self.edge_node(edge, k)).collect()
+    /// If there is no such edge.
+    pub fn edge_nodes(&self, edge: usize) -> &[usize] {
+        &self.edges[edge]
+    }
+
+    /// The node at every corner.
+    pub fn corner_nodes(&self) -> impl Iterator<Item = usize> {
+        self.edges.iter().map(|nodes| nodes[0])
+    }
+
+    /// The nodes around the block, counter-clockwise from corner 0.
+    pub fn rim(&self) -> impl Iterator<Item = usize> {
+        self.edges.iter().flat_map(|nodes| &nodes[..nodes.len() - 1]).copied()
+    }
+
+    /// The lines between elements, each as its nodes.
+    pub fn lines(&self) -> Vec<Vec<usize>> {
+        let [nx, ny] = self.divisions;
+        let rim: BTreeSet<usize> = self.rim().collect();
+        let mut drawn = BTreeSet::new();
+        let mut lines = Vec::new();
+        for patch in 0..self.patches() {
+            let upright = (0..=nx).map(|i| (i % nx == 0, (0..=ny).map(|j| [i, j]).collect()));
+            let level = (0..=ny).map(|j| (j % ny == 0, (0..=nx).map(|i| [i, j]).collect()));
+            for (is_side, places) in upright.chain(level) {
+                let places: Vec<[usize; 2]> = places;
+                let line: Vec<usize> = places.into_iter().map(|at| self.node(patch, at)).collect();
+                let [a, b] = [line[0], line[line.len() - 1]];
+                // Two patches share a side; one on the rim has both ends there.
+                let is_on_rim = rim.contains(&a) && rim.contains(&b);
+                if !is_side || (!is_on_rim && drawn.insert([a.min(b), a.max(b)])) {
+                    lines.push(line);
+                }
+            }
+        }
+        lines
     }
 
     /// The places of the nodes on an edge as fractions of it, from 0 to 1.
+    ///
+    /// # Panics
+    /// If there is no such edge.
     pub fn edge_fractions(&self, edge: usize) -> Vec<f64> {
         let n = self.edge_elements(edge);
         (0..=n).map(|k| k as f64 / n as f64).collect()
@@ -69,24 +131,19 @@ impl BlockMesh {
     /// `at` is the fraction of the edge, clamped to 0..=1.
     ///
     /// # Panics
-    /// If `edge > 3`.
+    /// If there is no such edge.
     pub fn interpolate(&self, edge: usize, at: f64) -> [(usize, f64); 2] {
+        let nodes = &self.edges[edge];
         let (first, s) = within(self.edge_elements(edge), at);
-        [(self.edge_node(edge, first), 1.0 - s), (self.edge_node(edge, first + 1), s)]
+        [(nodes[first], 1.0 - s), (nodes[first + 1], s)]
     }
 
-    /// The coordinates of a point \[m\] in the block ([`geometry::reference`]); exactly 0 or 1 if the point lies on an edge
-    /// up to rounding.
-    pub fn reference(&self, point: Point2<f64>) -> [f64; 2] {
-        geometry::reference(&self.corners(), point).map(geometry::snap)
-    }
-
-    /// The four nodes of the element in which a place of the block lies, each with its shape function there.
+    /// The four nodes of the element in which a point \[m\] of the block lies, each with its shape function there; zero exactly
+    /// if the point lies on the other side of the element up to rounding.
     ///
-    /// `r` and `s` are the coordinates of the place in the block ([`Self::reference`]), clamped to 0..=1. The map of an
-    /// element is that of the block on its part of the unit square, so that the place in the element needs no search.
-    pub fn interpolate_inside(&self, [r, s]: [f64; 2]) -> [(usize, f64); 4] {
-        let ([a, b, c, d], [r, s]) = self.element_at([r, s]);
+    /// The map of an element is that of its patch on its part of the unit square, so that the element in a patch needs no search.
+    pub fn interpolate_inside(&self, point: Point2<f64>) -> [(usize, f64); 4] {
+        let ([a, b, c, d], [r, s]) = self.element_at(point);
         [(a, (1.0 - r) * (1.0 - s)), (b, r * (1.0 - s)), (c, r * s), (d, (1.0 - r) * s)]
     }
 
@@ -94,30 +151,169 @@ impl BlockMesh {
     /// one of them.
     ///
     /// # Panics
-    /// If the block is not convex.
-    pub fn gradients_inside(&self, place: [f64; 2]) -> [(usize, Vector2<f64>); 4] {
-        let (nodes, place) = self.element_at(place);
+    /// If an element is folded, as in no mesh of a block that was checked.
+    pub fn gradients_inside(&self, point: Point2<f64>) -> [(usize, Vector2<f64>); 4] {
+        let (nodes, place) = self.element_at(point);
         let corners = nodes.map(|node| self.nodes[node]);
         let gradients = quad4::gradients(&corners, place.map(|at| 2.0 * at - 1.0));
-        let (gradients, _) = gradients.expect("elements of a convex block");
+        let (gradients, _) = gradients.expect("elements that are not folded");
         std::array::from_fn(|k| (nodes[k], gradients[k]))
     }
 
-    /// The nodes of the element in which a place of the block lies, and the place in the unit square of this element.
-    fn element_at(&self, [r, s]: [f64; 2]) -> ([usize; 4], [f64; 2]) {
-        let ((i, r), (j, s)) = (within(self.nx, r), within(self.ny, s));
-        (self.elements[j * self.nx + i], [r, s])
+    /// The nodes of the element in which a point of the block lies, and the place in the unit square of this element.
+    fn element_at(&self, point: Point2<f64>) -> ([usize; 4], [f64; 2]) {
+        let [nx, ny] = self.divisions;
+        let outside = |patch: usize| geometry::outside(&self.quad(patch), point);
+        let patches = 0..self.patches();
+        let patch = patches.min_by(|a, b| outside(*a).total_cmp(&outside(*b))).unwrap_or(0);
+        let [r, s] = geometry::reference(&self.quad(patch), point).map(geometry::snap);
+        let ((i, r), (j, s)) = (within(nx, r), within(ny, s));
+        (self.elements[(patch * ny + j) * nx + i], [r, s])
     }
 
-    /// The node at position `k` of an edge, counted from the edge's first corner.
-    fn edge_node(&self, edge: usize, k: usize) -> usize {
-        let row = self.nx + 1;
-        match edge {
-            0 => k,
-            1 => k * row + self.nx,
-            2 => self.ny * row + self.nx - k,
-            3 => (self.ny - k) * row,
-            _ => panic!("a block has the edges 0 to 3, not {edge}"),
+    fn patches(&self) -> usize {
+        self.elements.len() / (self.divisions[0] * self.divisions[1])
+    }
+
+    /// The corners of a patch.
+    fn quad(&self, patch: usize) -> Quad {
+        let [nx, ny] = self.divisions;
+        [[0, 0], [nx, 0], [nx, ny], [0, ny]].map(|at| self.nodes[self.node(patch, at)])
+    }
+
+    /// The node of a patch at a place of its grid.
+    fn node(&self, patch: usize, [i, j]: [usize; 2]) -> usize {
+        let [nx, ny] = self.divisions;
+        let (column, row) = (i.min(nx - 1), j.min(ny - 1));
+        let [a, b, c, d] = self.elements[(patch * ny + row) * nx + column];
+        match (i > column, j > row) {
+            (false, false) => a,
+            (true, false) => b,
+            (true, true) => c,
+            (false, true) => d,
+        }
+    }
+}
+
+/// The patches of a block before they are divided.
+struct Patches {
+    /// The corners of the block come first.
+    vertices: Vec<Point2<f64>>,
+    /// The corners of each patch, counter-clockwise.
+    quads: Vec<[usize; 4]>,
+    /// The vertices on each edge of the block.
+    edges: Vec<Vec<usize>>,
+}
+
+impl Patches {
+    /// A patch at every corner, to the middles of its edges and to the centroid.
+    fn at_corners(corners: &[Point2<f64>]) -> Self {
+        let count = corners.len();
+        let centre = 2 * count;
+        let mut vertices = corners.to_vec();
+        vertices.extend((0..count).map(|k| geometry::on_edge(corners, k, 0.5)));
+        vertices.push(geometry::centroid(corners));
+        let quad = |k: usize| [k, count + k, centre, count + (k + count - 1) % count];
+        let edge = |k: usize| vec![k, count + k, (k + 1) % count];
+        let quads = (0..count).map(quad).collect();
+        Self { vertices, quads, edges: (0..count).map(edge).collect() }
+    }
+
+    /// Three patches in the triangle of each edge with the centroid, one at each of its corners.
+    fn at_edges(corners: &[Point2<f64>]) -> Self {
+        let count = corners.len();
+        let [middles, spokes, triangles, centre] = [1, 2, 3, 4].map(|k| k * count);
+        let centroid = geometry::centroid(corners);
+        let mut vertices = corners.to_vec();
+        vertices.extend((0..count).map(|k| geometry::on_edge(corners, k, 0.5)));
+        vertices.extend(corners.iter().map(|corner| nalgebra::center(corner, &centroid)));
+        vertices.extend((0..count).map(|k| {
+            let [a, b] = geometry::edge(corners, k);
+            centroid + ((a - centroid) + (b - centroid)) / 3.0
+        }));
+        vertices.push(centroid);
+        let of_triangle = |k: usize| {
+            let next = (k + 1) % count;
+            let (middle, inside) = (middles + k, triangles + k);
+            [
+                [k, middle, inside, spokes + k],
+                [next, spokes + next, inside, middle],
+                [centre, spokes + k, inside, spokes + next],
+            ]
+        };
+        let edge = |k: usize| vec![k, middles + k, (k + 1) % count];
+        let quads = (0..count).flat_map(of_triangle).collect();
+        Self { vertices, quads, edges: (0..count).map(edge).collect() }
+    }
+
+    /// The mesh with every patch divided; patches share the nodes on their common sides.
+    fn divided(&self, divisions: [usize; 2]) -> BlockMesh {
+        let [nx, ny] = divisions;
+        assert!(nx > 0 && ny > 0, "a mesh has at least one element in each direction");
+        let (mut nodes, mut elements) = (Vec::new(), Vec::new());
+        let mut on_sides: BTreeMap<OnSide, usize> = BTreeMap::new();
+        for quad in &self.quads {
+            let corners = quad.map(|vertex| self.vertices[vertex]);
+            let mut grid = Vec::with_capacity((nx + 1) * (ny + 1));
+            for (i, j) in (0..=ny).flat_map(|j| (0..=nx).map(move |i| (i, j))) {
+                let new = nodes.len();
+                let node = match OnSide::of(quad, [i, j], divisions) {
+                    Some(place) => *on_sides.entry(place).or_insert(new),
+                    None => new,
+                };
+                if node == new {
+                    nodes.push(bilinear(&corners, i as f64 / nx as f64, j as f64 / ny as f64));
+                }
+                grid.push(node);
+            }
+            let row = nx + 1;
+            let first = (0..ny).flat_map(|j| (0..nx).map(move |i| j * row + i));
+            elements.extend(first.map(|n| [n, n + 1, n + row + 1, n + row].map(|n| grid[n])));
+        }
+        let edges = self.edges.iter().enumerate().map(|(k, vertices)| {
+            // Patches of another shape have as many elements in both directions.
+            let count = divisions[k % 2];
+            let steps = vertices.windows(2).flat_map(|ends| {
+                (0..count).map(|step| OnSide::step([ends[0], ends[1]], step, count))
+            });
+            let last = OnSide { side: [vertices[vertices.len() - 1]; 2], step: 0 };
+            steps.chain([last]).map(|place| on_sides[&place]).collect()
+        });
+        let edges = edges.collect();
+        BlockMesh { divisions, nodes, elements, edges }
+    }
+}
+
+/// A place on a side of a patch, the same for both patches beside it.
+#[derive(PartialEq, Eq, PartialOrd, Ord)]
+struct OnSide {
+    /// The ends, in increasing order; the same vertex twice at a corner.
+    side: [usize; 2],
+    /// Elements from the first end.
+    step: usize,
+}
+
+impl OnSide {
+    fn of([a, b, c, d]: &[usize; 4], [i, j]: [usize; 2], [nx, ny]: [usize; 2]) -> Option<Self> {
+        if j == 0 {
+            Some(Self::step([*a, *b], i, nx))
+        } else if j == ny {
+            Some(Self::step([*d, *c], i, nx))
+        } else if i == 0 {
+            Some(Self::step([*a, *d], j, ny))
+        } else {
+            (i == nx).then(|| Self::step([*b, *c], j, ny))
+        }
+    }
+
+    /// So many elements from one end to the other, of `count`.
+    fn step([from, to]: [usize; 2], step: usize, count: usize) -> Self {
+        if step == 0 || step == count {
+            Self { side: [if step == 0 { from } else { to }; 2], step: 0 }
+        } else if from < to {
+            Self { side: [from, to], step }
+        } else {
+            Self { side: [to, from], step: count - step }
         }
     }
 }

@@ -62,7 +62,8 @@ pub struct Arch {
     #[serde(default, deserialize_with = "strict::read")]
     pub piers: Option<Piers>,
     /// Elements of every block; required when the material is elastic.
-    #[serde(default, deserialize_with = "strict::read")]
+    #[serde(default, deserialize_with = "strict::mesh")]
+    #[cfg_attr(test, schemars(with = "Option<super::Elements>"))]
     pub mesh: Option<[u32; 2]>,
 }
 

@@ -14,7 +14,7 @@ struct Listed {
     material: String,
     #[serde(deserialize_with = "strict::read")]
     corners: Vec<[f64; 2]>,
-    #[serde(default, deserialize_with = "strict::read")]
+    #[serde(default, deserialize_with = "strict::mesh")]
     mesh: Option<[u32; 2]>,
 }
 

@@ -26,7 +26,8 @@ mod stages;
 const MOST_BLOCKS: u32 = 1_000_000;
 /// Elements of one wall, at most: a mesh that fits in no memory is told before it is made.
 const MOST_ELEMENTS_OF_WALL: u32 = 20_000_000;
-/// Elements of one block along one edge, at most.
+/// Elements of one block, at most, and along one edge.
+const MOST_ELEMENTS_OF_BLOCK: u32 = 1_000_000;
 const MOST_ELEMENTS: u32 = 1_000;
 
 impl Scene {
@@ -151,14 +152,11 @@ impl Scene {
             point(&corners.item(k), *corner)?;
         }
         self.check_shape(&corners, block)?;
-        let count = block.corners.len();
-        let points: Vec<_> = block.corners.iter().copied().map(Point2::from).collect();
-        let is_quadrilateral = count == 4 && geometry::check_convex(&points).is_ok();
-        if material.young.is_some() && !is_quadrilateral {
-            let kind = SceneErrorKind::NoQuadrilateral { block: block.name.clone(), count };
-            return Err(Fault::new(corners, kind));
+        check_mesh(at, block.mesh, material)?;
+        match block.mesh.filter(|_| material.young.is_some()) {
+            Some(mesh) => check_patches(at, block, mesh),
+            None => Ok(()),
         }
-        check_mesh(at, block.mesh, material)
     }
 
     fn check_shape(&self, at: &KeyPath, block: &Block) -> Check {
@@ -296,6 +294,28 @@ fn check_mesh(at: &KeyPath, mesh: Option<[u32; 2]>, material: &Material) -> Chec
         at_least_one(at, count, "a block has at least one element along each edge")?;
     }
     Ok(())
+}
+
+/// Refuses blocks that no mesh fits, and numbers of elements that do not fit the block.
+fn check_patches(at: &KeyPath, block: &Block, mesh: [u32; 2]) -> Check {
+    let corners: Vec<_> = block.corners.iter().copied().map(Point2::from).collect();
+    let (name, count) = (|| block.name.clone(), corners.len());
+    let is_convex = geometry::check_convex(&corners).is_ok();
+    if let (false, Some(edge)) = (is_convex, geometry::edge_behind_centroid(&corners)) {
+        let kind = SceneErrorKind::NoMesh { block: name(), edge };
+        return Err(Fault::new(at.key("corners").item(edge), kind));
+    }
+    let patches = match (is_convex, count) {
+        (true, 4) => 1,
+        (true, _) => count,
+        (false, _) => 3 * count,
+    };
+    let [n, m] = mesh.map(f64::from);
+    if patches > 1 && mesh[0] != mesh[1] {
+        return Err(Fault::new(at.key("mesh"), SceneErrorKind::UnevenMesh { block: name(), mesh }));
+    }
+    let elements = patches as f64 * n * m;
+    at_most(at.key("mesh"), "elements of a block", elements, MOST_ELEMENTS_OF_BLOCK)
 }
 
 fn segment(at: &KeyPath, from: [f64; 2], to: [f64; 2]) -> Check {

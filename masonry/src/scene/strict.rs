@@ -159,3 +159,39 @@ impl Visitor<'_> for PartVisitor {
         Ok(part as f64)
     }
 }
+
+/// Elements along two directions; one number is both.
+pub(super) fn mesh<'de, D: Deserializer<'de>>(from: D) -> Result<Option<[u32; 2]>, D::Error> {
+    Ok(Option::<Elements>::deserialize(from)?.map(|Elements(counts)| counts))
+}
+
+struct Elements([u32; 2]);
+
+impl<'de> Deserialize<'de> for Elements {
+    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
+        from.deserialize_any(ElementsVisitor).map(Self)
+    }
+}
+
+struct ElementsVisitor;
+
+impl<'de> Visitor<'de> for ElementsVisitor {
+    type Value = [u32; 2];
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("a number of elements, or a list of exactly 2 items")
+    }
+
+    fn visit_i64<E: Error>(self, count: i64) -> Result<[u32; 2], E> {
+        let count = u32::try_from(count);
+        count.map(|it| [it; 2]).map_err(|_| E::custom("a number of elements is at least 1"))
+    }
+
+    fn visit_u64<E: Error>(self, count: u64) -> Result<[u32; 2], E> {
+        Ok([u32::try_from(count).unwrap_or(u32::MAX); 2])
+    }
+
+    fn visit_seq<A: SeqAccess<'de>>(self, list: A) -> Result<[u32; 2], A::Error> {
+        PairVisitor(PhantomData).visit_seq(list)
+    }
+}

@@ -55,7 +55,8 @@ pub struct Wall {
     pub joints: WallJoints,
     /// Elements along the length and height of a whole brick; required when the material is
     /// elastic. A cut brick gets its share of the first, rounded up.
-    #[serde(default, deserialize_with = "strict::read")]
+    #[serde(default, deserialize_with = "strict::mesh")]
+    #[cfg_attr(test, schemars(with = "Option<super::Elements>"))]
     pub mesh: Option<[u32; 2]>,
 }
 

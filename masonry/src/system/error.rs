@@ -11,7 +11,9 @@ pub enum SystemError {
         block: String,
     },
     /// An element is folded.
-    #[error("element {element} of block `{block}` is folded: the block must be convex")]
+    #[error(
+        "element {element} of block `{block}` is folded: the block must be convex, or star-shaped about its centroid"
+    )]
     FoldedElement {
         /// Name of the block.
         block: String,

@@ -172,7 +172,7 @@ impl Shared {
         elasticity: Elasticity,
     ) -> Result<usize, SystemError> {
         let sides = block.corners[1..].iter().map(|corner| corner - block.corners[0]).collect();
-        let key = Key { sides, divisions: [mesh.nx, mesh.ny], elasticity };
+        let key = Key { sides, divisions: mesh.divisions(), elasticity };
         if let Some(known) = self.keys.iter().position(|known| known.same(&key)) {
             return Ok(known);
         }
@@ -188,6 +188,9 @@ impl Shared {
 
 impl Key {
     fn same(&self, other: &Self) -> bool {
+        if self.sides.len() != other.sides.len() {
+            return false;
+        }
         let near = SAME_SHAPE * self.sides[1].norm();
         let shape = self.sides.iter().zip(&other.sides).all(|(a, b)| (a - b).norm() <= near);
         shape && self.divisions == other.divisions && self.elasticity == other.elasticity

@@ -288,7 +288,7 @@ proptest! {
     ) {
         let turn = Rotation2::new(angle);
         let make = |name: &str, x: [f64; 2], y: [f64; 2], n: usize| {
-            let flat = rectangle(name, x, y, None).quad().unwrap();
+            let flat: geometry::Quad = rectangle(name, x, y, None).corners.try_into().unwrap();
             block(name, flat.map(|p| turn * p), Some([n, 1]))
         };
         let blocks = vec![

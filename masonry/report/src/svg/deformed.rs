@@ -11,6 +11,7 @@ use super::structure;
 use crate::format::{InUnits, significant};
 use crate::summary::{largest_displacement, nodes};
 use masonry::data::state::State;
+use masonry::model::mesh::BlockMesh;
 use masonry::model::{Model, PlacedBlock};
 use masonry::rounding;
 
@@ -102,13 +103,8 @@ fn pixels(
 
 /// The lines between the elements of one block, as positions in the list of its nodes.
 fn mesh_lines(block: &PlacedBlock, nodes: usize) -> Vec<Vec<usize>> {
-    let Some(mesh) = block.mesh.as_ref().filter(|it| nodes >= (it.nx + 1) * (it.ny + 1)) else {
-        return Vec::new();
-    };
-    let at = |i: usize, j: usize| j * (mesh.nx + 1) + i;
-    let upright = (1..mesh.nx).map(|i| (0..=mesh.ny).map(|j| at(i, j)).collect());
-    let level = (1..mesh.ny).map(|j| (0..=mesh.nx).map(|i| at(i, j)).collect());
-    upright.chain(level).collect()
+    let mesh = block.mesh.as_ref().filter(|it| nodes >= it.nodes.len());
+    mesh.map_or_else(Vec::new, BlockMesh::lines)
 }
 
 fn explain(sheet: &mut Sheet, shown: &Shown<'_>, by: &Magnified) {

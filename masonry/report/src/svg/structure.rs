@@ -10,6 +10,7 @@ use super::sheet::{Bounds, Frame, Sheet};
 use super::style::{LARGEST_BRICK, STATUS};
 use masonry::data::state::{PointState, PointStatus};
 use masonry::ids::{JointId, SupportId};
+use masonry::model::mesh::BlockMesh;
 use masonry::model::{Body, JointPoint, Model, PlacedBlock, PlacedSupport};
 
 /// Length of the strokes of a hatch, and most that is between them.
@@ -123,13 +124,8 @@ fn hatch([from, to]: [Pixel; 2], ticks: u32, inward: Vector2<f64>) -> String {
 
 /// The nodes around a block, as positions in the list of its nodes.
 pub(super) fn rim(block: &PlacedBlock) -> Vec<usize> {
-    let Some(mesh) = &block.mesh else { return (0..block.corners.len()).collect() };
-    let row = mesh.nx + 1;
-    let bottom = 0..mesh.nx;
-    let right = (0..mesh.ny).map(|j| j * row + mesh.nx);
-    let top = (1..=mesh.nx).rev().map(|i| mesh.ny * row + i);
-    let left = (1..=mesh.ny).rev().map(|j| j * row);
-    bottom.chain(right).chain(top).chain(left).collect()
+    let of_mesh = |mesh: &BlockMesh| mesh.rim().collect();
+    block.mesh.as_ref().map_or_else(|| (0..block.corners.len()).collect(), of_mesh)
 }
 
 /// Contact points that are open (hollow circles) or slide (filled squares on a corner).

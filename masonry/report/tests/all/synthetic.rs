@@ -205,24 +205,13 @@ fn cuts(wall: Wall, course: usize) -> Vec<f64> {
 
 fn brick(x: [f64; 2], y: [f64; 2], wall: Wall) -> PlacedBlock {
     let (nx, ny) = wall.elements;
-    let mut nodes = Vec::new();
-    for j in 0..=ny {
-        for i in 0..=nx {
-            let (s, t) = (i as f64 / nx as f64, j as f64 / ny as f64);
-            nodes.push(Point2::new(x[0] + s * (x[1] - x[0]), y[0] + t * (y[1] - y[0])));
-        }
-    }
-    let at = |i: usize, j: usize| j * (nx + 1) + i;
-    let elements = (0..ny)
-        .flat_map(|j| (0..nx).map(move |i| (i, j)))
-        .map(|(i, j)| [at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)])
-        .collect();
+    let corners = [[x[0], y[0]], [x[1], y[0]], [x[1], y[1]], [x[0], y[1]]].map(Point2::from);
     PlacedBlock {
         name: String::new(),
-        corners: [[x[0], y[0]], [x[1], y[0]], [x[1], y[1]], [x[0], y[1]]].map(Point2::from).into(),
+        corners: corners.into(),
         elasticity: (!wall.rigid).then_some(Elasticity { young: 1e8, poisson: 0.15 }),
         density: None,
-        mesh: (!wall.rigid).then_some(BlockMesh { nx, ny, nodes, elements }),
+        mesh: (!wall.rigid).then_some(BlockMesh::new(&corners, nx, ny)),
         loads: Vec::new(),
     }
 }

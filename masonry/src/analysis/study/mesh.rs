@@ -176,7 +176,7 @@ fn thrust(model: &Model, state: &State) -> f64 {
 
 fn corners(model: &Model, state: &State, figures: &Figures) -> Vec<Option<Vec<Vector2<f64>>>> {
     let of_block = |(block, moves): (&PlacedBlock, &Vec<Vector2<f64>>)| match &block.mesh {
-        Some(mesh) => (0..4).map(|edge| moves[mesh.edge_nodes(edge)[0]]).collect(),
+        Some(mesh) => mesh.corner_nodes().map(|node| moves[node]).collect(),
         None => moves.clone(),
     };
     let corners = model.blocks.iter().zip(&state.displacements).map(of_block);

@@ -157,16 +157,27 @@ pub enum SceneErrorKind {
          counter-clockwise"
     )]
     CrossingEdges(String),
-    /// A block of an elastic material that is no convex quadrilateral.
+    /// A block of an elastic material that is not star-shaped about its centroid.
     #[error(
-        "block \"{block}\" has {count} corners, but only convex blocks with four can be elastic: give it a rigid material \
-         (one without E), or divide it into quadrilaterals"
+        "block \"{block}\" has no mesh: no straight line in it leads from its centroid to all of its edge {edge}, counted from \
+         0; give it a rigid material (one without E), or divide it"
     )]
-    NoQuadrilateral {
+    NoMesh {
         /// Name of the block.
         block: String,
-        /// How many corners it has.
-        count: usize,
+        /// The edge, from 0.
+        edge: usize,
+    },
+    /// Two numbers of elements for a block that is no convex quadrilateral.
+    #[error(
+        "only convex blocks with four corners have other numbers of elements along edges 0 and 1, which \"{block}\" is not: \
+         give one number, such as mesh = {}", mesh[0]
+    )]
+    UnevenMesh {
+        /// Name of the block.
+        block: String,
+        /// The numbers.
+        mesh: [u32; 2],
     },
     /// The edges at a corner lie on each other, or the corner coincides with the next.
     #[error("block \"{block}\" has no width at corner {corner}: leave the corner out, or move it")]

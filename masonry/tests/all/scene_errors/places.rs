@@ -34,18 +34,33 @@ fn blocks_of_a_wrong_shape() {
     );
 }
 
-/// Only quadrilaterals have a mesh.
+/// A mesh of patches has one number, and no mesh fits a block whose edges its centroid does not face.
 #[test]
-fn elastic_blocks_have_four_corners() {
+fn elastic_blocks_have_a_mesh_that_fits() {
+    let lintel = format!("material = \"stone\"\ncorners = {CORNERS}");
+    let brick = |corners: &str, mesh: &str| {
+        format!("material = \"brick\"\ncorners = {corners}\nmesh = {mesh}")
+    };
     let house = "[[0.0, 0.3], [1.0, 0.3], [1.0, 0.5], [0.5, 0.6], [0.0, 0.5]]";
-    let brick = format!("material = \"brick\"\ncorners = {house}\nmesh = [1, 1]");
     assert_error(
-        &format!("material = \"stone\"\ncorners = {CORNERS}"),
-        &brick,
-        "[[0.0, 0.3]",
-        "blocks[0].corners",
-        &["\"lintel\" has 5 corners", "give it a rigid material"],
+        &lintel,
+        &brick(house, "[1, 2]"),
+        "[1, 2]",
+        "blocks[0].mesh",
+        &["which \"lintel\" is not", "give one number, such as mesh = 1"],
     );
+    let hollow = "[[0.0, 0.3], [1.0, 0.3], [1.0, 1.3], [0.9, 1.3], [0.9, 0.4], [0.1, 0.4], [0.1, 1.3], [0.0, 1.3]]";
+    assert_error(
+        &lintel,
+        &brick(hollow, "1"),
+        "[0.9, 1.3]",
+        "blocks[0].corners[3]",
+        &["block \"lintel\" has no mesh", "its edge 3", "give it a rigid material"],
+    );
+    assert_error(&lintel, &brick(house, "-1"), "-1", "blocks[0].mesh", &["at least 1"]);
+    let wanted = "expected a number of elements, or a list of exactly 2 items";
+    assert_error(&lintel, &brick(house, "1.5"), "1.5", "blocks[0].mesh", &[wanted]);
+    assert_error(&lintel, &brick(house, "600"), "600", "blocks[0].mesh", &["elements of a block"]);
 }
 
 #[test]
