@@ -29,6 +29,7 @@ mod check;
 mod combinations;
 mod contact;
 mod courses;
+mod drawn;
 mod error;
 mod fill;
 pub(crate) mod groups;
@@ -58,6 +59,7 @@ pub use self::arch::{Arch, Line, Piers, Shape};
 pub use self::arch_error::ArchError;
 pub use self::combinations::{Combination, Combined};
 pub use self::contact::{Contact, Films, PointRule};
+pub use self::drawn::{Drawings, Drawn};
 pub(crate) use self::error::Fault;
 pub use self::error::{ContactError, Known, SceneError, SceneErrorKind};
 pub use self::fill::{Axle, Fill};
@@ -102,8 +104,9 @@ pub struct Scene {
     /// Gravity \[m/s^2\]; acts only on materials that have a density.
     #[serde(default, deserialize_with = "strict::read")]
     pub gravity: Option<[f64; 2]>,
-    /// A JSON file with more blocks, relative to the scene file: a list of objects with `material` and `corners`, and `name`
-    /// and `mesh` as single blocks have them. A scene that was read from text has these blocks after its own, and no list.
+    /// A file with more blocks, relative to the scene file: a JSON list of objects with `material` and `corners`, and `name`
+    /// and `mesh` as single blocks have them; or a drawing as `masonry import` reads it. A scene that was read from text has these
+    /// blocks after its own, and no list.
     pub block_list: Option<PathBuf>,
     /// Units of length and force.
     #[serde(deserialize_with = "strict::read")]

@@ -15,6 +15,7 @@ use masonry::analysis::limit::{
     ranges_observed, train_observed,
 };
 use masonry::scene::{Combined, Scene};
+use masonry_import::read_scene;
 use masonry_report::cases::Cases;
 use masonry_report::{self as report, limit as output};
 
@@ -74,7 +75,7 @@ pub(super) struct LimitArgs {
 }
 
 pub(super) fn run(args: &LimitArgs) -> Result<u8, Failure> {
-    let mut scene = Scene::read(&args.scene)?;
+    let mut scene = read_scene(&args.scene)?;
     if args.range {
         return range(&scene, args.json);
     }

@@ -28,6 +28,7 @@ use masonry::files::write_atomically;
 use masonry::model::Model;
 use masonry::plan::Plan;
 use masonry::scene::Scene;
+use masonry_import::read_scene;
 use masonry_report::{svg, table};
 
 /// How a wall or an arch of blocks carries its load.
@@ -103,7 +104,7 @@ fn main() -> ExitCode {
 }
 
 fn plan(args: &PlanArgs) -> Result<u8, Failure> {
-    let mut scene = Scene::read(&args.scene)?;
+    let mut scene = read_scene(&args.scene)?;
     if let Some(route) = args.route {
         scene = scene.route(route.0);
     }
@@ -118,7 +119,7 @@ fn plan(args: &PlanArgs) -> Result<u8, Failure> {
 }
 
 fn draw(args: &DrawArgs) -> Result<u8, Failure> {
-    let scene = Scene::read(&args.scene)?;
+    let scene = read_scene(&args.scene)?;
     let model = Model::from_scene(&scene)?;
     let out = args.out.clone().unwrap_or_else(|| args.scene.with_extension("svg"));
     keep_scene(&scene, &out, "--out")?;

@@ -16,6 +16,7 @@ use masonry::analysis::checkpoint::{Checkpoint, CheckpointError};
 use masonry::analysis::outcome::{Frame, Outcome};
 use masonry::analysis::solve::Run;
 use masonry::scene::{Combined, Scene};
+use masonry_import::read_scene;
 use masonry_report::cases::Cases;
 use masonry_report::svg::ReferenceLines;
 use masonry_report::{self as report, Options, json, table};
@@ -48,7 +49,7 @@ pub(super) struct SolveArgs {
 }
 
 pub(super) fn run(args: &SolveArgs) -> Result<u8, Failure> {
-    let mut scene = Scene::read(&args.scene)?;
+    let mut scene = read_scene(&args.scene)?;
     if let Some(route) = args.route {
         scene = scene.route(route.0);
     }

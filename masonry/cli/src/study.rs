@@ -11,7 +11,7 @@ use crate::out_dir::OutDir;
 use crate::progress::Progress;
 use crate::route::OneRoute;
 use masonry::analysis::study::{Settings, machine, study};
-use masonry::scene::Scene;
+use masonry_import::read_scene;
 use masonry_report::study as output;
 
 #[derive(Debug, Args)]
@@ -39,7 +39,7 @@ pub(super) struct StudyArgs {
 }
 
 pub(super) fn run(args: &StudyArgs) -> Result<u8, Failure> {
-    let scene = Scene::read(&args.scene)?;
+    let scene = read_scene(&args.scene)?;
     let settings = settings(args)?;
     interrupt::listen();
     let out = args.out.as_deref().map(|out| OutDir::open(out, "study", None)).transpose()?;

@@ -33,7 +33,7 @@ pub(crate) fn scene(
     options: &Options,
 ) -> Result<Imported, ImportError> {
     let units = Units { length: LengthUnit::M, force: ForceUnit::Kn };
-    let (thickness, mut assumed) = assumptions(&sheet, &fitted, options);
+    let (thickness, assumed) = assumptions(&sheet, &fitted, options);
     let mut scene = Scene::new(&options.title, units).thickness(thickness).gravity([0.0, -GRAVITY]);
     scene = classes(scene, &fitted, options);
     scene.contact.gap_limit = fitted.grown.open;
@@ -55,9 +55,9 @@ pub(crate) fn scene(
         mark(&mut scene, &model, &mut sheet, options);
         Model::from_scene(&scene).map_err(located)?;
     }
-    assumed.extend(fitted.assumed);
+    let supports_of_scene = pieces.iter().filter(|piece| piece.is_of_scene).count();
     let Sheet { changes, tolerance, unit, drawn, .. } = sheet;
-    Ok(Imported { scene, changes, tolerance, unit, drawn, places, assumed })
+    Ok(Imported { scene, changes, tolerance, unit, drawn, places, supports_of_scene, assumed })
 }
 
 fn assumptions(sheet: &Sheet, fitted: &Fitted, options: &Options) -> (f64, Vec<String>) {

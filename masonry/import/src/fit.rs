@@ -6,7 +6,7 @@ use super::gaps::{self, Grown};
 use super::report::metres;
 use super::sheet::Sheet;
 use super::stones::{Stone, near_pairs};
-use super::{ImportError, ImportErrorKind, Options, floor};
+use super::{ImportError, ImportErrorKind, Options};
 use masonry::geometry;
 use masonry::model::heal::heal;
 use masonry::model::{Movement, PlacedBlock, PlacedSupport};
@@ -18,8 +18,6 @@ const TOUCHING: f64 = 1e-9;
 /// What was done to make blocks meet.
 pub(crate) struct Fitted {
     pub(crate) grown: Grown,
-    /// What was assumed of supports.
-    pub(crate) assumed: Option<String>,
 }
 
 impl Fitted {
@@ -28,13 +26,12 @@ impl Fitted {
     /// # Errors
     /// What cannot meet or still overlaps.
     pub(crate) fn of(sheet: &mut Sheet, options: &Options) -> Result<Self, ImportError> {
-        let assumed = floor::add(sheet)?;
         let grown = gaps::grow(sheet, options.joints)?;
         move_together(sheet)?;
         check_overlaps(sheet)?;
         gaps::shrink(sheet, &grown);
         round(sheet);
-        Ok(Self { grown, assumed })
+        Ok(Self { grown })
     }
 }
 

@@ -33,7 +33,7 @@ pub(crate) fn add(sheet: &mut Sheet) -> Result<Option<String>, ImportError> {
     let more = (to - from) * BEYOND;
     let ends = [from - more, to + more];
     let (name, place) = ("floor".to_owned(), Place::new("floor", None));
-    sheet.supports.push(Piece { name, ends, place });
+    sheet.supports.push(Piece { name, ends, place, is_of_scene: false });
     let [from, to] = ends
         .map(|it| format!("({}, {})", super::report::metres(it.x), super::report::metres(it.y)));
     Ok(Some(format!(

@@ -21,6 +21,7 @@ mod fit;
 mod floor;
 mod gaps;
 mod imported;
+mod listed;
 mod near;
 mod options;
 mod outline;
@@ -35,6 +36,7 @@ mod text;
 pub use self::error::{ImportError, ImportErrorKind};
 use self::fit::Fitted;
 pub use self::imported::Imported;
+pub use self::listed::read_scene;
 pub use self::options::{Joints, Options};
 use self::sheet::Sheet;
 use masonry_drawing::Drawing;
@@ -44,10 +46,13 @@ use masonry_drawing::Drawing;
 /// # Errors
 /// What cannot be mended, with its place in the drawing and the remedy, such as the tolerance that would suffice.
 pub fn import(drawing: &Drawing, options: &Options) -> Result<Imported, ImportError> {
-    let attempt = |tolerance| {
+    let attempt = |tolerance| -> Result<Imported, ImportError> {
         let mut sheet = Sheet::of(drawing, options, tolerance)?;
+        let floor = floor::add(&mut sheet)?;
         let fitted = Fitted::of(&mut sheet, options)?;
-        build::scene(sheet, fitted, options)
+        let mut imported = build::scene(sheet, fitted, options)?;
+        imported.assumed.extend(floor);
+        Ok(imported)
     };
     attempt(options.tolerance).map_err(|error| match error.tolerance() {
         Some(tolerance) => {

@@ -223,6 +223,7 @@ fn pieces(name: &str, points: &[Point2<f64>], place: &Place) -> Vec<Piece> {
         name: name.to_owned(),
         ends: [pair[0], pair[1]],
         place: place.clone(),
+        is_of_scene: false,
     };
     pairs.map(piece).collect()
 }

@@ -23,6 +23,8 @@ pub(crate) struct Piece {
     pub(crate) name: String,
     pub(crate) ends: [Point2<f64>; 2],
     pub(crate) place: Place,
+    /// Whether it is a support of a scene that names the drawing.
+    pub(crate) is_of_scene: bool,
 }
 
 /// The corners of all stones.

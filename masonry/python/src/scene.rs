@@ -35,7 +35,7 @@ impl PyScene {
 
     #[staticmethod]
     fn read(path: PathBuf) -> PyResult<Self> {
-        Ok(Self { scene: masonry::Scene::read(&path).map_err(wrong)? })
+        Ok(Self { scene: masonry_import::read_scene(&path).map_err(wrong)? })
     }
 
     /// A scene from its keys as JSON.

@@ -5,14 +5,14 @@ mod kind;
 mod known;
 
 use std::fmt;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 pub use contact::ContactError;
 pub use kind::SceneErrorKind;
 pub use known::Known;
 use known::with_nearest;
 
-use super::source::Excerpt;
+use super::source::{Excerpt, Located};
 use super::{KeyPath, Scene};
 
 /// A mistake in a scene, its place and its remedy.
@@ -25,8 +25,7 @@ pub struct SceneError(Box<Details>);
 struct Details {
     kind: SceneErrorKind,
     key: KeyPath,
-    place: Option<Excerpt>,
-    file: Option<PathBuf>,
+    located: Located,
 }
 
 impl SceneError {
@@ -43,40 +42,37 @@ impl SceneError {
 
     /// The line of the mistake, from 1; `None` when the scene was built or changed in Rust.
     pub fn line(&self) -> Option<usize> {
-        self.0.place.as_ref().map(|place| place.line)
+        self.0.located.place.as_ref().map(|place| place.line)
     }
 
     /// The column of the mistake in characters, from 1; `None` as [`SceneError::line`].
     pub fn column(&self) -> Option<usize> {
-        self.0.place.as_ref().map(|place| place.column)
+        self.0.located.place.as_ref().map(|place| place.column)
     }
 
     /// The file that the scene was read from.
     pub fn file(&self) -> Option<&Path> {
-        self.0.file.as_deref()
+        self.0.located.file.as_deref()
     }
 
     /// A text that does not fit the format.
     pub(super) fn syntax(message: &str, place: Option<Excerpt>, file: Option<&Path>) -> Self {
         let kind = SceneErrorKind::Syntax(with_nearest(message));
-        Self::new(kind, KeyPath::default(), place, file)
+        let file = file.map(Path::to_owned);
+        Self::new(kind, KeyPath::default(), Located { file, place, entity: None })
     }
 
     pub(super) fn unreadable(path: &Path, message: String) -> Self {
-        Self::new(SceneErrorKind::Read(message), KeyPath::default(), None, Some(path))
+        let located = Located { file: Some(path.to_owned()), ..Located::default() };
+        Self::new(SceneErrorKind::Read(message), KeyPath::default(), located)
     }
 
     pub(super) fn unwritable(message: String) -> Self {
-        Self::new(SceneErrorKind::Write(message), KeyPath::default(), None, None)
+        Self::new(SceneErrorKind::Write(message), KeyPath::default(), Located::default())
     }
 
-    fn new(
-        kind: SceneErrorKind,
-        key: KeyPath,
-        place: Option<Excerpt>,
-        file: Option<&Path>,
-    ) -> Self {
-        Self(Box::new(Details { kind, key, place, file: file.map(Path::to_owned) }))
+    fn new(kind: SceneErrorKind, key: KeyPath, located: Located) -> Self {
+        Self(Box::new(Details { kind, key, located }))
     }
 }
 
@@ -84,10 +80,13 @@ impl std::error::Error for SceneError {}
 
 impl fmt::Display for SceneError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Details { kind, key, place, file } = &*self.0;
+        let Details { kind, key, located: Located { file, place, entity } } = &*self.0;
         if let Some(file) = file {
             write!(f, "{}", file.display())?;
-            f.write_str(if place.is_some() { ", " } else { ": " })?;
+            f.write_str(if place.is_some() || entity.is_some() { ", " } else { ": " })?;
+        }
+        if let Some(entity) = entity {
+            write!(f, "{entity}: ")?;
         }
         if let Some(place) = place {
             writeln!(f, "line {}, column {}\n{}", place.line, place.column, place.snippet())?;
@@ -124,7 +123,7 @@ impl Fault {
             // NaN differs from itself: what was written is compared, not what it is worth.
             format!("{read:?}") == format!("{:?}", scene.without_source())
         });
-        let (file, place) = if unchanged { source.locate(&self.key) } else { (None, None) };
-        SceneError::new(*self.kind, self.key, place, file)
+        let located = if unchanged { source.locate(&self.key) } else { Located::default() };
+        SceneError::new(*self.kind, self.key, located)
     }
 }

@@ -1,8 +1,9 @@
 //! Scenes from text and as text.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
-use super::source::Source;
+use super::drawn::{Drawings, Drawn};
+use super::source::{List, Source};
 use super::{Fault, KeyPath, Scene, SceneError, SceneErrorKind, block_list};
 
 impl Scene {
@@ -11,7 +12,7 @@ impl Scene {
     /// # Errors
     /// The first mistake in the text or the data, with line and column.
     pub fn from_toml(text: &str) -> Result<Self, SceneError> {
-        Self::parse(&Source::new(text, None))
+        Self::parse(&Source::new(text, None), None)
     }
 
     /// Reads a scene from a TOML file and [checks](Scene::check) it.
@@ -20,9 +21,13 @@ impl Scene {
     /// [`SceneErrorKind::Read`] when the file cannot be read as UTF-8 text, else as
     /// [`Scene::from_toml`], with the path of the file.
     pub fn read(path: &Path) -> Result<Self, SceneError> {
+        Self::read_by(path, None)
+    }
+
+    pub(super) fn read_by(path: &Path, drawings: Option<Drawings>) -> Result<Self, SceneError> {
         let text = std::fs::read_to_string(path)
             .map_err(|error| SceneError::unreadable(path, error.to_string()))?;
-        Self::parse(&Source::new(&text, Some(path)))
+        Self::parse(&Source::new(&text, Some(path)), drawings)
     }
 
     /// The scene as TOML text, which reads back as an equal scene.
@@ -43,14 +48,15 @@ impl Scene {
         Self { source: Source::default(), ..self.clone() }
     }
 
-    fn parse(source: &Source) -> Result<Self, SceneError> {
+    fn parse(source: &Source, drawings: Option<Drawings>) -> Result<Self, SceneError> {
         let mut scene = Self { source: source.clone(), ..Self::of(source)? };
         if let Some(list) = &scene.block_list {
-            let source = source.with_list(list).map_err(|error| {
-                let (path, message) = (list.clone(), error.to_string());
+            let read = more_blocks(source.beside(list), &scene, drawings).map_err(|message| {
+                let path = list.clone();
                 Fault::new(KeyPath::of("block_list"), SceneErrorKind::BlockList { path, message })
                     .locate(&scene)
             })?;
+            let source = source.with_list(read);
             scene = Self { source: source.clone(), ..Self::of(&source)? };
         }
         scene.check()?;
@@ -65,9 +71,30 @@ impl Scene {
             SceneError::syntax(error.message(), place, source.path())
         })?;
         if let Some(list) = source.list() {
-            scene.blocks.extend(block_list::blocks(list)?);
+            if list.entities.is_some() {
+                let drawn: Drawn = toml::from_str(&list.text)
+                    .map_err(|error| SceneError::syntax(error.message(), None, Some(&list.path)))?;
+                scene.blocks.extend(drawn.blocks);
+                scene.supports.extend(drawn.supports);
+                scene.between.extend(drawn.between);
+            } else {
+                scene.blocks.extend(block_list::blocks(list)?);
+            }
             scene.block_list = None;
         }
         Ok(scene)
     }
+}
+
+/// A file with more blocks: a JSON list, or a drawing for those who read drawings; the error says why it is not read.
+fn more_blocks(path: PathBuf, scene: &Scene, drawings: Option<Drawings>) -> Result<List, String> {
+    let bytes = std::fs::read(&path).map_err(|error| error.to_string())?;
+    let begins = bytes.iter().find(|byte| !byte.is_ascii_whitespace());
+    let Some(read) = drawings.filter(|_| begins != Some(&b'[')) else {
+        let text = String::from_utf8(bytes).map_err(|error| error.to_string())?;
+        return Ok(List { path, text, entities: None });
+    };
+    let drawn = read(&path, &bytes, scene)?;
+    let text = toml::to_string(&drawn).map_err(|error| error.to_string())?;
+    Ok(List { path, text, entities: Some(drawn.places) })
 }

@@ -22,11 +22,22 @@ struct Text {
     list: Option<List>,
 }
 
-/// A file with a list of blocks.
+/// A file with more blocks.
 #[derive(Debug)]
 pub(super) struct List {
     pub(super) path: PathBuf,
+    /// What is in the file; of a drawing, what was read of it as TOML.
     pub(super) text: String,
+    /// The places of the blocks in a drawing; `None` for a JSON list.
+    pub(super) entities: Option<Vec<String>>,
+}
+
+/// The place of a value: the file, and a part of its text or of its drawing.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub(super) struct Located {
+    pub(super) file: Option<PathBuf>,
+    pub(super) place: Option<Excerpt>,
+    pub(super) entity: Option<String>,
 }
 
 impl PartialEq for Source {
@@ -42,15 +53,15 @@ impl Source {
         Self(Arc::new(Text { file, scene, list: None }))
     }
 
-    /// The source with the list of blocks in a file, whose path is relative to that of the scene.
-    ///
-    /// # Errors
-    /// The error of reading the file.
-    pub(super) fn with_list(&self, list: &Path) -> std::io::Result<Self> {
-        let path = self.path().and_then(Path::parent).map_or(list.to_owned(), |it| it.join(list));
-        let text = std::fs::read_to_string(&path)?;
+    /// The source with a file with more blocks.
+    pub(super) fn with_list(&self, list: List) -> Self {
         let (file, scene) = (self.path().map(Path::to_owned), self.as_str().to_owned());
-        Ok(Self(Arc::new(Text { file, scene, list: Some(List { path, text }) })))
+        Self(Arc::new(Text { file, scene, list: Some(list) }))
+    }
+
+    /// The path of a file that the scene names relative to itself.
+    pub(super) fn beside(&self, file: &Path) -> PathBuf {
+        self.path().and_then(Path::parent).map_or(file.to_owned(), |it| it.join(file))
     }
 
     pub(super) fn as_str(&self) -> &str {
@@ -67,15 +78,16 @@ impl Source {
     }
 
     /// The file and the place of the value at `path`, or of the innermost table around it that is written out.
-    pub(super) fn locate(&self, path: &KeyPath) -> (Option<&Path>, Option<Excerpt>) {
-        match self.locate_in_list(path) {
-            Some((file, place)) => (Some(file), place),
-            None => (self.path(), self.locate_in_scene(path)),
-        }
+    pub(super) fn locate(&self, path: &KeyPath) -> Located {
+        self.locate_in_list(path).unwrap_or_else(|| Located {
+            file: self.path().map(Path::to_owned),
+            place: self.locate_in_scene(path),
+            entity: None,
+        })
     }
 
     /// Blocks that are not in the scene itself are in the list.
-    fn locate_in_list(&self, path: &KeyPath) -> Option<(&Path, Option<Excerpt>)> {
+    fn locate_in_list(&self, path: &KeyPath) -> Option<Located> {
         let list = self.list()?;
         let [PathStep::Key(key), PathStep::Index(index), inner @ ..] = path.steps() else {
             return None;
@@ -86,9 +98,15 @@ impl Source {
             _ => 0,
         };
         let in_list = index.checked_sub(own).filter(|_| key == "blocks")?;
-        let steps = [&[PathStep::Index(in_list)], inner].concat();
-        let span = json_span::locate(&list.text, &steps);
-        Some((&list.path, span.and_then(|span| Excerpt::new(&list.text, span))))
+        let mut located = Located { file: Some(list.path.clone()), ..Located::default() };
+        if let Some(entities) = &list.entities {
+            located.entity = entities.get(in_list).cloned();
+        } else {
+            let steps = [&[PathStep::Index(in_list)], inner].concat();
+            let span = json_span::locate(&list.text, &steps);
+            located.place = span.and_then(|span| Excerpt::new(&list.text, span));
+        }
+        Some(located)
     }
 
     fn locate_in_scene(&self, path: &KeyPath) -> Option<Excerpt> {

@@ -16,11 +16,11 @@ pub enum SceneErrorKind {
     #[error("cannot write the scene as TOML: {0}")]
     Write(String),
     /// The list of blocks cannot be read.
-    #[error("cannot read the list of blocks {}: {message}: name a JSON file, relative to the scene", path.display())]
+    #[error("cannot read the list of blocks {}: {message}: name a JSON list or a drawing, relative to the scene", path.display())]
     BlockList {
         /// The file, as the scene names it.
         path: PathBuf,
-        /// The operating system's message.
+        /// The message of the operating system, or of who reads drawings.
         message: String,
     },
     /// The text is no TOML, or has unknown, missing or repeated keys, or values of a wrong type: what is wrong and what was

@@ -1,0 +1,80 @@
+//! Drawings that a scene names as its list of blocks.
+
+use std::path::Path;
+
+use nalgebra::Point2;
+
+use super::fit::Fitted;
+use super::sheet::Sheet;
+use super::stones::Piece;
+use super::{ImportError, Imported, Joints, Options, build};
+use masonry::scene::{Block, Drawn, Scene, SceneError, Support};
+use masonry_drawing::{Drawing, Format, Place};
+
+/// Reads a scene whose `block_list` may be a drawing of every format that is read.
+///
+/// # Errors
+/// As [`Scene::read`], and what is wrong with the drawing, with the entity.
+pub fn read_scene(path: &Path) -> Result<Scene, SceneError> {
+    Scene::read_with(path, &drawn)
+}
+
+/// The blocks, supports and marked joints of a drawing, in the units of a scene.
+fn drawn(path: &Path, bytes: &[u8], scene: &Scene) -> Result<Drawn, String> {
+    let ending = path.extension().map_or_else(String::new, |it| it.to_string_lossy().into_owned());
+    let format = Format::of_ending(&ending)
+        .ok_or("drawings end in .dxf, .svg, .obj or .json: save it as one of these")?;
+    let drawing = Drawing::read(bytes, format).map_err(|error| error.to_string())?;
+    let imported = imported(&drawing, scene).map_err(|error| {
+        format!(
+            "{error}; of a scene, --tolerance is contact.tolerance, and `masonry import` has the other options"
+        )
+    })?;
+    Ok(imported.into_drawn(scene.units.length_to_si()))
+}
+
+/// What the drawing is with the tolerance of a scene, on its supports and with its mortar or gaps.
+fn imported(drawing: &Drawing, scene: &Scene) -> Result<Imported, ImportError> {
+    let metres = scene.units.length_to_si();
+    let has_mortar = scene.joints.values().any(|joint| joint.mortar_thickness() > 0.0);
+    let joints = if has_mortar { Some(Joints::Mortar) } else { None };
+    let options = Options {
+        // A drawing without a unit has that of the scene.
+        scale: if drawing.unit.or(unknown(drawing)).is_none() { metres } else { 1.0 },
+        tolerance: scene.contact.tolerance.map(|it| it * metres),
+        joints: joints.or((scene.contact.gap_limit > 0.0).then_some(Joints::Open)),
+        ..Options::default()
+    };
+    let mut sheet = Sheet::of(drawing, &options, options.tolerance)?;
+    sheet.supports.extend(scene.supports.iter().map(|it| Piece {
+        name: it.name.clone(),
+        ends: [it.from, it.to].map(|[x, y]| Point2::new(x * metres, y * metres)),
+        place: Place::new(format!("support \"{}\" of the scene", it.name), None),
+        is_of_scene: true,
+    }));
+    let fitted = Fitted::of(&mut sheet, &options)?;
+    build::scene(sheet, fitted, &options)
+}
+
+/// A unit that the file names by an unknown number is no unit of the scene.
+fn unknown(drawing: &Drawing) -> Option<masonry_drawing::Unit> {
+    drawing.unknown_unit.map(|_| masonry_drawing::Unit::Metre)
+}
+
+impl Imported {
+    fn into_drawn(self, metres: f64) -> Drawn {
+        let per_metre = metres.recip();
+        let scaled = |point: [f64; 2]| point.map(|it| it * per_metre);
+        let Scene { blocks, supports, between, .. } = self.scene;
+        let block =
+            |it: Block| Block { corners: it.corners.into_iter().map(scaled).collect(), ..it };
+        let support = |it: Support| Support { from: scaled(it.from), to: scaled(it.to), ..it };
+        let own = supports.len() - self.supports_of_scene;
+        Drawn {
+            blocks: blocks.into_iter().map(block).collect(),
+            places: self.places.iter().map(Place::to_string).collect(),
+            supports: supports.into_iter().take(own).map(support).collect(),
+            between,
+        }
+    }
+}

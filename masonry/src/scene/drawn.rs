@@ -1,0 +1,35 @@
+//! Drawings that `block_list` names: a library that reads them is passed to [`Scene::read_with`].
+
+use std::path::Path;
+
+use serde::{Deserialize, Serialize};
+
+use super::{Between, Block, Scene, SceneError, Support};
+
+/// What a drawing adds to a scene, in the units of the scene.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Drawn {
+    /// The blocks, whose materials are those of the scene.
+    pub blocks: Vec<Block>,
+    /// The places of the blocks in the drawing, for messages.
+    #[serde(skip)]
+    pub places: Vec<String>,
+    /// Supports, whose joint classes are those of the scene.
+    pub supports: Vec<Support>,
+    /// Joint classes between its blocks.
+    pub between: Vec<Between>,
+}
+
+/// Reads a drawing for a scene, from its path and its bytes; the error says where in the drawing what is wrong.
+pub type Drawings<'a> = &'a dyn Fn(&Path, &[u8], &Scene) -> Result<Drawn, String>;
+
+impl Scene {
+    /// Reads a scene from a TOML file as [`Scene::read`] does, whose `block_list` may be a drawing.
+    ///
+    /// # Errors
+    /// As [`Scene::read`], and what is wrong with the drawing.
+    pub fn read_with(path: &Path, drawings: Drawings) -> Result<Self, SceneError> {
+        Self::read_by(path, Some(drawings))
+    }
+}
