@@ -29,7 +29,7 @@ use masonry::model::Model;
 use masonry::plan::Plan;
 use masonry::scene::Scene;
 use masonry_import::read_scene;
-use masonry_report::{svg, table};
+use masonry_report::{dxf, svg, table};
 
 /// How a wall or an arch of blocks carries its load.
 #[derive(Debug, Parser)]
@@ -82,6 +82,10 @@ struct DrawArgs {
     /// The picture; by default next to the scene, with the extension `.svg`.
     #[arg(long)]
     out: Option<PathBuf>,
+    /// Also solve the scene, and write blocks, forces, line of thrust and mechanism as a drawing (DXF); the picture only with
+    /// `--out`.
+    #[arg(long, value_name = "FILE")]
+    dxf: Option<PathBuf>,
 }
 
 fn main() -> ExitCode {
@@ -120,11 +124,20 @@ fn plan(args: &PlanArgs) -> Result<u8, Failure> {
 
 fn draw(args: &DrawArgs) -> Result<u8, Failure> {
     let scene = read_scene(&args.scene)?;
-    let model = Model::from_scene(&scene)?;
-    let out = args.out.clone().unwrap_or_else(|| args.scene.with_extension("svg"));
-    keep_scene(&scene, &out, "--out")?;
-    write_atomically(&out, svg::scene(&scene.title, &model).as_bytes())
-        .map_err(|error| format!("cannot write {}: {error}", out.display()))?;
-    print(&format!("{}\n", out.display()))?;
+    let mut files = Vec::new();
+    if args.out.is_some() || args.dxf.is_none() {
+        let model = Model::from_scene(&scene)?;
+        let out = args.out.clone().unwrap_or_else(|| args.scene.with_extension("svg"));
+        files.push((out, "--out", svg::scene(&scene.title, &model)));
+    }
+    if let Some(out) = args.dxf.clone() {
+        files.push((out, "--dxf", dxf::drawing(&masonry::solve(&scene)?)));
+    }
+    for (out, option, text) in files {
+        keep_scene(&scene, &out, option)?;
+        write_atomically(&out, text.as_bytes())
+            .map_err(|error| format!("cannot write {}: {error}", out.display()))?;
+        print(&format!("{}\n", out.display()))?;
+    }
     Ok(SOLVED)
 }

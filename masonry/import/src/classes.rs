@@ -20,8 +20,9 @@ impl Meaning {
     /// The meaning of a layer: `support` and `joint` at its beginning say what it holds, other names are materials.
     pub(crate) fn of(layer: &str, ignored: &[String]) -> Self {
         let is = |name: &str| layer.eq_ignore_ascii_case(name);
-        // Layers of that name are not printed.
-        if is("defpoints") || ignored.iter().any(|name| is(name)) {
+        // Layers of that name are not printed, and those of results are written by `masonry draw`.
+        let is_result = layer.to_ascii_lowercase().starts_with("result_");
+        if is("defpoints") || is_result || ignored.iter().any(|name| is(name)) {
             return Self::Ignored;
         }
         let name = plain(layer);

@@ -18,7 +18,6 @@
 
 mod complete;
 mod controls;
-mod dxf;
 mod fault;
 mod handles;
 mod places;

@@ -73,6 +73,41 @@ pub fn forces(model: &Model, contacts: &[PointState]) -> Vec<JointForce> {
     model.joints.iter().zip(sums).enumerate().filter_map(placed).collect()
 }
 
+/// The way of a part of the forces through a block.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ForcePath {
+    /// The place in a joint, and the middle of the forces on the block \[m\].
+    pub ends: [Point2<f64>; 2],
+    /// The size of the force in the joint \[N\].
+    pub force: f64,
+}
+
+/// Lines from every joint that presses on a block to the middle of its forces: of a block with two joints one straight line, in an
+/// arch the line of thrust.
+pub fn paths<'a>(
+    model: &Model,
+    forces: impl IntoIterator<Item = &'a JointForce>,
+) -> Vec<ForcePath> {
+    let mut of_blocks: Vec<Vec<&JointForce>> = vec![Vec::new(); model.blocks.len()];
+    for it in forces.into_iter().filter(|it| it.normal > 0.0) {
+        let joint = &model.joints[it.joint.index()];
+        of_blocks[joint.b.index()].push(it);
+        if let Body::Block(a) = joint.a {
+            of_blocks[a.index()].push(it);
+        }
+    }
+    of_blocks.retain(|own| own.len() > 1);
+    let of_block = |own: Vec<&'a JointForce>| {
+        let sum: f64 = own.iter().map(|it| it.force.norm()).sum();
+        let share = |it: &&JointForce| it.at.coords * (it.force.norm() / sum);
+        let middle = Point2::from(own.iter().map(share).sum::<Vector2<f64>>());
+        let path =
+            move |it: &JointForce| ForcePath { ends: [it.at, middle], force: it.force.norm() };
+        own.into_iter().map(path).collect::<Vec<_>>()
+    };
+    of_blocks.into_iter().flat_map(of_block).collect()
+}
+
 /// Where the reaction of a support acts, and its size.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SupportForce {

@@ -5,6 +5,7 @@
 
 pub mod cases;
 pub mod csv;
+pub mod dxf;
 mod figures;
 mod format;
 pub mod hinges;

@@ -4,7 +4,9 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
-use masonry::Scene;
+use masonry::{Model, Scene};
+use masonry_drawing::{Drawing, Format};
+use serde_json::Value;
 
 /// A drawing in a directory of its own.
 fn written(name: &str, text: &str) -> PathBuf {
@@ -94,4 +96,63 @@ fn what_cannot_be_imported_ends_with_code_2() {
     );
     let error = refused(&["import", &drawing.replace("wall.dxf", "none.dxf")]);
     assert!(error.contains("none.dxf: No such file"), "{error}");
+}
+
+/// What `draw --dxf` writes is read back with the same coordinates, and its scene has the verdict of the first.
+#[test]
+fn a_drawing_of_a_scene_is_the_scene() {
+    let stack = |left: f64| {
+        let [from, to] = [left, left + 1.2];
+        format!(
+            "title = \"Stack\"\nthickness = 1.0\ngravity = [0.0, -9.81]\nunits = {{ length = \"m\", force = \"kN\" }}\n\
+             materials.stone.density = 2000.0\njoints.bed.mu = 0.6\n\
+             [[supports]]\nname = \"the floor\"\nfrom = [-1.0, 0.0]\nto = [4.0, 0.0]\njoint = \"bed\"\n\
+             [[blocks]]\nname = \"lower\"\nmaterial = \"stone\"\ncorners = [[0.0, 0.0], [1.0, 0.0], [1.0, 0.7], [0.0, 0.7]]\n\
+             [[blocks]]\nname = \"upper\"\nmaterial = \"stone\"\n\
+             corners = [[{from}, 0.7], [{to}, 0.7], [{to}, 1.1], [{from}, 1.1]]\n"
+        )
+    };
+    let arch = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes/arch_semicircular.toml");
+    // Without the push to the side it stands.
+    let standing = fs::read_to_string(arch).unwrap().replace("9.81, 0.0]", "0.0, 0.0]");
+    let scenes = [
+        ("stands", stack(0.1), [true, false]),
+        ("falls", stack(0.7), [false, true]),
+        ("arch", standing, [true, false]),
+    ];
+    for (name, text, has) in scenes {
+        let path = written(&format!("drawn_{name}"), "");
+        let [scene, again] = ["scene.toml", "again.toml"].map(|it| path.with_file_name(it));
+        fs::write(&scene, text).unwrap();
+        let [drawing, scene, again] = [&path, &scene, &again].map(|it| it.to_str().unwrap());
+        let output = masonry(&["draw", scene, "--dxf", drawing]);
+        assert_eq!(String::from_utf8(output.stdout).unwrap(), format!("{drawing}\n"));
+        let read = Drawing::read(&fs::read(drawing).unwrap(), Format::Dxf).unwrap();
+        let model = Model::from_scene(&Scene::read(Path::new(scene)).unwrap()).unwrap();
+        let metre = model.units.length_to_si();
+        let outlines =
+            |layer: &str| read.outlines.iter().filter(|it| it.layer == layer).collect::<Vec<_>>();
+        assert_eq!(outlines("blocks").len(), model.blocks.len());
+        for (outline, block) in outlines("blocks").iter().zip(&model.blocks) {
+            assert!(outline.corners.iter().copied().eq(block.corners.iter().map(|it| it / metre)));
+        }
+        let lines =
+            |begin: &str| read.lines.iter().filter(|it| it.layer.starts_with(begin)).count();
+        assert_eq!(lines("support_"), model.supports.len());
+        assert_eq!(lines("joint_"), model.joints.len());
+        assert_eq!([lines("result_forces") > 0, !outlines("result_mechanism").is_empty()], has);
+        if name == "arch" {
+            // From each joint to the middle of both forces of every voussoir.
+            assert_eq!(lines("result_thrust"), 2 * model.blocks.len());
+        }
+
+        let output = masonry(&["import", drawing, "--out", again]);
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        let verdict = |scene: &str| {
+            let output = masonry(&["solve", scene, "--json"]);
+            let result: Value = serde_json::from_slice(&output.stdout).unwrap();
+            (result["verdict"].clone(), result["plan"]["joints"].clone())
+        };
+        assert_eq!(verdict(again), verdict(scene));
+    }
 }

@@ -5,10 +5,9 @@ use masonry::analysis::solve::Event;
 use masonry::model::Model;
 use masonry::{Outcome, Run, Scene, SolveError, State, Verdict};
 use masonry_report::svg::{self, ReferenceLines};
-use masonry_report::{json, page, table};
+use masonry_report::{dxf, json, page, table};
 use serde::{Deserialize, Serialize};
 
-use super::dxf;
 use super::fault::Fault;
 use super::watch::Watch;
 
@@ -186,7 +185,7 @@ impl Solved {
             Format::Page => page::solved(outcome, &self.frames, self.reference.as_ref()),
             Format::Json => json::result(outcome, &[])?,
             Format::Text => table::report(outcome),
-            Format::Dxf => dxf::dxf(&outcome.model),
+            Format::Dxf => dxf::drawing(outcome),
         })
     }
 }

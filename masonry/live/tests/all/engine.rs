@@ -181,8 +181,10 @@ fn an_exported_drawing_has_the_blocks_of_the_scene() {
     let drawing = Drawing::read(file["file"].as_str().unwrap().as_bytes(), Format::Dxf).unwrap();
     let scene = masonry::Scene::from_toml(DOOR).unwrap();
     let model = masonry::Model::from_scene(&scene).unwrap();
-    assert_eq!(drawing.outlines.len(), model.blocks.len());
-    assert_eq!(drawing.lines.len(), 1);
+    let outlines = drawing.outlines.iter().filter(|it| it.layer == "blocks");
+    assert_eq!(outlines.count(), model.blocks.len());
+    let supports = drawing.lines.iter().filter(|it| it.layer.starts_with("support_"));
+    assert_eq!(supports.count(), model.supports.len());
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! The forces in the joints: resultants at their places, the paths between them, and the part of friction that is used.
 
-use nalgebra::{Point2, Vector2};
+use nalgebra::Vector2;
 
 use super::arrows::{Arrows, Displaced, LEAST};
 use super::canvas::{Pixel, fixed, open};
@@ -130,29 +130,16 @@ struct Drawn<'a> {
 impl Drawn<'_> {
     /// Lines from every joint of a block to the middle of its forces: of a block with two joints one straight line.
     fn draw_paths(&self, sheet: &mut Sheet) {
-        let mut of_blocks: Vec<Vec<&JointForce>> = vec![Vec::new(); self.model.blocks.len()];
-        for it in self.list.iter().copied().filter(|it| it.normal > 0.0) {
-            let joint = &self.model.joints[it.joint.index()];
-            of_blocks[joint.b.index()].push(it);
-            if let Body::Block(a) = joint.a {
-                of_blocks[a.index()].push(it);
-            }
-        }
-        of_blocks.retain(|own| own.len() > 1);
-        if of_blocks.is_empty() {
+        let paths = joints::paths(self.model, self.list.iter().copied());
+        if paths.is_empty() {
             return;
         }
         let widest = WIDEST * sheet.marks();
         sheet.layer("paths", |canvas, frame| {
-            for own in of_blocks {
-                let sum: f64 = own.iter().map(|it| it.force.norm()).sum();
-                let share = |it: &&JointForce| it.at.coords * (it.force.norm() / sum);
-                let middle = Point2::from(own.iter().map(share).sum::<Vector2<f64>>());
-                for it in own {
-                    let width = (widest * it.force.norm() / self.largest).max(0.3);
-                    let width = format!("style=\"stroke-width:{}px\"", fixed(width));
-                    canvas.path(&open([frame.at(it.at), frame.at(middle)]), &width);
-                }
+            for path in paths {
+                let width = (widest * path.force / self.largest).max(0.3);
+                let width = format!("style=\"stroke-width:{}px\"", fixed(width));
+                canvas.path(&open(path.ends.map(|end| frame.at(end))), &width);
             }
         });
         sheet.legend.add("path of forces, as wide as the force is large", "paths", legend::line);
