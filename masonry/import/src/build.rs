@@ -29,13 +29,13 @@ const GRAVITY: f64 = 9.81;
 /// What the scene lacks to be a model: blocks that meet nothing, supports that run through blocks.
 pub(crate) fn scene(
     mut sheet: Sheet,
-    fitted: Fitted,
+    fitted: &Fitted,
     options: &Options,
 ) -> Result<Imported, ImportError> {
     let units = Units { length: LengthUnit::M, force: ForceUnit::Kn };
-    let (thickness, assumed) = assumptions(&sheet, &fitted, options);
+    let (thickness, assumed) = assumptions(&sheet, fitted, options);
     let mut scene = Scene::new(&options.title, units).thickness(thickness).gravity([0.0, -GRAVITY]);
-    scene = classes(scene, &fitted, options);
+    scene = classes(scene, fitted, options);
     scene.contact.gap_limit = fitted.grown.open;
     scene.blocks = blocks(&sheet);
     for block in &scene.blocks {
@@ -43,7 +43,7 @@ pub(crate) fn scene(
         scene.materials.entry(block.material.clone()).or_insert(material);
     }
     let (supports, pieces): (Vec<Support>, Vec<Piece>) =
-        supports::used(&mut sheet, &fitted).into_iter().unzip();
+        supports::used(&mut sheet, fitted).into_iter().unzip();
     scene.supports = supports;
     let places: Vec<Place> = sheet.stones.iter().map(|stone| stone.place.clone()).collect();
     let located = |error: SceneError| {

@@ -50,7 +50,7 @@ pub fn import(drawing: &Drawing, options: &Options) -> Result<Imported, ImportEr
         let mut sheet = Sheet::of(drawing, options, tolerance)?;
         let floor = floor::add(&mut sheet)?;
         let fitted = Fitted::of(&mut sheet, options)?;
-        let mut imported = build::scene(sheet, fitted, options)?;
+        let mut imported = build::scene(sheet, &fitted, options)?;
         imported.assumed.extend(floor);
         Ok(imported)
     };

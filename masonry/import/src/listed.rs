@@ -53,7 +53,7 @@ fn imported(drawing: &Drawing, scene: &Scene) -> Result<Imported, ImportError> {
         is_of_scene: true,
     }));
     let fitted = Fitted::of(&mut sheet, &options)?;
-    build::scene(sheet, fitted, &options)
+    build::scene(sheet, &fitted, &options)
 }
 
 /// A unit that the file names by an unknown number is no unit of the scene.

@@ -1,5 +1,6 @@
 //! Single blocks from a JSON list beside the scene.
 
+use std::fmt::Write as _;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
@@ -150,13 +151,15 @@ fn dxf(shapes: &[(&str, &[[u32; 2]])]) -> String {
             .to_owned();
     for (handle, (layer, points)) in (1..).zip(shapes) {
         if let [[x, y], [u, v]] = points {
-            text +=
-                &format!("0\nLINE\n5\n{handle}\n8\n{layer}\n10\n{x}\n20\n{y}\n11\n{u}\n21\n{v}\n");
+            let _ = write!(
+                text,
+                "0\nLINE\n5\n{handle}\n8\n{layer}\n10\n{x}\n20\n{y}\n11\n{u}\n21\n{v}\n"
+            );
             continue;
         }
-        text += &format!("0\nLWPOLYLINE\n5\n{handle}\n8\n{layer}\n70\n1\n");
+        let _ = write!(text, "0\nLWPOLYLINE\n5\n{handle}\n8\n{layer}\n70\n1\n");
         for [x, y] in *points {
-            text += &format!("10\n{x}\n20\n{y}\n");
+            let _ = write!(text, "10\n{x}\n20\n{y}\n");
         }
     }
     text + "0\nENDSEC\n0\nEOF\n"

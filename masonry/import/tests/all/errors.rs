@@ -339,6 +339,8 @@ fn a_joint_that_no_mortar_fits_is_named() {
 /// Valid files of each format.
 fn files() -> Vec<(String, Format)> {
     let dxf = Dxf::new(6).polygons("0", &wall(2, 2, 0.0)).into_block("wall", [0.0, 0.0]);
+    let quoin = [[0.0, 0.0], [1.0, 0.0], [1.0, 0.5], [0.5, 0.5], [0.5, 1.0], [0.0, 1.0]];
+    let dxf = dxf.polygons("quoin", &[quoin.to_vec()]);
     let dxf = dxf.insert("wall", [1.0, 0.0], "50\n30\n").line("support", [0.0, 0.0], [9.0, 0.0]);
     let dxf = dxf.entity("ARC", "a", "10\n0\n20\n0\n40\n1\n50\n0\n51\n90\n");
     let svg = "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"40mm\" viewBox=\"0 0 40 40\"><g id=\"a\">\

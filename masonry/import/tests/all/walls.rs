@@ -214,6 +214,14 @@ fn arcs_become_chords() {
         assert_eq!(solve(&imported.scene).unwrap().judgement.verdict, Verdict::Stands);
     }
     assert_eq!(changes(&bulged, "arcs became chords"), COUNT);
+    // Each arc is one chord, so that the voussoirs are those without arcs.
+    let straight = angles.windows(2).map(|pair| voussoir(pair[0], pair[1]).to_vec());
+    let straight = Dxf::new(6).polygons("stone", &straight.collect::<Vec<_>>()).import();
+    let expected = limit_of(&straight.scene, 0.0);
+    for imported in [&bulged, &loops] {
+        let found = limit_of(&imported.scene, 0.0);
+        assert!((found / expected - 1.0).abs() < 1e-6, "{found} against {expected}");
+    }
     let sagitta = 1.2 * (1.0 - (step / 2.0).cos());
     let largest = bulged.changes.iter().filter_map(|it| it.by).fold(0.0, f64::max);
     assert!((largest - sagitta).abs() < 1e-9, "{largest} against {sagitta}");
@@ -241,6 +249,23 @@ fn blocks_are_inserted_turned_scaled_and_nested() {
     let place = &imported.changes[0].place;
     assert!(place.to_string().contains("LWPOLYLINE 1 in block stone of INSERT 3"), "{place}");
     assert_eq!(Model::from_scene(&imported.scene).unwrap().joints.len(), 3 + 4 + 3);
+}
+
+/// Bricks in courses in a wall, each a block of the drawing that the next one inserts.
+#[test]
+fn a_wall_of_nested_blocks_is_the_wall() {
+    let [length, height] = BRICK;
+    let brick = vec![vec![[0.0, 0.0], [length, 0.0], [length, height], [0.0, height]]];
+    let whole = |x: f64, dxf: Dxf| dxf.insert("brick", [x, 0.0], "");
+    let half = |x: f64, dxf: Dxf| dxf.insert("brick", [x, 0.0], "41\n0.5\n");
+    let dxf = Dxf::new(6).polygons("brick", &brick).into_block("brick", [0.0, 0.0]);
+    let dxf = (0..BRICKS).fold(dxf, |dxf, k| whole(k as f64 * length, dxf));
+    let dxf = half(0.0, dxf.into_block("even", [0.0, 0.0]));
+    let dxf = (1..BRICKS).fold(dxf, |dxf, k| whole((k as f64 - 0.5) * length, dxf));
+    let dxf = half((BRICKS as f64 - 0.5) * length, dxf).into_block("odd", [0.0, 0.0]);
+    let rows = format!("71\n{}\n45\n{}\n", COURSES / 2, 2.0 * height);
+    let dxf = dxf.insert("even", [0.0, 0.0], &rows).insert("odd", [0.0, height], &rows);
+    assert_like_exact(&on_floor(dxf, 0.0).import(), 0.0, 1e-6);
 }
 
 #[test]
