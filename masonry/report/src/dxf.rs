@@ -109,7 +109,7 @@ impl<'a> Drawing<'a> {
         let length = LONGEST * self.side / self.model.units.length_to_si();
         let (length, unit) = (significant(length, 3), self.model.units.length_name());
         let most = units.force_text(most);
-        self.text(FORCES, &format!("{length} {unit} of a force: {most}"));
+        self.text(FORCES, &format!("lines of forces: {length} {unit} are {most}"));
     }
 
     fn mechanism(&mut self, rates: &[Vec<Vector2<f64>>]) {
@@ -141,7 +141,7 @@ impl<'a> Drawing<'a> {
     /// A line of text below the structure.
     fn text(&mut self, layer: &str, text: &str) {
         let height = LETTERS * self.side;
-        let at = self.place(10, self.corner - Vector2::new(0.0, 3.0 * height));
+        let at = self.place(10, self.corner - Vector2::new(0.0, 4.0 * height));
         let height = height / self.model.units.length_to_si();
         self.entity("TEXT", layer, &format!("{at}40\n{height}\n1\n{text}\n"));
     }
