@@ -4,16 +4,18 @@ import { all, button, made, one } from "./elements.js";
 
 export class Work {
   constructor(engine, editor) {
-    Object.assign(this, { engine, editor, running: null, arch: undefined });
+    Object.assign(this, { engine, editor, running: null, arch: undefined, factors: [] });
     for (const it of all("#work [data-task]")) it.addEventListener("click", () => this.begin(it.dataset.task, it.textContent));
     one("#stop").addEventListener("click", () => this.running?.abort());
   }
 
-  // The arch of which the least thickness is asked for: the first that has one.
+  // The arch of which the least thickness is asked for, the first that has one; and the factors that a limit multiplies.
   offer(controls) {
     const label = controls.find((it) => it.label.startsWith("thickness of "))?.label;
     this.arch = label?.replace("thickness of ", "");
     one("[data-task=thickness]").hidden = this.arch === undefined;
+    const factors = controls.filter(({ label, value }) => label.startsWith("factor of ") && value !== 1);
+    this.factors = factors.map(({ label, value }) => `${label} ${Number(value.toPrecision(6))}`);
   }
 
   // What was found belongs to an earlier text.
@@ -27,13 +29,15 @@ export class Work {
     const tell = (news) => {
       if (this.running === mine) one("#news").textContent = news;
     };
+    // A limit is a multiple of the loads of the text, which have factors of their own.
+    const multiplied = task === "limit" && this.factors.length > 0 ? ` It multiplies ${this.factors.join(", ")}.` : "";
     const question = { task, text: this.editor.text, law: one("#law").value, arch: this.arch };
     one("#stop").hidden = false;
     tell(`${title}: begun`);
     try {
       const onNews = (news) => tell(`${title}: ${news}`);
       const found = await this.engine.ask(question, { signal: mine.signal, onNews });
-      tell(found.error?.message ?? `${title}: ${found.sentence} The pictures are below.`);
+      tell(found.error?.message ?? `${title}: ${found.sentence}${multiplied} The pictures are below.`);
       if (!found.error) show(title, found);
     } catch (error) {
       tell(error.name === "AbortError" ? `${one("#news").textContent} (stopped)` : error.message);
