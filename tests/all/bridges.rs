@@ -4,7 +4,9 @@ use std::f64::consts::PI;
 
 use masonry::analysis::limit::{Laws, LimitError, limit_by, train, train_observed};
 use masonry::model::Model;
-use masonry::scene::{Arch, Axle, Block, Joint, Load, Material, Scene, Support, Train};
+use masonry::scene::{
+    Arch, Axle, Block, Brick, Joint, Load, Material, Opening, Scene, Support, Train, Wall,
+};
 use nalgebra::Point2;
 
 use crate::common::{M_KN, assert_close, solved};
@@ -125,6 +127,26 @@ fn rays_on_a_slope() {
             assert_close(found, expected, 1e-5);
         }
     }
+}
+
+/// The lower step takes the rays that pass the upper one: of 45 degrees to both sides, half meet the upper step, and an eighth
+/// the lower one between 1.5 and 2 m.
+#[test]
+fn rays_on_a_step() {
+    let step = [[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [1.0, 1.0], [1.0, 2.0], [0.0, 2.0]];
+    let axle = Axle { angle_deg: 45.0, ..Axle::new("step", 0.5, 100.0).level(3.0) };
+    let scene = on_ground([Block::new("step", "stone", step)]).load(Load::axle("axle", axle));
+    assert_pressed(&scene, [62.5, (50.0 * 0.5 + 12.5 * 1.75) / 62.5]);
+}
+
+/// A sill lies below the course above the window: it carries no fill.
+#[test]
+fn fill_over_a_wall_with_a_window() {
+    let brick = Brick { length: 1.0, height: 0.5 };
+    let wall = Wall::running_bond("wall", "stone", brick, 4.0, 6)
+        .opening(Opening::door(1.5, 1.0, 2).above(2));
+    let scene = on_ground([]).wall(wall).load(Load::fill("fill", "wall", 4.0, 18.0));
+    assert_pressed(&scene, [18.0 * 4.0 * 1.0 * 2.0, 2.0]);
 }
 
 /// Without a fill, or where the edge is above it, an axle stands on the edge itself.

@@ -100,9 +100,15 @@ fn heal_corners(
     check_shapes(blocks, keys)?;
     for (block, key) in blocks.iter_mut().zip(keys) {
         let Some(mesh) = &block.mesh else { continue };
-        let meshed = BlockMesh::of(&block.corners, mesh.divisions());
-        let edge = geometry::edge_behind_centroid(&block.corners).unwrap_or(0);
-        let kind = || SceneErrorKind::NoMesh { block: block.name.clone(), edge };
+        let divisions = mesh.divisions();
+        let meshed = BlockMesh::of(&block.corners, divisions);
+        let kind = || match geometry::edge_behind_centroid(&block.corners) {
+            Some(edge) => SceneErrorKind::NoMesh { block: block.name.clone(), edge },
+            None => SceneErrorKind::UnevenMesh {
+                block: block.name.clone(),
+                mesh: divisions.map(|it| u32::try_from(it).unwrap_or(u32::MAX)),
+            },
+        };
         block.mesh = Some(meshed.ok_or_else(|| Fault::new(key.clone(), kind()))?);
     }
     placement::check_overlaps(blocks, keys, scene.units)?;

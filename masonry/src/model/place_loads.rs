@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 
 use nalgebra::{Point2, Vector2};
 
-use self::edges::{EdgePart, OnEdges, free_parts, joined_parts};
+use self::edges::{EdgePart, OnEdges, joined_parts};
 use super::place_fills::{self, PlacedAxle, Share, Top};
 use super::{Acceleration, JointPoint, LoadCase, PlacedBlock, PlacedJoint, PointLoad};
 use crate::geometry::{self, SAME_PLACE};
@@ -71,7 +71,8 @@ pub(super) fn place(
                 let tops = tops(blocks, &fill.over, &joined);
                 let columns = place_fills::columns(&tops, fill.level * unit);
                 if columns.is_empty() {
-                    return Err(Fault::new(at, SceneErrorKind::IdleLoad(load.name.clone())));
+                    let (load, over) = (load.name.clone(), fill.over.clone());
+                    return Err(Fault::new(at, LoadError::IdleFill { load, over }));
                 }
                 let gamma = fill.gamma * scene.units.stress_to_si() / unit;
                 press(blocks, &columns, gamma * thickness * load.factor, id);
@@ -99,7 +100,9 @@ pub(super) fn place(
 
 /// The free edges of a body that face upwards.
 fn tops(blocks: &[PlacedBlock], over: &str, joined: &[Vec<Vec<EdgePart>>]) -> Vec<Top> {
-    place_fills::tops(blocks, over, |block, edge| free_parts([0.0, 1.0], &joined[block][edge]))
+    place_fills::tops(blocks, over, |block, edge| {
+        geometry::without([0.0, 1.0], &joined[block][edge])
+    })
 }
 
 /// Lets shares of a force press down, `force` for a share of one.

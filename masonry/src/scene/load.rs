@@ -336,6 +336,17 @@ pub enum LoadError {
          such an edge, which in mortar is that of the block, or remove the load"
     )]
     IdleInside(String),
+    /// A fill lies on no edge.
+    #[error(
+        "load \"{load}\" acts on nothing: no free edge of \"{over}\" that faces upwards lies below its level: raise \
+         `level`, or name another body in `over`"
+    )]
+    IdleFill {
+        /// Name of the load.
+        load: String,
+        /// Name of the body.
+        over: String,
+    },
     /// Keys of two kinds are given.
     #[error(
         "`{first}` is for a load {one} and `{second}` for one {other}: keep the keys of one kind, or make two loads"

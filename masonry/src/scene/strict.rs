@@ -183,8 +183,11 @@ impl<'de> Visitor<'de> for ElementsVisitor {
     }
 
     fn visit_i64<E: Error>(self, count: i64) -> Result<[u32; 2], E> {
-        let count = u32::try_from(count);
-        count.map(|it| [it; 2]).map_err(|_| E::custom("a number of elements is at least 1"))
+        let count = u64::try_from(count);
+        count.map_or_else(
+            |_| Err(E::custom("a number of elements is at least 1")),
+            |it| self.visit_u64(it),
+        )
     }
 
     fn visit_u64<E: Error>(self, count: u64) -> Result<[u32; 2], E> {

@@ -104,6 +104,20 @@ fn friction_below_two_fifths_makes_arches_thicker() {
     assert!(found["stands"].is_null() && found["falls"].is_number(), "{found}");
 }
 
+/// A load on the crown stays in its place, which a thinner arch does not reach.
+#[test]
+fn a_thinner_arch_that_does_not_fit_ends_the_search() {
+    let load =
+        "[[loads]]\nname = \"weight\"\nblock = \"arch/5\"\nat = [0.9, 0.95]\nforce = [0.0, -1.0]";
+    let found = limit("unfit", &scene(1.0, &semicircular(0.2, 9), load), &["--thickness", "arch"]);
+    assert!(found["proved"] == false && found["stands"] == 0.2, "{found}");
+    let sentence = found["sentence"].as_str().unwrap();
+    assert!(
+        sentence.contains("A thickness of 0.100000 m does not fit into the scene: loads[0].at"),
+        "{sentence}"
+    );
+}
+
 #[test]
 fn flatter_arches_may_be_thinner() {
     for (embrace, ratio) in [(160.0, 0.0686), (140.0, 0.0412), (120.0, 0.0228), (100.0, 0.0113)] {

@@ -12,7 +12,7 @@ use crate::method::statics;
 use crate::model::Model;
 use crate::recover;
 use crate::rounding::{BoundSide, outwards};
-use crate::scene::{Known, Scene};
+use crate::scene::{Known, Scene, SceneError};
 use crate::system::System;
 
 /// Relative difference of the thicknesses on both sides of the least one at which the search ends.
@@ -77,7 +77,8 @@ pub fn least_thickness_observed<'a>(
         return Err(LimitError::NoThickness { name: arch.to_owned() });
     };
     let watch = Watch::new(observer);
-    let mut search = Bisection { scene: scene.clone(), place, watch, falls: None, stands: None };
+    let mut search =
+        Bisection { scene: scene.clone(), place, watch, falls: None, stands: None, unfit: None };
     search.run(given)?;
     search.finish(arch, given)
 }
@@ -89,6 +90,8 @@ struct Bisection<'a> {
     watch: Watch<'a>,
     falls: Option<(f64, Vec<Vec<Vector2<f64>>>)>,
     stands: Option<(f64, Model, Vec<PointState>)>,
+    /// The thickness that does not fit into the rest of the scene, and why.
+    unfit: Option<(f64, SceneError)>,
 }
 
 impl Bisection<'_> {
@@ -120,9 +123,12 @@ impl Bisection<'_> {
             return Ok(false);
         }
         self.scene.arches[self.place].thickness = Some(thickness);
-        // An arch that no longer fits into the rest of the scene is not tried.
+        // An arch that no longer fits into the rest of the scene, such as below a load, ends the search.
         let model = match Model::from_scene(&self.scene) {
-            Err(_) if self.falls.is_some() || self.stands.is_some() => return Ok(false),
+            Err(error) if self.falls.is_some() || self.stands.is_some() => {
+                self.unfit = Some((thickness, error));
+                return Ok(false);
+            }
             model => rigid(model?),
         };
         let system = System::without_factors(&model)?;
@@ -173,6 +179,14 @@ impl Bisection<'_> {
                 "Arch \"{arch}\" stands at all thicknesses that were tried, down to {stands} {name}."
             ),
             (None, None) => format!("Undecided: whether arch \"{arch}\" stands was not found out."),
+        };
+        let sentence = match &self.unfit {
+            Some((thickness, error)) => {
+                format!(
+                    "{sentence} A thickness of {thickness:.6} {name} does not fit into the scene: {error}."
+                )
+            }
+            None => sentence,
         };
         let sentence = if is_interrupted { format!("Interrupted. {sentence}") } else { sentence };
         let mechanism = self.falls.take().map(|(_, rates)| rates);

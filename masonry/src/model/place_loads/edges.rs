@@ -36,7 +36,7 @@ impl OnEdges<'_> {
                     Some(part) if self.inside => {
                         self.presses(corners, edge).then_some(part).into_iter().collect()
                     }
-                    Some(part) => free_parts(part, joined),
+                    Some(part) => geometry::without(part, joined),
                     None => Vec::new(),
                 };
                 for part in parts {
@@ -130,19 +130,6 @@ fn covered_part(
         return None;
     }
     Some([low, high].map(|s| geometry::snap(s / length)))
-}
-
-/// The parts of `covered` without the joined parts.
-pub(super) fn free_parts(covered: EdgePart, joined: &[EdgePart]) -> Vec<EdgePart> {
-    let mut free = vec![covered];
-    for [from, to] in joined {
-        free = free
-            .into_iter()
-            .flat_map(|[a, b]| [[a, b.min(*from)], [a.max(*to), b]])
-            .filter(|[a, b]| b - a > SAME_PLACE)
-            .collect();
-    }
-    free
 }
 
 /// The parts of every edge of every block that make joints.

@@ -66,15 +66,16 @@ impl Scene {
 
     /// An arch, a wall or a block has this name.
     pub(super) fn check_body(&self, at: KeyPath, name: &str) -> Check {
-        let names =
-            self.arches.iter().map(|it| &it.name).chain(self.walls.iter().map(|it| &it.name));
-        let names: Vec<String> =
-            names.chain(self.blocks.iter().map(|it| &it.name)).cloned().collect();
-        if names.iter().any(|it| it == name) {
+        let names = || {
+            let laid = self.arches.iter().map(|it| &it.name);
+            let laid = laid.chain(self.walls.iter().map(|it| &it.name));
+            laid.chain(self.blocks.iter().map(|it| &it.name))
+        };
+        if names().any(|it| it == name) {
             return Ok(());
         }
         let missing = "it under [[arches]]".to_owned();
-        Err(unknown(at, "arch, wall or block", name, names, missing))
+        Err(unknown(at, "arch, wall or block", name, names().cloned().collect(), missing))
     }
 }
 
