@@ -105,7 +105,8 @@ pub struct Scene {
     #[serde(default, deserialize_with = "strict::read")]
     pub gravity: Option<[f64; 2]>,
     /// A file with more blocks, relative to the scene file: a JSON list of objects with `material` and `corners`, and `name`
-    /// and `mesh` as single blocks have them; or a drawing as `masonry import` reads it. A scene that was read from text has these
+    /// and `mesh` as single blocks have them; or a drawing as `masonry import` reads it. Programs in Rust read drawings by
+    /// `masonry_import::read_scene`; `Scene::read` alone reads JSON lists only. A scene that was read from text has these
     /// blocks after its own, and no list.
     pub block_list: Option<PathBuf>,
     /// Units of length and force.

@@ -27,13 +27,13 @@ fn drawn(path: &Path, bytes: &[u8], scene: &Scene) -> Result<Drawn, String> {
     let drawing = Drawing::read(bytes, format).map_err(|error| error.to_string())?;
     let imported = imported(&drawing, scene).map_err(|error| {
         format!(
-            "{error}; of a scene, --tolerance is contact.tolerance, and `masonry import` has the other options"
+            "{error}; in a scene the tolerance is `contact.tolerance`; other options need `masonry import`"
         )
     })?;
     Ok(imported.into_drawn(scene.units.length_to_si()))
 }
 
-/// What the drawing is with the tolerance of a scene, on its supports and with its mortar or gaps.
+/// Imports a drawing with the tolerance, supports, and mortar or gaps of a scene.
 fn imported(drawing: &Drawing, scene: &Scene) -> Result<Imported, ImportError> {
     let metres = scene.units.length_to_si();
     let has_mortar = scene.joints.values().any(|joint| joint.mortar_thickness() > 0.0);
@@ -56,7 +56,7 @@ fn imported(drawing: &Drawing, scene: &Scene) -> Result<Imported, ImportError> {
     build::scene(sheet, &fitted, &options)
 }
 
-/// A unit that the file names by an unknown number is no unit of the scene.
+/// The unit of a drawing whose unit number is unknown: metres, as in `import`.
 fn unknown(drawing: &Drawing) -> Option<masonry_drawing::Unit> {
     drawing.unknown_unit.map(|_| masonry_drawing::Unit::Metre)
 }

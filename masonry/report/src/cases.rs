@@ -1,4 +1,4 @@
-//! Several cases of loads, combinations or positions of a train: a line for each, and the one that governs.
+//! Combinations of loads or positions of a train: a line for each, and the one that governs.
 
 use super::figures::Digits::Significant;
 use super::figures::{Columns, Table, Value, members, yes_or_no};
@@ -39,7 +39,7 @@ fn answer(it: Option<Answer>) -> &'static str {
 const COMBINATIONS: [&str; 2] = ["combinations", "Combinations"];
 const POSITIONS: [&str; 2] = ["positions", "Positions of the train, associative flow"];
 
-/// The worst verdict, and among equals the outcome that uses most of the friction of a joint.
+/// The worst verdict; if verdicts are equal, the outcome that uses most of the friction of a joint.
 fn worst(list: &[Combined<Outcome>]) -> Option<usize> {
     let rank = |it: &Outcome| match it.verdict() {
         Verdict::Falls => 2,
@@ -66,7 +66,7 @@ fn friction_used(outcome: &Outcome) -> Option<f64> {
 }
 
 impl Cases {
-    /// The verdicts of all combinations. The worst one governs, and among equals the one that uses most of the friction of a
+    /// The verdicts of all combinations. The worst one governs; if verdicts are equal, the one that uses most of the friction of a
     /// joint. `None` of no combinations.
     pub fn of_outcomes(list: &[Combined<Outcome>]) -> Option<Self> {
         let governs = worst(list)?;
@@ -155,7 +155,7 @@ impl Cases {
 
     /// What a page says of its table.
     pub(super) fn note(&self) -> String {
-        format!("{} governs, and the page is of it.", self.quoted())
+        format!("{} governs; this page shows it.", self.quoted())
     }
 
     /// The lines for readers.

@@ -76,7 +76,7 @@ impl Model {
         self.loads.iter().enumerate().filter(is_massless).map(sentence).collect()
     }
 
-    /// Axles that stand on nothing.
+    /// Axles that stand beside their bridges.
     fn idle(&self) -> Vec<String> {
         let mut acts = vec![false; self.loads.len()];
         let on_blocks = self.blocks.iter().flat_map(|block| &block.loads).map(BlockLoad::load);
@@ -84,7 +84,7 @@ impl Model {
         ids.for_each(|id| acts[id.index()] = true);
         let idle = self.loads.iter().zip(acts).filter(|(_, acts)| !acts);
         idle.map(|(load, _)| {
-            format!("Axle \"{}\" is beside what carries it, and acts on nothing.", load.name)
+            format!("Axle \"{}\" stands beside its bridge and acts on nothing.", load.name)
         })
         .collect()
     }

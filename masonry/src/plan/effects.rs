@@ -264,7 +264,7 @@ impl Called<'_> {
             "point loads",
             is_kind,
             "at places of blocks",
-            "is a force or a moment on a block",
+            "is a force or a moment on a block, a fill or an axle",
         )
     }
 

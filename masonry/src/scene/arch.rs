@@ -13,7 +13,7 @@ use super::strict;
 
 /// An arch of voussoirs, from the left springing to the right.
 ///
-/// The voussoirs are called `name/1`, `name/2` and so on, those of several rings `name/1/1`, with the ring first, from the
+/// The voussoirs are called `name/1`, `name/2` and so on, or `name/1/1` if `rings` is given, with the ring first, from the
 /// intrados; blocks of piers `name/left/1` and `name/right/1` from the bottom, and
 /// the supports below both ends `name/left` and `name/right`.
 ///

@@ -26,8 +26,9 @@ mod stages;
 const MOST_BLOCKS: u32 = 1_000_000;
 /// Elements of one wall, at most: a mesh that fits in no memory is told before it is made.
 const MOST_ELEMENTS_OF_WALL: u32 = 20_000_000;
-/// Elements of one block, at most, and along one edge.
+/// Elements of one block, at most. Chosen: the square of those along an edge.
 const MOST_ELEMENTS_OF_BLOCK: u32 = 1_000_000;
+/// Elements along one edge, at most. Chosen: more than a plane problem needs.
 const MOST_ELEMENTS: u32 = 1_000;
 
 impl Scene {
@@ -72,7 +73,7 @@ impl Scene {
         unique("stage", "stages", self.stages.iter().map(|stage| &stage.name))?;
         each("stages", &self.stages, |at, stage| self.check_stage(at, stage))?;
         let is_both = !self.stages.is_empty() && !self.combinations.is_empty();
-        let because = "and `stages` exclude one another: a load history is one set of loads";
+        let because = "cannot stand beside `stages`, which are one set of loads";
         let otherwise = ", or remove `stages`";
         unwanted(is_both, &KeyPath::default(), "combinations", because, otherwise)?;
         unique("combination", "combinations", self.combinations.iter().map(|it| &it.name))?;

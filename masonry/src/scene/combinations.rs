@@ -11,7 +11,7 @@ use super::{KeyPath, Load, Scene, SceneError};
 
 /// A combination of loads: their factors, and that of the weight.
 ///
-/// A load that a combination does not name is zero in it if another combination names the load, and acts in full if none does.
+/// A load that only other combinations name is zero. A load that none names acts in full.
 ///
 /// ```
 /// use masonry::scene::Combination;
@@ -49,12 +49,12 @@ impl Combination {
     }
 }
 
-/// What belongs to a combination: its scene, or what was found of that.
+/// A combination's name with its scene, or with its result.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Combined<T> {
     /// The name of the combination; ", opposite" follows if its earthquake comes from the other side.
     pub name: String,
-    /// The scene, or what was found.
+    /// The scene, or the result.
     pub of: T,
 }
 
@@ -98,7 +98,8 @@ impl Scene {
     /// # Errors
     /// [`SceneError`] if there are combinations.
     pub(crate) fn check_single(&self) -> Result<(), SceneError> {
-        let because = "are several sets of loads, of which `masonry solve` and `masonry limit` take all, and this takes one";
+        let because =
+            "are several sets of loads; only `masonry solve` and `masonry limit` take several";
         let otherwise = ", or take one scene of `Scene::combined`";
         let at = KeyPath::default();
         unwanted(!self.combinations.is_empty(), &at, "combinations", because, otherwise)

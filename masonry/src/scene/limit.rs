@@ -13,7 +13,7 @@ use crate::rounding::rounded;
 pub struct LimitLoad {
     /// The load, or the group of loads, whose factor grows; without it the only group, or the only one with a factor.
     pub group: Option<String>,
-    /// The site and the knowledge of the building, for the seismic check of a group of accelerations.
+    /// Data of the seismic check: site and knowledge of the building.
     #[serde(default, deserialize_with = "strict::read")]
     pub seismic: Option<Seismic>,
     /// A train that crosses a bridge, for `masonry limit --train`.
@@ -87,6 +87,7 @@ impl Scene {
     }
 }
 
+/// Positions of a train if the scene gives no number. Chosen: each costs a linear program.
 fn forty() -> u32 {
     40
 }
@@ -115,7 +116,7 @@ impl LimitLoad {
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(default, deny_unknown_fields)]
 pub struct Seismic {
-    /// Peak ground acceleration on rock, `a_g`, as a part of gravity \[g\]; without it and `S` nothing is compared with a demand.
+    /// Peak ground acceleration on rock, `a_g`, as a part of gravity \[g\]; without `a_g` and `S` there is no demand.
     #[serde(rename = "a_g")]
     pub ground: Option<f64>,
     /// Factor of soil and topography `S` \[-\]; required with `a_g`.

@@ -205,7 +205,7 @@ impl Load {
         self.acceleration.is_some_and(|[along, _]| along != 0.0)
     }
 
-    /// Whether a stage refers to the load by this name: the name of the load or of its group.
+    /// Whether a stage or a combination refers to the load by this name: the name of the load or of its group.
     pub fn is_called(&self, name: &str) -> bool {
         self.name == name || self.group_name() == name
     }
@@ -326,14 +326,14 @@ pub enum LoadError {
     NoStress,
     /// A traction inside a wall that presses neither side of its segment.
     #[error(
-        "the traction is zero or runs along the segment, and presses neither of the blocks at a joint there: give it a component across \
-         the segment, or leave `inside` out"
+        "the traction is zero or parallel to the segment, so that it presses no block: give it a component across the \
+         segment, or leave `inside` out"
     )]
     Along,
     /// The load of this name inside a wall presses no block.
     #[error(
         "load \"{0}\" acts on nothing: no block has an edge on its segment that its traction presses: move the segment onto \
-         such an edge, which in mortar is that of the block, or remove the load"
+         an edge of a block (in mortar the joint has two), or remove the load"
     )]
     IdleInside(String),
     /// A fill lies on no edge.
@@ -411,7 +411,7 @@ pub enum LoadError {
          group of loads"
     )]
     Support(String),
-    /// A stage names what is a load and a group of others.
+    /// A stage or a combination names what is a load and a group of others.
     #[error(
         "\"{name}\" is the name of a load, and of the group of {}: give one of them another name; there are the \
          loads {} and the groups {}",
@@ -427,10 +427,8 @@ pub enum LoadError {
         /// All groups.
         groups: Vec<String>,
     },
-    /// A stage names a load twice.
-    #[error(
-        "load \"{load}\" is named twice in this stage, as \"{first}\" and as \"{second}\": keep one of them"
-    )]
+    /// A stage or a combination names a load twice.
+    #[error("load \"{load}\" is named twice, as \"{first}\" and as \"{second}\": keep one of them")]
     Twice {
         /// Name of the load.
         load: String,

@@ -38,7 +38,7 @@ pub enum Bond {
 /// An opening in a wall, with a lintel above it.
 ///
 /// Bricks are cut at its sides; a piece that would be shorter than a quarter of a brick is laid as one with its neighbour. The
-/// lintel is one block in the course above, a brick as any other for its name, and there is none if the opening
+/// lintel is one block in the course above, named like a brick, and there is none if the opening
 /// reaches the top of the wall.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
@@ -60,8 +60,7 @@ pub struct Opening {
     pub lintel: Option<Lintel>,
 }
 
-/// A lintel that is not one more brick of its wall: a block of another material, or a flat arch, for which the neighbouring
-/// bricks are cut to the springings.
+/// A lintel of its own material, or a flat arch beside which bricks are cut.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]

@@ -78,7 +78,7 @@ fn the_worst_verdict_governs() {
     assert!(result.contains("\"title\": \"Block, quake"), "{result}");
     let page = fs::read_to_string(report).unwrap();
     assert!(
-        page.contains("governs, and the page is of it") && page.contains("<td>storm</td>"),
+        page.contains("governs; this page shows it") && page.contains("<td>storm</td>"),
         "{page}"
     );
 }

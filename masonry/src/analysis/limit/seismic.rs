@@ -21,7 +21,7 @@ use crate::verify::moving::moving;
 
 /// The seismic check of a limit load by linear kinematic analysis (Circolare 7/2019, C8.7.1.2.1).
 ///
-/// Its formulas are in [`Scene`](crate::scene::Scene) files as `[limit.seismic]`, and in the reference on limit loads.
+/// The scene has its data as `[limit.seismic]`; the reference on limit loads has its formulas.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct SeismicCheck {
@@ -52,21 +52,28 @@ impl SeismicCheck {
     }
 }
 
-/// Why a scene with data for the check has none: it grows something else than accelerations.
+/// Why a scene with data for the check has none: it has no gravity, or something else than accelerations grows.
 pub(super) fn warning(scene: &Scene, group: &str) -> Option<String> {
     let is_left_out = scene.limit.seismic.is_some() && !is_of_accelerations(scene, group);
     is_left_out.then(|| {
-        format!(
-            "The seismic check is left out: \"{group}\" has other loads than accelerations, or there is no gravity. \
-             Weights whose masses it moves are loads with `mass`."
-        )
+        if has_gravity(scene) {
+            format!(
+                "The seismic check is left out: \"{group}\" has other loads than accelerations. A weight that an \
+                 earthquake moves is a load with `mass`."
+            )
+        } else {
+            "The seismic check is left out: the scene has no gravity.".to_owned()
+        }
     })
+}
+
+fn has_gravity(scene: &Scene) -> bool {
+    scene.gravity.is_some_and(|it| it.iter().any(|it| it.abs() > 0.0))
 }
 
 fn is_of_accelerations(scene: &Scene, group: &str) -> bool {
     let mut members = scene.loads.iter().filter(|load| load.is_called(group)).peekable();
-    let has_gravity = scene.gravity.is_some_and(|it| it.iter().any(|it| it.abs() > 0.0));
-    has_gravity
+    has_gravity(scene)
         && members.peek().is_some()
         && members.all(|load| matches!(load.kind(), Some(LoadKind::Acceleration(_))))
 }

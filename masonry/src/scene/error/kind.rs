@@ -15,12 +15,13 @@ pub enum SceneErrorKind {
     /// The scene cannot be written as TOML, by this message of the writer.
     #[error("cannot write the scene as TOML: {0}")]
     Write(String),
-    /// The list of blocks cannot be read.
+    /// The list of blocks cannot be read. [`Scene::read`](crate::Scene::read) alone reads JSON lists only;
+    /// [`Scene::read_with`](crate::Scene::read_with) takes the function that reads drawings.
     #[error("cannot read the list of blocks {}: {message}: name a JSON list or a drawing, relative to the scene", path.display())]
     BlockList {
         /// The file, as the scene names it.
         path: PathBuf,
-        /// The message of the operating system, or of who reads drawings.
+        /// The message of the operating system, or of the reader of drawings.
         message: String,
     },
     /// The text is no TOML, or has unknown, missing or repeated keys, or values of a wrong type: what is wrong and what was
@@ -80,7 +81,7 @@ pub enum SceneErrorKind {
     /// A name occurs twice.
     #[error("the {what} name \"{name}\" is taken by {first}: choose another")]
     Duplicate {
-        /// `wall`, `block`, `support`, `load` or `stage`.
+        /// `wall`, `block`, `support`, `load`, `stage` or `combination`.
         what: &'static str,
         /// The name.
         name: String,
@@ -159,8 +160,8 @@ pub enum SceneErrorKind {
     CrossingEdges(String),
     /// A block of an elastic material that is not star-shaped about its centroid.
     #[error(
-        "block \"{block}\" has no mesh: no straight line in it leads from its centroid to all of its edge {edge}, counted from \
-         0; give it a rigid material (one without E), or divide it"
+        "block \"{block}\" has no mesh: its edge {edge}, counted from 0, cannot be seen from its centroid: give it a rigid \
+         material (one without E), or divide it"
     )]
     NoMesh {
         /// Name of the block.
@@ -170,8 +171,8 @@ pub enum SceneErrorKind {
     },
     /// Two numbers of elements for a block that is no convex quadrilateral.
     #[error(
-        "only convex blocks with four corners have other numbers of elements along edges 0 and 1, which \"{block}\" is not: \
-         give one number, such as mesh = {}", mesh[0]
+        "block \"{block}\" has two numbers of elements, but only a convex block with four corners has two: give one, such as \
+         mesh = {}", mesh[0]
     )]
     UnevenMesh {
         /// Name of the block.

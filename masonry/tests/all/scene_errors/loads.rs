@@ -197,7 +197,7 @@ fn tractions_within_joints() {
         &on("traction = [7.5, 0.0]"),
         "[7.5, 0.0]",
         "loads[1].traction",
-        "the traction is zero or runs along the segment, and presses neither of the blocks at a joint there",
+        "the traction is zero or parallel to the segment, so that it presses no block",
     );
     let load = "[[loads]]\nname = \"idle\"\nfrom = [0.0, 0.07]\nto = [0.6, 0.07]\ntraction = [0.0, -1.0]\n";
     for (more, words) in [
@@ -273,7 +273,7 @@ fn names_of_loads_in_stages() {
         "side = 1.0, wind = 7.0",
         "7.0",
         "stages[0].loads.wind",
-        "load \"wind\" is named twice in this stage, as \"side\" and as \"wind\": keep one of them",
+        "load \"wind\" is named twice, as \"side\" and as \"wind\": keep one of them",
     );
 }
 
