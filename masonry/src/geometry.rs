@@ -118,7 +118,7 @@ pub fn outside(polygon: &[Point2<f64>], point: Point2<f64>) -> f64 {
     if contains(polygon, point) { -distance } else { distance }
 }
 
-/// Whether a ray to the right of a point leaves a polygon once more than it enters.
+/// Whether a point is inside: a ray to the right crosses the boundary an odd number of times.
 fn contains(polygon: &[Point2<f64>], point: Point2<f64>) -> bool {
     let is_crossed = |k: &usize| {
         let [p, q] = edge(polygon, *k);

@@ -209,7 +209,7 @@ fn crossing(scene: &Scene, args: &LimitArgs) -> Result<Search, Failure> {
     Ok(Search { found: Found::Crossing(Box::new(crossing.limit), lines), failed: None })
 }
 
-/// What a search has found, and what it could not find beside it.
+/// The result of a search, and the error of a part that failed.
 struct Search {
     found: Found,
     failed: Option<Failure>,

@@ -20,7 +20,7 @@ pub struct Imported {
     pub(crate) drawn: Vec<Vec<Point2<f64>>>,
     /// The places of the blocks in the drawing.
     pub(crate) places: Vec<Place>,
-    /// The last supports, so many, are those of a scene that names the drawing.
+    /// How many of the last supports belong to the scene that names the drawing.
     pub(crate) supports_of_scene: usize,
     /// What nobody said, and the scene needs.
     pub(crate) assumed: Vec<String>,

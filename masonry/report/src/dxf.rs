@@ -1,4 +1,4 @@
-//! A structure and what was found of it as a drawing: DXF of release 12, which all programs read, with a layer for each kind.
+//! A structure and what was found of it as a drawing: DXF of release 12, which CAD programs read, with a layer for each kind.
 //!
 //! `masonry import` reads blocks, supports and joints back, and leaves out the layers of results.
 
@@ -14,18 +14,22 @@ use masonry::rounding::largest;
 use masonry::units::LengthUnit;
 use masonry::verify::moving::speed;
 
-/// Layers with the outlines of blocks, and those of results, each with its colour in the palette of DXF.
+/// The layer with the outlines of blocks.
 const BLOCKS: &str = "blocks";
+/// The layer with the resultants in joints.
 const FORCES: &str = "result_forces";
+/// The layer with the lines of thrust.
 const PATHS: &str = "result_thrust";
+/// The layer with the outlines that a mechanism has moved.
 const MECHANISM: &str = "result_mechanism";
-/// The palette: white or black, red, green, blue, grey.
+/// Colours of layers in the palette of DXF: white or black, red, green, blue.
 const COLOURS: [(&str, u8); 4] = [(BLOCKS, 7), (FORCES, 1), (PATHS, 3), (MECHANISM, 5)];
+/// The colour of all other layers, grey.
 const GREY: u8 = 8;
 /// The longest line of a force, and the farthest way in a mechanism, relative to the longer side of the structure. Chosen: both
 /// are seen, and hide little.
 const LONGEST: f64 = 0.1;
-/// Letters, relative to the same.
+/// The height of letters, relative to the longer side of the structure. Chosen: a fifth of the longest line.
 const LETTERS: f64 = 0.02;
 /// Characters of the name of a layer in release 12.
 const LONGEST_NAME: usize = 31;

@@ -73,7 +73,7 @@ pub fn forces(model: &Model, contacts: &[PointState]) -> Vec<JointForce> {
     model.joints.iter().zip(sums).enumerate().filter_map(placed).collect()
 }
 
-/// The way of a part of the forces through a block.
+/// A line from a joint to the middle of the forces on a block.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ForcePath {
     /// The place in a joint, and the middle of the forces on the block \[m\].
@@ -82,8 +82,8 @@ pub struct ForcePath {
     pub force: f64,
 }
 
-/// Lines from every joint that presses on a block to the middle of its forces: of a block with two joints one straight line, in an
-/// arch the line of thrust.
+/// Finds lines from joints to the middle of the forces on a block, for every block on which two joints or more press; in an arch
+/// they are the line of thrust.
 pub fn paths<'a>(
     model: &Model,
     forces: impl IntoIterator<Item = &'a JointForce>,

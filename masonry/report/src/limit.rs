@@ -27,7 +27,7 @@ pub fn write(limit: &Limit, dir: &Folder) -> Result<Vec<PathBuf>, OutputError> {
     write_of(limit, None, dir)
 }
 
-/// The same, and `train.svg` if the limit is that of the position of a train.
+/// Writes pictures and JSON of a limit load, and `train.svg` for a train.
 ///
 /// # Errors
 /// As [`write()`].

@@ -9,9 +9,9 @@ const ROUNDING: f64 = 8.0 * f64::EPSILON;
 
 /// Area of the intersection of two simple, counter-clockwise polygons \[m^2\].
 ///
-/// The first is clipped by the half planes of the second (Sutherland and Hodgman), which need only the second to be convex:
-/// parts of the first that fall apart stay joined by edges without area. A second polygon that is not convex is the sum of the
-/// triangles of a corner with all edges, each with the sign of its direction: outside of it they cancel.
+/// The first is clipped by the half planes of the second (Sutherland and Hodgman), so that only the second needs to be convex.
+/// Parts of the first that fall apart stay joined by edges without area. If neither is convex, the second is divided into
+/// triangles with signs, which cancel outside of it.
 pub fn overlap_area(a: &[Point2<f64>], b: &[Point2<f64>]) -> f64 {
     let is_convex = |polygon| check_convex(polygon).is_ok();
     let total = if is_convex(b) {

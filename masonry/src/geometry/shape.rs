@@ -83,8 +83,7 @@ pub fn check_simple(polygon: &[Point2<f64>]) -> Result<(), PolygonError> {
     if area < 0.0 { Err(PolygonError::Clockwise(area)) } else { Ok(()) }
 }
 
-/// The first edge that a straight line from the centroid does not reach from inside; `None` if the polygon is star-shaped about
-/// its centroid.
+/// Finds the first edge that cannot be seen from the centroid; `None` if all can.
 pub fn edge_behind_centroid(polygon: &[Point2<f64>]) -> Option<usize> {
     let (centre, least) = (centroid(polygon), SAME_PLACE * size(polygon).powi(2));
     let is_behind = |k: &usize| {

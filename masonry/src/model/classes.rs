@@ -136,7 +136,7 @@ impl Classes {
         pairs.filter(|(groups, _)| fits(groups)).map(|(_, class)| *class).next()
     }
 
-    /// The class between two rings of an arch, or of a lintel in its wall.
+    /// The class of a joint between two rings of an arch, or beside a lintel.
     fn of_parts(&self, a: BlockId, b: BlockId) -> Option<usize> {
         let [a, b] = [a, b].map(|block| self.parts.get(block.index()));
         let (a, b) = a.zip(b).filter(|(a, b)| a.wall == b.wall)?;

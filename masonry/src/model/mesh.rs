@@ -2,8 +2,8 @@
 //!
 //! A block is divided into quadrilaterals, its patches, and each patch by its bilinear map into as many elements. A convex
 //! quadrilateral is one patch. Another convex polygon has a patch at every corner, between the middles of both edges and the
-//! centroid; these patches are convex, since the centroid is farther from a corner than the middles are. A polygon that is
-//! star-shaped about its centroid has three patches in the triangle of each edge with the centroid.
+//! centroid; these patches are convex, since the centroid lies beyond the line between the middles beside a corner. A polygon
+//! that is star-shaped about its centroid has three patches in the triangle of each edge with the centroid.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -12,7 +12,7 @@ use nalgebra::{Point2, Vector2};
 use crate::element::quad4;
 use crate::geometry::{self, Quad};
 
-/// A mesh of four-node quadrilaterals in one block: the one place that knows its nodes, its elements and the nodes on its edges.
+/// A mesh of four-node quadrilaterals in one block, with the nodes on its edges.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BlockMesh {
     /// Elements along both directions of every patch.
@@ -39,10 +39,10 @@ impl BlockMesh {
         patches.divided([nx, ny])
     }
 
-    /// Divides a block: a convex quadrilateral into as many elements along edges 0 and 2, and along edges 1 and 3, any other into
-    /// patches of as many by as many.
+    /// Divides a block. A convex quadrilateral gets `nx` by `ny` elements, `nx` along edges 0 and 2; another block gets patches of
+    /// `nx` by `nx`.
     ///
-    /// `None` if the block is no quadrilateral and the numbers differ, or if it is not convex and an edge lies [behind its
+    /// `None` if the block is no convex quadrilateral and the numbers differ, or if it is not convex and an edge lies [behind its
     /// centroid](geometry::edge_behind_centroid).
     ///
     /// # Panics
@@ -147,8 +147,8 @@ impl BlockMesh {
         [(a, (1.0 - r) * (1.0 - s)), (b, r * (1.0 - s)), (c, r * s), (d, (1.0 - r) * s)]
     }
 
-    /// The same nodes, each with the gradient of its shape function there \[1/m\]. At a place between elements it is that in
-    /// one of them.
+    /// The four nodes of the element at a point, each with the gradient of its shape function there \[1/m\]. At a place between
+    /// elements it is that in one of them.
     ///
     /// # Panics
     /// If an element is folded, as in no mesh of a block that was checked.

@@ -38,9 +38,9 @@ pub struct PlacedBrick {
     pub high: [f64; 2],
     /// Length in units of one brick \[-\], without mortar.
     pub fraction: f64,
-    /// How much farther it reaches at its bottom than at its top, to the left and to the right \[length\]: beside a flat arch.
+    /// How far the bottom reaches beyond the top, left and right \[length\], beside a flat arch.
     pub leans: [f64; 2],
-    /// The opening of which it is the lintel, from 0.
+    /// The number of the opening above which the brick is the lintel, from 0.
     pub lintel: Option<usize>,
 }
 

@@ -1,4 +1,4 @@
-//! Drawings that `block_list` names: a library that reads them is passed to [`Scene::read_with`].
+//! Drawings that `block_list` names: the function that reads them is passed to [`Scene::read_with`].
 
 use std::path::Path;
 

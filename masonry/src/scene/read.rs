@@ -86,7 +86,7 @@ impl Scene {
     }
 }
 
-/// A file with more blocks: a JSON list, or a drawing for those who read drawings; the error says why it is not read.
+/// A file with more blocks: a JSON list, or a drawing if `drawings` is given; the error says why it is not read.
 fn more_blocks(path: PathBuf, scene: &Scene, drawings: Option<Drawings>) -> Result<List, String> {
     let bytes = std::fs::read(&path).map_err(|error| error.to_string())?;
     let begins = bytes.iter().find(|byte| !byte.is_ascii_whitespace());

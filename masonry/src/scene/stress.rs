@@ -124,7 +124,7 @@ impl<'de> Visitor<'de> for PressureVisitor {
     }
 }
 
-/// Written out as the reading is.
+/// The schema of a number or a pair.
 #[cfg(test)]
 impl schemars::JsonSchema for Pressure {
     fn schema_name() -> std::borrow::Cow<'static, str> {

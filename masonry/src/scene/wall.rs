@@ -61,7 +61,7 @@ pub struct Wall {
 }
 
 impl Wall {
-    /// A place of the wall as it is laid, after the wall is turned \[length\].
+    /// Turns a place of the upright wall to its final place \[length\].
     ///
     /// ```
     /// use masonry::scene::{Brick, Wall};

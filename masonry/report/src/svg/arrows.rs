@@ -151,7 +151,7 @@ impl Push {
         (0..count).map(|k| arrow((f64::from(k) + 0.5) / f64::from(count))).collect()
     }
 
-    /// The length of one of its arrows: that of the largest has the length of all of a uniform load.
+    /// The length of an arrow, proportional to its value.
     fn length_of(&self, value: Vector2<f64>) -> f64 {
         self.length() * (value.norm() / self.value.norm())
     }
@@ -469,7 +469,7 @@ fn forces(model: &Model, labelled: &dyn Fn(LoadId, String) -> String) -> Vec<Pus
     all.map(push).collect()
 }
 
-/// All moments at places of blocks. Their values point up, so that their labels stand above them.
+/// All moments at places of blocks. Their values point up, which places the labels above.
 fn moments(model: &Model, labelled: &dyn Fn(LoadId, String) -> String) -> Vec<Push> {
     let units = InUnits(model.units);
     let blocks = model.blocks.iter().enumerate();

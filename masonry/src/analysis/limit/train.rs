@@ -25,7 +25,7 @@ pub struct TrainPosition {
 pub struct CrossingTrain {
     /// Its positions, in their order; after an interruption those that were reached.
     pub positions: Vec<TrainPosition>,
-    /// The position that governs, of the smallest factor; the first one on the bridge if there is no limit.
+    /// The position with the smallest factor; if there is no limit, the first with an axle on the bridge.
     pub critical: usize,
     /// The limit load there, by the chosen laws.
     pub limit: Limit,

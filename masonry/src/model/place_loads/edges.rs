@@ -73,7 +73,7 @@ impl OnEdges<'_> {
         Vector2::from(traction).dot(&geometry::outward_normal(corners, edge)) < 0.0
     }
 
-    /// The part of a part of an edge on which the load is not zero: that below the level of earth.
+    /// Cuts a part of an edge at the level of earth; `None` above it.
     fn loaded_part(
         &self,
         corners: &[Point2<f64>],

@@ -7,7 +7,7 @@ use crate::rounding::rounded;
 use crate::scene::rules::{positive, value};
 use crate::scene::{ArchError, Fault, KeyPath, Scene, Support};
 
-/// Rings of one arch, at most.
+/// Rings of one arch, at most. Chosen: far more than bridges have.
 const MOST_RINGS: u32 = 100;
 
 /// A block of an arch.

@@ -28,7 +28,7 @@ impl Scene {
     }
 }
 
-/// Positions of a train, at most.
+/// Positions of a train, at most. Chosen: far more than a curve shows.
 const MOST_POSITIONS: u32 = 100_000;
 
 impl Scene {
