@@ -3,9 +3,10 @@
 use std::f64::consts::PI;
 
 use masonry::analysis::limit::{Laws, LimitError, limit_by, train, train_observed};
+use masonry::analysis::outcome::Outcome;
 use masonry::model::Model;
 use masonry::scene::{
-    Arch, Axle, Block, Brick, Joint, Load, Material, Opening, Scene, Support, Train, Wall,
+    Arch, Axle, Block, Brick, Joint, Load, Material, Opening, Plane, Scene, Support, Train, Wall,
 };
 use nalgebra::Point2;
 
@@ -36,7 +37,7 @@ fn pressed(scene: &Scene) -> [f64; 2] {
     });
     let (force, moment) = loads.fold((0.0, 0.0), |(force, moment), it| {
         assert!(it.force.x == 0.0 && it.force.y < 0.0, "{it:?}");
-        (force - it.force.y, moment - it.force.y * it.at.x)
+        (force - it.force.y, moment - it.force.y * it.at.x - it.moment)
     });
     [1e-3 * force, moment / force]
 }
@@ -147,6 +148,66 @@ fn fill_over_a_wall_with_a_window() {
         .opening(Opening::door(1.5, 1.0, 2).above(2));
     let scene = on_ground([]).wall(wall).load(Load::fill("fill", "wall", 4.0, 18.0));
     assert_pressed(&scene, [18.0 * 4.0 * 1.0 * 2.0, 2.0]);
+}
+
+/// Slots of head joints reach down to the course below, and the course above them covers them.
+#[test]
+fn fill_over_a_wall_in_mortar() {
+    let brick = Brick { length: 0.5, height: 0.25 };
+    let mut scene = on_ground([])
+        .plane(Plane::Stress)
+        .material("mortar", Material::elastic(1e9, 0.2))
+        .wall(Wall::running_bond("wall", "stone", brick, 2.06, 6).origin([0.0, 0.02]))
+        .load(Load::fill("fill", "wall", 3.0, 18.0));
+    for class in ["bed", "head"] {
+        scene = scene.joint(class, Joint::mu(0.7).mortar(0.02, "mortar"));
+    }
+    // The top lies at 6 courses of 0.25 m and as many bed joints; three head joints of the top course are open.
+    let [force, at] = pressed(&scene);
+    let column = 18.0 * (3.0 - 6.0 * 0.27) * 2.0;
+    assert!(
+        force < column * 2.06 && force > column * (2.06 - 4.0 * 0.02) * (1.0 - 1e-9),
+        "{force}"
+    );
+    assert_close(at, 1.03, 1e-2);
+}
+
+/// A slab on the wall takes the fill, and leaves none to the sill of the window below.
+#[test]
+fn fill_stays_on_what_covers_a_body() {
+    let brick = Brick { length: 1.0, height: 0.5 };
+    let wall = Wall::running_bond("wall", "stone", brick, 4.0, 6)
+        .opening(Opening::door(1.5, 1.0, 2).above(2));
+    let slab = [[0.0, 3.0], [4.0, 3.0], [4.0, 3.5], [0.0, 3.5]];
+    let scene = on_ground([Block::new("slab", "stone", slab)]).wall(wall);
+    let error = Model::from_scene(&scene.clone().load(Load::fill("fill", "wall", 4.0, 18.0)));
+    assert!(error.unwrap_err().to_string().contains("no free edge of \"wall\""));
+    assert_pressed(
+        &scene.load(Load::fill("fill", "slab", 4.0, 18.0)),
+        [18.0 * 4.0 * 0.5 * 2.0, 2.0],
+    );
+}
+
+/// On an elastic block fill is the pressure of its depth.
+#[test]
+fn fill_on_an_elastic_beam_is_a_pressure() {
+    let beam = [[0.0, 1.0], [4.0, 1.0], [4.0, 1.4], [0.0, 1.4]];
+    let post = |name, x: f64| {
+        Block::new(name, "stone", [[x, 0.0], [x + 0.2, 0.0], [x + 0.2, 1.0], [x, 1.0]])
+    };
+    let scene = on_ground([post("left", 0.0), post("right", 3.8)])
+        .plane(Plane::Stress)
+        .material("timber", Material::elastic(1e10, 0.2))
+        .block(Block::new("beam", "timber", beam).mesh([20, 4]));
+    let by_fill = solved(&scene.clone().load(Load::fill("fill", "beam", 3.4, 20.0)));
+    let pressure = Load::pressure("pressure", [0.0, 1.4], [4.0, 1.4], 40.0);
+    let by_pressure = solved(&scene.load(pressure));
+    let sag = |outcome: &Outcome| {
+        let moves = outcome.state.as_ref().unwrap().displacements.concat();
+        moves.iter().fold(0.0_f64, |sag, it| sag.max(-it.y))
+    };
+    assert!(sag(&by_fill) > 0.0);
+    assert_close(sag(&by_fill), sag(&by_pressure), 1e-9);
 }
 
 /// Without a fill, or where the edge is above it, an axle stands on the edge itself.

@@ -13,6 +13,14 @@ import lcp
 import masonry
 
 
+@pytest.fixture(autouse=True)
+def interruptible():
+    """Let Ctrl-C interrupt also where whoever started Python ignores it, as shells do in the background."""
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    yield
+    signal.signal(signal.SIGINT, before)
+
+
 @contextmanager
 def interrupt(seconds):
     """Interrupt the process after a while, unless the block has ended; the list has the time of the signal."""

@@ -1,30 +1,37 @@
 //! Fill over blocks, and axles on it, as forces on the edges that face upwards.
 //!
-//! The weight of the column of fill above an edge varies linearly along the edge, and its resultant goes through the centroid of
-//! the column. The force of an axle spreads along straight rays, as many for every unit of `u`, the horizontal
+//! The weight of the column of fill above an edge varies linearly along the edge. The force of an axle spreads along straight rays, as many for every unit of `u`, the horizontal
 //! distance over the depth, up to `u = tan angle`: on a horizontal plane the pressure is uniform. An edge takes the rays that
 //! meet it first, `(u_2 - u_1) / (2 tan angle)` of the force. An edge below another one of the same body, such as the sill of
 //! a window, carries no fill.
 
-use nalgebra::Point2;
+use nalgebra::{Point2, Vector2};
 
-use super::PlacedBlock;
+use super::{EdgeLoad, PlacedBlock, PointLoad};
 use crate::geometry::{self, SAME_PLACE};
+use crate::ids::LoadId;
 
-/// A free part of an edge that faces upwards, from left to right.
+/// A part of an edge that faces upwards, from left to right.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Top {
-    pub(super) block: usize,
-    pub(super) ends: [Point2<f64>; 2],
+    block: usize,
+    edge: usize,
+    ends: [Point2<f64>; 2],
+    /// The ends as fractions of the edge, which runs from right to left.
+    fractions: [f64; 2],
 }
 
-/// A part of a force, and the place at which it acts.
+/// A part of a force.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Share {
-    pub(super) block: usize,
-    pub(super) at: Point2<f64>,
-    /// The area of the column \[m^2\], or the part of the force \[-\].
-    pub(super) size: f64,
+pub(super) enum Share {
+    /// The whole force at one place of a block.
+    Place { block: usize, at: Point2<f64> },
+    /// A part on an edge.
+    Strip {
+        on: Top,
+        /// The part at both ends, for every unit of length along the edge: linear between them \[1/m\], or \[m\] of a fill.
+        density: [f64; 2],
+    },
 }
 
 /// An axle in its place.
@@ -38,42 +45,48 @@ pub(super) struct PlacedAxle {
     pub(super) slope: f64,
 }
 
-/// The free parts of edges that face upwards, of the blocks of a body, without those below others.
-pub(super) fn tops<'a>(
-    blocks: &'a [PlacedBlock],
-    over: &'a str,
-    free: impl Fn(usize, usize) -> Vec<[f64; 2]> + 'a,
+/// The free parts of edges that face upwards, of the blocks of a body, without those below other edges of the structure.
+pub(super) fn tops(
+    blocks: &[PlacedBlock],
+    over: &str,
+    free: impl Fn(usize, usize) -> Vec<[f64; 2]>,
 ) -> Vec<Top> {
+    let all: Vec<Top> = (0..blocks.len()).flat_map(|block| Top::of(blocks, block)).collect();
+    let is_block = blocks.iter().any(|it| it.name == over);
     let is_of = |name: &str| {
-        name.strip_prefix(over).is_some_and(|rest| rest.is_empty() || rest.starts_with('/'))
+        let rest = name.strip_prefix(over);
+        rest.is_some_and(|rest| rest.is_empty() || !is_block && rest.starts_with('/'))
     };
-    let mut list = Vec::new();
-    for (block, it) in blocks.iter().enumerate().filter(|(_, it)| is_of(&it.name)) {
-        for edge in 0..it.corners.len() {
-            let [right, left] = geometry::edge(&it.corners, edge);
-            // An edge that is vertical but for rounding has no fill above it.
-            if right.x - left.x <= SAME_PLACE * geometry::size(&it.corners) {
-                continue;
-            }
-            let place = |part| geometry::on_edge(&it.corners, edge, part);
-            let parts = free(block, edge).into_iter();
-            list.extend(parts.map(|[from, to]| Top { block, ends: [place(to), place(from)] }));
-        }
-    }
     let seen = |top: &Top| {
-        let hidden: Vec<_> = list.iter().filter_map(|other| top.below_other(other)).collect();
+        let hidden: Vec<_> = all.iter().filter_map(|other| top.below_other(other)).collect();
+        let free = free(top.block, top.edge).into_iter();
+        let seen =
+            free.flat_map(move |[from, to]| geometry::without([1.0 - to, 1.0 - from], &hidden));
         let top = *top;
-        geometry::without([0.0, 1.0], &hidden).into_iter().map(move |part| top.part(part))
+        seen.map(move |part| top.part(part)).collect::<Vec<_>>()
     };
-    list.iter().flat_map(seen).collect()
+    all.iter().filter(|top| is_of(&blocks[top.block].name)).flat_map(seen).collect()
 }
 
 impl Top {
+    /// The whole edges of a block that face upwards.
+    fn of(blocks: &[PlacedBlock], block: usize) -> Vec<Self> {
+        let corners = &blocks[block].corners;
+        let top = |edge: usize| {
+            let [right, left] = geometry::edge(corners, edge);
+            // An edge that is vertical but for rounding has no fill above it.
+            let is_top = right.x - left.x > SAME_PLACE * geometry::size(corners);
+            is_top.then_some(Self { block, edge, ends: [left, right], fractions: [1.0, 0.0] })
+        };
+        (0..corners.len()).filter_map(top).collect()
+    }
+
     /// The part of the edge that lies below another edge.
     fn below_other(&self, other: &Self) -> Option<[f64; 2]> {
         let [from, to] = [self.ends[0].x.max(other.ends[0].x), self.ends[1].x.min(other.ends[1].x)];
         let [low, high] = [self, other].map(|it| it.at(it.part_at(0.5 * (from + to))).y);
-        (from < to && low < high).then(|| [from, to].map(|x| self.part_at(x)))
+        let near = SAME_PLACE * (self.ends[1].x - self.ends[0].x);
+        (from < to && low < high - near).then(|| [from, to].map(|x| self.part_at(x)))
     }
 
     /// The part of the edge up to a place along x \[m\].
@@ -87,20 +100,50 @@ impl Top {
         a + (b - a) * part
     }
 
-    fn part(self, part: [f64; 2]) -> Self {
-        Self { ends: part.map(|it| self.at(it)), ..self }
+    fn part(&self, part: [f64; 2]) -> Self {
+        let [first, last] = self.fractions;
+        let ends = part.map(|it| self.at(it));
+        Self { ends, fractions: part.map(|it| first + (last - first) * it), ..*self }
     }
 
-    /// The part that lies below a level, with the depths of its ends.
-    fn below(self, level: f64) -> Option<([Point2<f64>; 2], [f64; 2])> {
-        let [a, b] = self.ends;
-        let (depth, other) = (level - a.y, level - b.y);
-        let crossing = || a + (b - a) * (depth / (depth - other));
+    /// The part that lies below a level, with the depths of its ends \[m\].
+    fn below(&self, level: f64) -> Option<(Self, [f64; 2])> {
+        let [depth, other] = self.ends.map(|end| level - end.y);
+        let crossing = depth / (depth - other);
         match (depth > 0.0, other > 0.0) {
-            (true, true) => Some(([a, b], [depth, other])),
-            (true, false) => Some(([a, crossing()], [depth, 0.0])),
-            (false, true) => Some(([crossing(), b], [0.0, other])),
+            (true, true) => Some((*self, [depth, other])),
+            (true, false) => Some((self.part([0.0, crossing]), [depth, 0.0])),
+            (false, true) => Some((self.part([crossing, 1.0]), [0.0, other])),
             (false, false) => None,
+        }
+    }
+
+    fn length(&self) -> f64 {
+        (self.ends[1] - self.ends[0]).norm()
+    }
+}
+
+impl Share {
+    /// Presses down on its block. `force` \[N\] is that of a part of one, or \[N/m^2\] of a fill.
+    pub(super) fn press(
+        &self,
+        blocks: &mut [PlacedBlock],
+        force: f64,
+        thickness: f64,
+        load: LoadId,
+    ) {
+        let down = |size: f64| Vector2::new(0.0, -force * size);
+        match *self {
+            Self::Place { block, at } => {
+                blocks[block]
+                    .loads
+                    .push(PointLoad { at, force: down(1.0), moment: 0.0, load }.into());
+            }
+            Self::Strip { on: Top { block, edge, fractions: [to, from], .. }, density } => {
+                // The edge runs from right to left.
+                let traction = [density[1], density[0]].map(|it| down(it) / thickness);
+                blocks[block].loads.push(EdgeLoad { edge, from, to, traction, load }.into());
+            }
         }
     }
 }
@@ -108,18 +151,17 @@ impl Top {
 /// The columns of fill up to a level.
 pub(super) fn columns(tops: &[Top], level: f64) -> Vec<Share> {
     let column = |top: &Top| {
-        let ([a, b], [depth, other]) = top.below(level)?;
-        let size = 0.5 * (b.x - a.x) * (depth + other);
-        let at = a + (b - a) * ((depth + 2.0 * other) / (3.0 * (depth + other)));
-        Some(Share { block: top.block, at, size })
+        let (on, depths) = top.below(level)?;
+        // A column is as wide as its edge is along x.
+        let width = (on.ends[1].x - on.ends[0].x) / on.length();
+        Some(Share::Strip { on, density: depths.map(|depth| depth * width) })
     };
     tops.iter().filter_map(column).collect()
 }
 
 /// An edge that rays of an axle reach through a fill.
 struct Reached {
-    block: usize,
-    ends: [Point2<f64>; 2],
+    top: Top,
     /// The depths of its ends \[m\].
     depths: [f64; 2],
     /// The rays to its ends.
@@ -131,21 +173,23 @@ struct Reached {
 impl PlacedAxle {
     /// The parts of its force on edges. Rays that meet no edge are left out.
     pub(super) fn shares(&self, tops: &[Top]) -> Vec<Share> {
-        let highest = tops.iter().filter_map(|top| self.above(top));
-        let highest = highest.max_by(|a, b| a.at.y.total_cmp(&b.at.y));
+        let highest = tops.iter().filter_map(|top| Some((top, self.above(top)?)));
+        let highest = highest.max_by(|a, b| a.1.y.total_cmp(&b.1.y));
+        let foot = highest.map(|(top, at)| Share::Place { block: top.block, at });
         let width: f64 = tops.iter().map(|top| top.ends[1].x - top.ends[0].x).sum();
         match (self.level, highest) {
-            (Some(level), Some(foot)) if foot.at.y >= level - SAME_PLACE * width => vec![foot],
+            (Some(level), Some((_, at))) if at.y >= level - SAME_PLACE * width => {
+                foot.into_iter().collect()
+            }
             (Some(level), _) => self.through(level, tops),
-            (None, foot) => foot.into_iter().collect(),
+            (None, _) => foot.into_iter().collect(),
         }
     }
 
-    /// The whole force on an edge straight below it.
-    fn above(&self, top: &Top) -> Option<Share> {
+    /// The place on an edge straight below it.
+    fn above(&self, top: &Top) -> Option<Point2<f64>> {
         let part = top.part_at(self.x);
-        let is_above = (0.0..=1.0).contains(&part);
-        is_above.then(|| Share { block: top.block, at: top.at(part), size: 1.0 })
+        (0.0..=1.0).contains(&part).then(|| top.at(part))
     }
 
     /// The parts that edges take through a fill up to a level above the axle's foot, each of the rays that meet it first.
@@ -161,17 +205,11 @@ impl PlacedAxle {
     }
 
     fn reached(&self, level: f64, top: &Top) -> Option<Reached> {
-        let (ends, depths) = top.below(level)?;
-        let rays_to_ends = [0, 1].map(|k| (ends[k].x - self.x) / depths[k]);
+        let (top, depths) = top.below(level)?;
+        let rays_to_ends = [0, 1].map(|k| (top.ends[k].x - self.x) / depths[k]);
         let rays = [rays_to_ends[0].max(-self.slope), rays_to_ends[1].min(self.slope)];
         // An edge that faces away from the axle is met by none.
-        (rays[0] < rays[1]).then_some(Reached {
-            block: top.block,
-            ends,
-            depths,
-            rays_to_ends,
-            rays,
-        })
+        (rays[0] < rays[1]).then_some(Reached { top, depths, rays_to_ends, rays })
     }
 
     /// The rays that meet another edge before this one.
@@ -183,18 +221,19 @@ impl PlacedAxle {
 
     /// The part of an edge up to the place at which a ray meets it.
     fn met(&self, it: &Reached, ray: f64) -> f64 {
-        let ([a, b], [depth, other]) = (it.ends, it.depths);
+        let ([a, b], [depth, other]) = (it.top.ends, it.depths);
         (self.x + ray * depth - a.x) / (b.x - a.x - ray * (other - depth))
     }
 
+    /// The part of some rays, linear along the edge with the resultant of these rays.
     fn share(&self, it: &Reached, rays: [f64; 2]) -> Share {
         let [first, last] = it.rays_to_ends;
         let start = if first >= rays[0] { 0.0 } else { self.met(it, rays[0]) };
         let end = if last <= rays[1] { 1.0 } else { self.met(it, rays[1]) };
-        let growth = it.depth(end) / it.depth(start) - 1.0;
-        let part = start + (end - start) * mean_of_rays(growth);
-        let ([a, b], size) = (it.ends, (rays[1] - rays[0]) / (2.0 * self.slope));
-        Share { block: it.block, at: a + (b - a) * part, size }
+        let middle = mean_of_rays(it.depth(end) / it.depth(start) - 1.0);
+        let on = it.top.part([start, end]);
+        let mean = (rays[1] - rays[0]) / (2.0 * self.slope * on.length());
+        Share::Strip { on, density: [4.0 - 6.0 * middle, 6.0 * middle - 2.0].map(|it| it * mean) }
     }
 }
 

@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 use nalgebra::{Point2, Vector2};
 
 use self::edges::{EdgePart, OnEdges, joined_parts};
-use super::place_fills::{self, PlacedAxle, Share, Top};
+use super::place_fills::{self, PlacedAxle, Top};
 use super::{Acceleration, JointPoint, LoadCase, PlacedBlock, PlacedJoint, PointLoad};
 use crate::geometry::{self, SAME_PLACE};
 use crate::ids::LoadId;
@@ -75,7 +75,10 @@ pub(super) fn place(
                     return Err(Fault::new(at, LoadError::IdleFill { load, over }));
                 }
                 let gamma = fill.gamma * scene.units.stress_to_si() / unit;
-                press(blocks, &columns, gamma * thickness * load.factor, id);
+                let weight = gamma * thickness * load.factor;
+                for it in &columns {
+                    it.press(blocks, weight, thickness, id);
+                }
             }
             // An axle may be off the bridge.
             Some(LoadKind::Axle(axle)) => {
@@ -84,7 +87,9 @@ pub(super) fn place(
                 let level = axle.level.map(|level| level * unit);
                 let placed = PlacedAxle { x: axle.x * unit, level, slope };
                 let force = axle.force * scene.units.force_to_si() * load.factor;
-                press(blocks, &placed.shares(&tops), force, id);
+                for it in placed.shares(&tops) {
+                    it.press(blocks, force, thickness, id);
+                }
             }
             // A load of no kind was refused before.
             None => {}
@@ -103,14 +108,6 @@ fn tops(blocks: &[PlacedBlock], over: &str, joined: &[Vec<Vec<EdgePart>>]) -> Ve
     place_fills::tops(blocks, over, |block, edge| {
         geometry::without([0.0, 1.0], &joined[block][edge])
     })
-}
-
-/// Lets shares of a force press down, `force` for a share of one.
-fn press(blocks: &mut [PlacedBlock], shares: &[Share], force: f64, load: LoadId) {
-    for Share { block, at, size } in shares {
-        let force = Vector2::new(0.0, -force * size);
-        blocks[*block].loads.push(PointLoad { at: *at, force, moment: 0.0, load }.into());
-    }
 }
 
 /// Lets accelerations act on the masses whose weights are loads, at the places of these loads.

@@ -75,8 +75,6 @@ struct Push {
     turn: Option<f64>,
     /// Its own value.
     label: String,
-    /// The text beside its arrow, if that is not its value.
-    beside: Option<String>,
     /// Attributes of its elements.
     name: String,
     /// Size, relative to the largest of its kind.
@@ -113,11 +111,6 @@ impl Displaced<'_> {
 }
 
 impl Push {
-    /// The text beside its arrow.
-    fn text(&self) -> &str {
-        self.beside.as_ref().unwrap_or(&self.label)
-    }
-
     fn length(&self) -> f64 {
         SHORTEST + (LONGEST - SHORTEST) * self.part
     }
@@ -192,7 +185,7 @@ impl Push {
     /// Room for its arrows and label around the structure.
     fn margins(&self) -> Sides {
         let (n, length) = (self.outwards, self.length() + 14.0);
-        let beside = |part: f64| if part > 0.5 { length + label_room(self.text()) } else { 0.0 };
+        let beside = |part: f64| if part > 0.5 { length + label_room(&self.label) } else { 0.0 };
         let above = |part: f64| if part > 0.0 { length * part + TEXT + 6.0 } else { 0.0 };
         Sides { left: beside(-n.x), right: beside(n.x), top: above(n.y), bottom: above(-n.y) }
     }
@@ -259,7 +252,6 @@ impl Arrows {
             outwards: Vector2::zeros(),
             turn: None,
             label: labelled(it.load, acceleration_text(it.value.norm())),
-            beside: None,
             name: names::load(model, it.load),
             part: 1.0,
         };
@@ -284,7 +276,6 @@ impl Arrows {
             outwards: -it.force.normalize(),
             turn: None,
             label: units.force_text(it.force.norm()),
-            beside: None,
             name: names::support(&model.supports[it.support.index()]),
             part: 1.0,
         };
@@ -345,12 +336,12 @@ impl Arrows {
         }
         for Kind { class, pushes, .. } in self.0.iter().filter(|kind| !kind.pushes.is_empty()) {
             sheet.layer(&format!("{class} labels"), |canvas, frame| {
-                for it in pushes.iter().filter(|it| !it.on.is_empty() && !it.text().is_empty()) {
+                for it in pushes.iter().filter(|it| !it.on.is_empty() && !&it.label.is_empty()) {
                     let (at, side) = (it.label_at(frame, displaced), it.outwards);
                     let name = displaced.name(frame, it, &it.on[0]);
                     labels.draw(
                         canvas,
-                        &Label { text: it.text(), size: TEXT, at, side, name: &name },
+                        &Label { text: &it.label, size: TEXT, at, side, name: &name },
                     );
                 }
             });
@@ -384,7 +375,7 @@ impl Arrows {
     }
 }
 
-/// All loads on edges, those of one load in one line together if they have one traction or a linear one.
+/// All loads on edges, those of one load together if they have one traction in one line, or linear ones in one line or one way.
 fn tractions(model: &Model, labelled: &dyn Fn(LoadId, String) -> String) -> Vec<Push> {
     let near = 1e-9 * structure::bounds(model).size().norm();
     let mut list: Vec<(LoadId, Push)> = Vec::new();
@@ -396,10 +387,14 @@ fn tractions(model: &Model, labelled: &dyn Fn(LoadId, String) -> String) -> Vec<
             let on = Pushed { block, ends: [from, to], values };
             let (outwards, name) = (Vector2::new(along.y, -along.x), names::load(model, load.load));
             let is_same = |(_, it): &&mut (LoadId, Push)| {
+                let is_in_line = it.outwards.dot(&outwards) > 1.0 - 1e-9
+                    && (from - it.on[0].ends[0]).dot(&outwards).abs() <= near;
+                // A fill presses down on edges of all directions.
+                let is_one_way = it.value.angle(&on.largest()) < 1e-9;
+                let is_equal = it.on[0].values == values;
+                let is_linear = !it.on[0].is_uniform() || !on.is_uniform();
                 it.name == name
-                    && (it.on[0].values == values || !it.on[0].is_uniform() && !on.is_uniform())
-                    && it.outwards.dot(&outwards) > 1.0 - 1e-9
-                    && (from - it.on[0].ends[0]).dot(&outwards).abs() <= near
+                    && (is_equal && is_in_line || is_linear && (is_in_line || is_one_way))
             };
             if let Some((_, same)) = list.iter_mut().find(is_same) {
                 same.value = Pushed { values: [same.value, on.largest()], ..on }.largest();
@@ -407,16 +402,7 @@ fn tractions(model: &Model, labelled: &dyn Fn(LoadId, String) -> String) -> Vec<
                 continue;
             }
             let (value, label) = (on.largest(), String::new());
-            let push = Push {
-                on: vec![on],
-                value,
-                outwards,
-                turn: None,
-                label,
-                beside: None,
-                name,
-                part: 1.0,
-            };
+            let push = Push { on: vec![on], value, outwards, turn: None, label, name, part: 1.0 };
             list.push((load.load, push));
         }
     }
@@ -429,24 +415,11 @@ fn tractions(model: &Model, labelled: &dyn Fn(LoadId, String) -> String) -> Vec<
     list.into_iter().map(with_label).collect()
 }
 
-/// All forces at places of blocks: one that pulls at an edge begins there, all others end in their places. A load of many forces
-/// has its sum beside the highest of them.
+/// All forces at places of blocks: one that pulls at an edge begins there, all others end in their places.
 fn forces(model: &Model, labelled: &dyn Fn(LoadId, String) -> String) -> Vec<Push> {
     let units = InUnits(model.units);
     let blocks = model.blocks.iter().enumerate();
     let all = blocks.flat_map(|(k, block)| block.point_loads().map(move |load| (k, block, load)));
-    let mut sums = vec![PointSum::default(); model.loads.len()];
-    for load in model.blocks.iter().flat_map(PlacedBlock::point_loads) {
-        let sum = &mut sums[load.load.index()];
-        (sum.count, sum.force) = (sum.count + 1, sum.force + load.force);
-        sum.highest = sum.highest.filter(|it| it.at.y >= load.at.y).or(Some(*load));
-    }
-    let in_all = |it: &PointSum| format!("{} in all", units.force_text(it.force.norm()));
-    let beside = |load: &PointLoad| match &sums[load.load.index()] {
-        sum if sum.count == 1 => None,
-        sum if sum.highest == Some(*load) => Some(labelled(load.load, in_all(sum))),
-        _ => Some(String::new()),
-    };
     let push = |(index, block, load): (usize, &PlacedBlock, &PointLoad)| {
         let near = 1e-9 * geometry::size(&block.corners);
         let pulls = (0..block.corners.len()).any(|k| {
@@ -461,7 +434,6 @@ fn forces(model: &Model, labelled: &dyn Fn(LoadId, String) -> String) -> Vec<Pus
             outwards: if pulls { way } else { -way },
             turn: None,
             label: labelled(load.load, units.force_text(load.force.norm())),
-            beside: beside(load),
             name: names::load(model, load.load),
             part: 1.0,
         }
@@ -482,18 +454,9 @@ fn moments(model: &Model, labelled: &dyn Fn(LoadId, String) -> String) -> Vec<Pu
             outwards: Vector2::y(),
             turn: Some(load.moment.signum()),
             label: labelled(load.load, units.moment_text(load.moment.abs())),
-            beside: None,
             name: names::load(model, load.load),
             part: 1.0,
         }
     };
     all.map(push).collect()
-}
-
-/// The forces of one load.
-#[derive(Debug, Clone, Default)]
-struct PointSum {
-    count: usize,
-    force: Vector2<f64>,
-    highest: Option<PointLoad>,
 }
