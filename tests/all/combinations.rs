@@ -40,6 +40,12 @@ fn limits(scene: &Scene, group: &str) -> Vec<(String, f64)> {
     .collect()
 }
 
+/// The factors of all loads, by combination.
+fn factors(scene: &Scene) -> Vec<Vec<f64>> {
+    let of = |scene: &Scene| scene.loads.iter().map(|load| load.factor).collect();
+    scene.combined().iter().map(|it| of(&it.of)).collect()
+}
+
 /// The wind `w` tips it when `w h^2 / 2 = (G W + D R) b / 2`: at 800 N/m2 without factors.
 #[test]
 fn factors_of_weight_and_loads() {
@@ -81,20 +87,60 @@ fn both_sides_by_hand_are_not_doubled() {
     assert_eq!(names, ["right", "left"]);
 }
 
+/// A roof in the group of the earthquake is a weight: it presses down in an earthquake from either side. What has no mass is turned.
+#[test]
+fn weights_keep_their_direction_in_an_earthquake() {
+    let mut scene = block();
+    for load in &mut scene.loads {
+        load.group = Some("quake".to_owned());
+    }
+    let expected = [[1.0, 1.0, 1.0], [1.0, -1.0, -1.0]];
+    assert_eq!(
+        factors(&scene.clone().combination(Combination::new("quake").load("quake", 1.0))),
+        expected
+    );
+    let reversed: Vec<f64> = scene.reversed("quake").loads.iter().map(|it| it.factor).collect();
+    assert_eq!(reversed, expected[1]);
+}
+
+/// An earthquake acts across gravity, whatever direction gravity has.
+#[test]
+fn earthquakes_across_an_inclined_gravity() {
+    let is_earthquake = |gravity: [f64; 2], acceleration: [f64; 2]| {
+        let mut scene = block().gravity(gravity);
+        scene.loads[2] = Load::acceleration("quake", acceleration);
+        let sides = scene.clone().combination(Combination::new("quake")).combined().len();
+        assert_eq!(sides == 2, scene.is_earthquake("quake"));
+        sides == 2
+    };
+    assert!(is_earthquake([-10.0, 0.0], [0.0, 2.0]));
+    assert!(!is_earthquake([-10.0, 0.0], [2.0, 0.0]));
+    // Along gravity except for rounding.
+    assert!(!is_earthquake([-0.3, -0.9], [0.1, 0.3]));
+    assert!(is_earthquake([-0.3, -0.9], [0.1, 0.2]));
+}
+
+/// An earthquake that has a factor of zero accelerates nothing, and needs no mass.
+#[test]
+fn a_combination_without_weight_beside_an_earthquake() {
+    let scene = block()
+        .combination(Combination::new("wind").gravity(0.0).load("wind", 1.0))
+        .combination(Combination::new("quake").load("quake", 1.0));
+    let mut without_roof = scene;
+    without_roof.loads.remove(0);
+    let list = without_roof.combined();
+    assert_eq!(list.iter().map(|it| it.of.check().is_ok()).collect::<Vec<_>>(), [true; 3]);
+}
+
 /// A load that no combination names acts in full in all, one that others name is zero.
 #[test]
 fn loads_that_a_combination_does_not_name() {
     let scene = block()
         .combination(Combination::new("weight"))
         .combination(Combination::new("storm").load("wind", 2.0));
-    let factors: Vec<Vec<f64>> = scene
-        .combined()
-        .iter()
-        .map(|it| it.of.loads.iter().map(|load| load.factor).collect())
-        .collect();
     // The earthquake, which none names, acts in both and from both sides.
     let expected = [[1.0, 0.0, 1.0], [1.0, 0.0, -1.0], [1.0, 2.0, 1.0], [1.0, 2.0, -1.0]];
-    assert_eq!(factors, expected);
+    assert_eq!(factors(&scene), expected);
     assert!(block().combined().is_empty());
 }
 

@@ -136,7 +136,8 @@ fn search(scene: &Scene, args: &LimitArgs) -> Result<Search, Failure> {
     progress.clear();
     let group = given.group.clone();
     let mut failed = None;
-    let found = if args.both && !scene.is_weight(&group) {
+    let is_one_way = scene.reversed(&group) == *scene;
+    let found = if args.both && !is_one_way {
         let laws = args.law.into();
         let opposite = Directions::opposite(&given, scene, laws, &mut |at| follow(&progress, at));
         progress.clear();
@@ -150,8 +151,8 @@ fn search(scene: &Scene, args: &LimitArgs) -> Result<Search, Failure> {
         }
     } else {
         if args.both {
-            let words = "The weight acts in one direction: `--both` changes nothing.";
-            given.warnings.push(words.to_owned());
+            let words = "is a weight and acts in one direction: `--both` changes nothing.";
+            given.warnings.push(format!("\"{group}\" {words}"));
         } else if scene.is_earthquake(&group) {
             given.warnings.push(format!(
                 "\"{group}\" acts in one direction: `--both` also takes the opposite one."
@@ -168,7 +169,8 @@ fn combined(scene: &Scene, args: &LimitArgs) -> Result<Search, Failure> {
     let group = growing(scene)?;
     let mut scenes = scene.combined();
     scenes.retain(|it| it.of.acts(&group));
-    if args.both && !scene.is_weight(&group) && !scene.is_earthquake(&group) {
+    let is_one_way = scene.reversed(&group) == *scene;
+    if args.both && !is_one_way && !scene.is_earthquake(&group) {
         let both = |it: Combined<Scene>| {
             let (name, of) = (format!("{}, opposite", it.name), it.of.reversed(&group));
             [it, Combined { name, of }]
@@ -191,12 +193,27 @@ fn combined(scene: &Scene, args: &LimitArgs) -> Result<Search, Failure> {
         }
     }
     match (Cases::of_limits(&list), failed) {
-        (Some(lines), failed) => Ok(Search { found: Found::Combined(All { list, lines }), failed }),
+        (Some(lines), failed) => {
+            compare_checks(&mut list, lines.governs());
+            Ok(Search { found: Found::Combined(All { list, lines }), failed })
+        }
         (None, Some(failed)) => Err(failed),
         (None, None) => Err(format!(
             "\"{group}\" acts in no combination: name it in one, or choose another --group"
         )
         .into()),
+    }
+}
+
+/// Warns of the combination with the worst seismic check, if another one governs.
+fn compare_checks(list: &mut [Combined<Limit>], governs: usize) {
+    let worse = |worst: usize, k: usize| {
+        if list[k].of.has_worse_check(&list[worst].of) { k } else { worst }
+    };
+    let worst = (0..list.len()).fold(governs, worse);
+    if worst != governs {
+        let Combined { name, of } = list[worst].clone();
+        list[governs].of.compare_check(&format!("\"{name}\""), &of);
     }
 }
 

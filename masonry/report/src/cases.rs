@@ -7,7 +7,7 @@ use super::format::Quantity::{Length, Percent, Pure};
 use super::text::{section, table};
 use super::{joints, svg};
 use masonry::Verdict;
-use masonry::analysis::limit::{Answer, CrossingTrain, Limit, TrainPosition};
+use masonry::analysis::limit::{Answer, CrossingTrain, Limit, SeismicCheck, TrainPosition};
 use masonry::analysis::outcome::Outcome;
 use masonry::rounding::largest;
 use masonry::scene::Combined;
@@ -84,13 +84,26 @@ impl Cases {
     pub fn of_limits(list: &[Combined<Limit>]) -> Option<Self> {
         let governs = smallest(list)?;
         let finite = |factor: f64| Some(factor).filter(|it| it.is_finite());
-        let rows = Columns::<&Combined<Limit>>::new()
+        let mut columns = Columns::<&Combined<Limit>>::new()
             .words("combination", |it| &it.name)
             .number("load_factor", Pure, Significant(5), move |it| finite(it.of.carried()))
             .named("carries")
             .number("falls", Pure, Significant(5), move |it| finite(it.of.not_carried()))
-            .words("decided", |it| it.of.is_solved())
-            .table(InUnits(list[governs].of.model.units), list);
+            .words("decided", |it| it.of.is_solved());
+        if list.iter().any(|it| it.of.seismic.is_some()) {
+            let of = |it: &Combined<Limit>, what: fn(&SeismicCheck) -> f64| {
+                it.of.seismic.as_ref().map(what)
+            };
+            columns = columns
+                .number("a_0", Pure, Significant(4), move |it| of(it, |it| it.capacity))
+                .named("a_0* [m/s2]")
+                .number("a_0_least", Pure, Significant(4), move |it| of(it, |it| it.least_capacity))
+                .named("least a_0* [m/s2]")
+                .words("satisfied", |it| {
+                    it.of.seismic.as_ref().and_then(SeismicCheck::is_satisfied)
+                });
+        }
+        let rows = columns.table(InUnits(list[governs].of.model.units), list);
         let name = list[governs].name.clone();
         Some(Self { names: COMBINATIONS, governs, name, rows, curve: None })
     }
@@ -131,7 +144,7 @@ impl Cases {
 
     /// The object of `--json` of several cases, pretty-printed: which one `governs`; the `combinations`, of `masonry solve` with
     /// `verdict` and `friction_used`, of `masonry limit` with the `load_factor` that is carried, the one that `falls` and whether
-    /// the limit is `decided`, or the `positions` of a train with `load_factor`, `bound` and `answer`; and, with a key of its
+    /// the limit is `decided`, and `a_0`, `a_0_least` and `satisfied` of their seismic checks, or the `positions` of a train with `load_factor`, `bound` and `answer`; and, with a key of its
     /// own, the `object` of the one that governs.
     ///
     /// # Errors

@@ -195,8 +195,10 @@ pub fn limit_observed<'a>(
     let falls_by_weight = weight && associative.carries_nothing();
     let associative = (laws != Laws::Path).then_some(associative);
     let (by_flow, by_path) = (associative.as_ref(), path.as_ref());
-    let seismic = seismic::of(scene, &group, &structure, by_flow, by_path);
-    warnings.extend(seismic::warning(scene, &group));
+    let seismic = seismic::of(scene, &structure, by_flow, by_path);
+    if let (Some(_), Err(because)) = (scene.limit.seismic, &seismic) {
+        warnings.push(format!("The seismic check is left out: {because}."));
+    }
     let sentence = if falls_by_weight {
         "The structure falls by its own weight: forces within friction carry no part of it (proved)."
             .to_owned()
@@ -207,7 +209,7 @@ pub fn limit_observed<'a>(
     };
     Ok(Limit {
         title: scene.title.clone(),
-        seismic,
+        seismic: seismic.ok(),
         falls_by_weight,
         sentence,
         warnings,

@@ -58,9 +58,12 @@ pub struct Combined<T> {
     pub of: T,
 }
 
+/// The end of the name of a combination whose earthquake comes from the other side.
+pub(super) const OPPOSITE: &str = ", opposite";
+
 impl Scene {
     /// A scene for every combination, in their order, and none without combinations. A combination in which accelerations act
-    /// across gravity gives two scenes: an earthquake comes from both sides, with all loads of its groups.
+    /// across gravity gives two scenes: an earthquake comes from both sides, with all loads of its groups except weights with `mass`.
     ///
     /// ```
     /// use masonry::scene::{Combination, Load, Scene};
@@ -82,7 +85,7 @@ impl Scene {
         for (combination, scene) in self.combinations.iter().zip(&given) {
             // The scene may have the other side as a combination of its own.
             let opposite = scene.with_earthquake_opposite().filter(|it| !given.contains(it));
-            let opposite = opposite.map(|it| (format!("{}, opposite", combination.name), it));
+            let opposite = opposite.map(|it| (format!("{}{OPPOSITE}", combination.name), it));
             for (name, mut scene) in
                 [(combination.name.clone(), scene.clone())].into_iter().chain(opposite)
             {
@@ -98,8 +101,8 @@ impl Scene {
     /// # Errors
     /// [`SceneError`] if there are combinations.
     pub(crate) fn check_single(&self) -> Result<(), SceneError> {
-        let because =
-            "are several sets of loads; only `masonry solve` and `masonry limit` take several";
+        let because = "are several sets of loads; only `masonry solve` and `masonry limit` take all, the latter without \
+                       `--range`, `--thickness` and `--train`";
         let otherwise = ", or take one scene of `Scene::combined`";
         let at = KeyPath::default();
         unwanted(!self.combinations.is_empty(), &at, "combinations", because, otherwise)
@@ -125,11 +128,9 @@ impl Scene {
 
     /// The scene with its earthquake in the opposite direction, if there is one that acts.
     fn with_earthquake_opposite(&self) -> Option<Self> {
-        let acts = self.loads.iter().filter(|load| load.is_earthquake() && load.factor != 0.0);
+        let acts = self.loads.iter().filter(|load| self.acts_across(load) && load.factor != 0.0);
         let groups: BTreeSet<&str> = acts.map(Load::group_name).collect();
-        let mut scene = self.clone();
-        let members = scene.loads.iter_mut().filter(|load| groups.contains(load.group_name()));
-        members.for_each(|load| load.factor = -load.factor);
-        (!groups.is_empty()).then_some(scene)
+        let of_them = |load: &Load| groups.contains(load.group_name());
+        (!groups.is_empty()).then(|| self.with_opposite(of_them))
     }
 }

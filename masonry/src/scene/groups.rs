@@ -2,7 +2,10 @@
 
 use std::collections::BTreeSet;
 
+use nalgebra::Vector2;
+
 use super::{Load, Scene};
+use crate::geometry::SAME_PLACE;
 
 /// The name by which the weight of the blocks is the load that grows.
 pub(crate) const WEIGHT: &str = "gravity";
@@ -17,7 +20,15 @@ impl Scene {
 
     /// Whether a group has an earthquake, which comes from both sides.
     pub fn is_earthquake(&self, group: &str) -> bool {
-        self.loads.iter().any(|load| load.is_called(group) && load.is_earthquake())
+        self.loads.iter().any(|load| load.is_called(group) && self.acts_across(load))
+    }
+
+    /// Whether a load is an acceleration with a component across gravity; without gravity, across the vertical axis.
+    pub(super) fn acts_across(&self, load: &Load) -> bool {
+        let Some(acceleration) = load.acceleration.map(Vector2::from) else { return false };
+        let gravity = self.gravity.map(Vector2::from).and_then(|it| it.try_normalize(0.0));
+        let across = acceleration.perp(&gravity.unwrap_or(-Vector2::y())).abs();
+        across > SAME_PLACE * acceleration.norm()
     }
 
     /// Whether a load or a group has a factor other than zero; the weight always acts.
@@ -26,11 +37,16 @@ impl Scene {
         self.is_weight(name) || self.loads.iter().any(acts)
     }
 
-    /// The scene with the loads of a name or group in the opposite direction.
+    /// The scene with the loads of a name or group in the opposite direction. Loads with a `mass` are weights and keep theirs.
     #[must_use]
     pub fn reversed(&self, group: &str) -> Self {
+        self.with_opposite(|load| load.is_called(group))
+    }
+
+    /// The scene with some of its loads in the opposite direction, without those that are weights.
+    pub(super) fn with_opposite(&self, is_of: impl Fn(&Load) -> bool) -> Self {
         let mut scene = self.clone();
-        let members = scene.loads.iter_mut().filter(|load| load.is_called(group));
+        let members = scene.loads.iter_mut().filter(|load| is_of(load) && !load.has_mass());
         members.for_each(|load| load.factor = -load.factor);
         scene
     }

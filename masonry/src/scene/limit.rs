@@ -69,6 +69,12 @@ impl Train {
 /// The group of the axles of a train.
 const TRAIN: &str = "train";
 
+/// Whether a name is that of the group of a train, or of one of its axles.
+pub(super) fn is_of_train(name: &str) -> bool {
+    let axle = name.strip_prefix(TRAIN).and_then(|it| it.strip_prefix(" axle "));
+    name == TRAIN || axle.is_some_and(|number| number.parse::<u32>().is_ok())
+}
+
 impl Scene {
     /// The scene with a train at a position \[length\]: its axles are loads of the group "train", which grows.
     #[must_use]

@@ -200,9 +200,9 @@ impl Load {
         self.group.as_deref().unwrap_or(&self.name)
     }
 
-    /// Whether it acts on all mass to the side.
-    pub(crate) fn is_earthquake(&self) -> bool {
-        self.acceleration.is_some_and(|[along, _]| along != 0.0)
+    /// Whether it is the weight of a mass, at least in part, which keeps its direction in an earthquake.
+    pub(super) fn has_mass(&self) -> bool {
+        self.mass.is_some_and(|part| part > 0.0)
     }
 
     /// Whether a stage or a combination refers to the load by this name: the name of the load or of its group.
@@ -405,6 +405,15 @@ pub enum LoadError {
          material, or remove the load"
     )]
     NoMass(String),
+    /// A load or a group has the name of the axles of a train.
+    #[error("the name \"{0}\" belongs to the axles of `[limit.train]`: give it another name")]
+    OfTrain(String),
+    /// A combination has the name of one whose earthquake comes from the other side.
+    #[error(
+        "\"{0}\" ends in \", opposite\", which is added to the names of combinations whose earthquake comes from the other \
+         side: give it another name"
+    )]
+    Opposite(String),
     /// A limit load is asked of the support of this name.
     #[error(
         "\"{0}\" is a support. Rigid blocks follow every movement of a support, so there is no limit: name a load or a \

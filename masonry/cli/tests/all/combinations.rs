@@ -101,6 +101,13 @@ fn the_smallest_factor_governs() {
     assert_eq!(output.status.code(), Some(0), "{text}");
     assert!(text.contains("quake, opposite") && text.contains("Seismic check"), "{text}");
     assert!(!text.contains("acts in one direction") && !text.contains("storm"), "{text}");
+    // Every line has its check: `a_0*` of the mechanism, and the least of all mechanisms of the limit.
+    assert!(text.contains("least a_0* [m/s2]"), "{text}");
+    let quake = object(&masonry("limit", &path, &["--json", "--group", "quake"]));
+    for (found, least) in members(&quake, "a_0").into_iter().zip(members(&quake, "a_0_least")) {
+        let [found, least] = [found, least].map(|it| it.as_f64().unwrap());
+        assert!(found > least && least > 0.0, "{found} {least}");
+    }
 }
 
 #[test]
@@ -109,7 +116,7 @@ fn what_takes_one_set_of_loads_says_so() {
     for (command, more) in [("limit", "--range"), ("study", "--meshes=1")] {
         let output = masonry(command, &path, &[more]);
         let errors = String::from_utf8(output.stderr).unwrap();
-        let is_told = errors.contains("`masonry limit` take all");
+        let is_told = errors.contains("`masonry limit` take all, the latter without `--range`");
         assert!(output.status.code() == Some(2) && is_told, "{more}: {errors}");
     }
     let still = written("still", "{ name = \"still\", loads = { quake = 0.0 } }");

@@ -14,18 +14,49 @@ fn law(it: &SeismicCheck) -> [&'static str; 2] {
     }
 }
 
+/// An acceleration that is carried, which is not rounded upwards.
+fn carried(value: f64) -> String {
+    outwards(value, BoundSide::Below, |it| significant(it, 4))
+}
+
+/// The answer of the check in words, or, without a demand, what it would be compared with.
+pub(crate) fn answer(it: &SeismicCheck) -> String {
+    let [found, least] = [it.capacity, it.least_capacity].map(carried);
+    let Some(demand) = it.demand else {
+        return format!(
+            "a_0* is {found}\u{a0}m/s², and at least {least}\u{a0}m/s² for every mechanism"
+        );
+    };
+    // A ratio below one stays below one in text.
+    let ratio = |value: f64, side| outwards(value / demand, side, |it| significant(it, 3));
+    match it.is_satisfied() {
+        Some(true) => format!(
+            "satisfied: the least a_0* is {} times the demand",
+            ratio(it.least_capacity, BoundSide::Below)
+        ),
+        Some(false) => {
+            format!(
+                "not satisfied: a_0* is {} times the demand",
+                ratio(it.capacity, BoundSide::Above)
+            )
+        }
+        None => format!(
+            "satisfied by this mechanism, not by every mechanism of the same limit (e* = 1 gives {least}\u{a0}m/s²)"
+        ),
+    }
+}
+
 /// The check, formula by formula.
 pub(crate) fn seismic(it: &SeismicCheck, units: InUnits) -> Vec<Figure> {
     let [law, law_in_words] = law(it);
     let data = it.data;
     let shown = |value: f64| significant(value, 4);
-    // An acceleration that is carried is not rounded upwards.
-    let carried = |value: f64| outwards(value, BoundSide::Below, shown);
-    let capacity = format!("{}\u{a0}m/s²", carried(it.capacity));
+    let [capacity, least] =
+        [it.capacity, it.least_capacity].map(|it| format!("{}\u{a0}m/s²", carried(it)));
     let mut list = vec![
         Figure::new("law", law).text("law", law_in_words.to_owned()),
         Figure::new("alpha_0", it.multiplier)
-            .text("alpha_0", format!("{}, acceleration / g", carried(it.multiplier)))
+            .text("alpha_0", format!("{}, acceleration across gravity / g", carried(it.multiplier)))
             .page("alpha_0", carried(it.multiplier)),
         Figure::new("weight", units.force(it.weight))
             .text("sum P", format!("{}, weights that move", units.force_text(it.weight))),
@@ -38,6 +69,12 @@ pub(crate) fn seismic(it: &SeismicCheck, units: InUnits) -> Vec<Figure> {
         Figure::new("a_0", it.capacity)
             .text("a_0*", format!("{capacity}, alpha_0 g / (e* FC)"))
             .page("a_0*", format!("{capacity}, FC = {}", shown(data.confidence))),
+        Figure::new("a_0_least", it.least_capacity)
+            .text(
+                "least a_0*",
+                format!("{least}, alpha_0 g / FC, of every mechanism of the same limit"),
+            )
+            .page("least a_0*", format!("{least}, of every mechanism of the same limit")),
         Figure::new("a_g", data.ground),
         Figure::new("S", data.soil),
         Figure::new("q", data.behaviour),
@@ -48,16 +85,9 @@ pub(crate) fn seismic(it: &SeismicCheck, units: InUnits) -> Vec<Figure> {
         let [ground, soil, q] = [ground, soil, data.behaviour].map(shown);
         let formula = format!("{}, a_g S / q", acceleration_text(demand));
         let site = format!("a_g = {ground} g, S = {soil}, q = {q}");
-        let is_satisfied = it.capacity >= demand;
-        let result = if is_satisfied { "satisfied" } else { "not satisfied" };
-        let ratio = it.capacity / demand;
-        // A ratio below one stays below one in text.
-        let side = if is_satisfied { BoundSide::Below } else { BoundSide::Above };
-        let ratio = outwards(ratio, side, |it| significant(it, 3));
-        let words = format!("{result}: a_0* is {ratio} times the demand");
         list.push(Figure::new("", demand).text("site", site));
         list.push(Figure::new("", demand).text("demand", formula));
-        list.push(Figure::new("", demand).both("seismic check", words));
+        list.push(Figure::new("", demand).both("seismic check", answer(it)));
     }
     list
 }

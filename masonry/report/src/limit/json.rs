@@ -21,7 +21,8 @@ type Written = Result<Value, serde_json::Error>;
 /// `load_factor` and the `bound` of the other blocks while the moving ones are held. `path` has the `load_factor` up to which blocks rest, the factor at which
 /// it `falls`, whether that is `decided`, the `last_stable` state, the `mechanism` after it, the `events` on the way and the
 /// `curve`. `seismic` has the check of a group of accelerations: the `law` of factor and mechanism, `alpha_0`, the `weight` that
-/// moves, `mass` M* in kg, `fraction` e*, `FC`, `a_0` in m/s^2, the data of the site, the `demand` and whether it is `satisfied`.
+/// moves, `mass` M* in kg, `fraction` e*, `FC`, `a_0` in m/s^2, the least `a_0_least` of all mechanisms of the limit, the data of the
+/// site, the `demand` and whether it is `satisfied`: null if it is by this mechanism, but not by all.
 /// Unknown values are null, and so is a law of friction that was not chosen. `units` names the units.
 ///
 /// # Errors
@@ -124,6 +125,7 @@ fn names_of_units(model: &Model) -> Value {
         "moment": units.energy_name(),
         "mass": "kg",
         "a_0": "m/s2",
+        "a_0_least": "m/s2",
         "time_s": "s",
     })
 }

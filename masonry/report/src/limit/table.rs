@@ -42,7 +42,7 @@ pub fn table(limit: &Limit) -> String {
     text + &pairs(&rows)
 }
 
-/// The sentences of both directions, and the report of the one that governs.
+/// The sentences and seismic checks of both directions, and the report of the one that governs.
 pub fn table_both(both: &Directions) -> String {
     let which = match both.governs {
         Governs::Given => "The given direction governs:",
@@ -51,12 +51,15 @@ pub fn table_both(both: &Directions) -> String {
         Governs::Unknown => "Which direction governs is not known. The given one:",
     };
     let Directions { given, opposite, .. } = both;
-    format!(
-        "Given direction: {}\nOpposite direction: {}\n{which}\n\n{}",
-        given.sentence,
-        opposite.sentence,
-        table(both.governing())
-    )
+    let directions = [("Given direction", given), ("Opposite direction", opposite)];
+    let sentences: String =
+        directions.map(|(name, limit)| format!("{name}: {}\n", limit.sentence)).concat();
+    let check = |(name, limit): (&str, &Limit)| {
+        let answer = figures::seismic::answer(limit.seismic.as_ref()?);
+        Some(format!("{name}, seismic check: {answer}\n"))
+    };
+    let checks: String = directions.into_iter().filter_map(check).collect();
+    format!("{sentences}{checks}{which}\n\n{}", table(both.governing()))
 }
 
 fn of_events(path: &Path) -> String {

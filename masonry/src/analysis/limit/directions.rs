@@ -49,8 +49,8 @@ impl Directions {
         Ok(opposite)
     }
 
-    /// The limit loads of both directions.
-    pub fn of(given: Limit, opposite: Limit) -> Self {
+    /// The limit loads of both directions, with a warning if the one that does not govern has a worse seismic check.
+    pub fn of(mut given: Limit, mut opposite: Limit) -> Self {
         let governs = if !(given.is_solved() && opposite.is_solved()) {
             Governs::Unknown
         } else if given.not_carried() <= opposite.carried() && given.carried().is_finite() {
@@ -60,6 +60,11 @@ impl Directions {
         } else {
             Governs::Both
         };
+        if governs == Governs::Opposite {
+            opposite.compare_check("the given direction", &given);
+        } else {
+            given.compare_check("the opposite direction", &opposite);
+        }
         Self { given, opposite, governs }
     }
 

@@ -7,13 +7,17 @@
 //! M* = (sum P d)^2 / (g sum P d^2),   e* = g M* / sum P,   a_0* = alpha_0 g / (e* FC)  >=  a_g S / q,
 //! ```
 //!
-//! and `alpha_0` is the acceleration at the limit over gravity. Sums are over the weights of the blocks that
-//! [move](crate::verify::moving), each in its centroid, and over loads with a mass on these blocks, each in its place. A weight
-//! at rest has no part in the mechanism, and would only make `e*` smaller.
+//! and `alpha_0` is the component of the acceleration across gravity at the limit, over gravity; `d` is along this component. Sums
+//! are over the weights of the blocks that [move](crate::verify::moving), each in its centroid, and over loads with a mass on these
+//! blocks, each in its place. A weight at rest has no part in the mechanism, and would only make `e*` smaller.
+//!
+//! Several mechanisms may belong to one limit: if all bed joints slide alike, any of them may. No `e*` is above one, so that
+//! `a_0* >= alpha_0 g / FC` for all of them.
 
 use nalgebra::{Point2, Vector2};
 
-use super::{Associative, LoadedStructure, Path};
+use super::{Answer, Associative, Limit, LoadedStructure, Path};
+use crate::geometry::SAME_PLACE;
 use crate::model::{Cause, Model, PlacedBlock, PlacedForce};
 use crate::scene::{LoadKind, Scene, Seismic};
 use crate::system::rigid::Modes;
@@ -27,7 +31,7 @@ use crate::verify::moving::moving;
 pub struct SeismicCheck {
     /// Whether factor and mechanism are those of the path with Coulomb's law; else they are those of associated flow.
     pub is_of_path: bool,
-    /// The acceleration at the limit over gravity, `alpha_0` \[-\].
+    /// The component of the acceleration across gravity at the limit, over gravity, `alpha_0` \[-\].
     pub multiplier: f64,
     /// The sum of the weights that move, `sum P` \[N\].
     pub weight: f64,
@@ -37,6 +41,8 @@ pub struct SeismicCheck {
     pub fraction: f64,
     /// The spectral acceleration that activates the mechanism, `a_0*` \[m/s^2\].
     pub capacity: f64,
+    /// The least `a_0*` of all mechanisms of the same limit, that of `e* = 1` \[m/s^2\].
+    pub least_capacity: f64,
     /// The spectral acceleration of the site, `a_g S / q` \[m/s^2\], if the scene has its data.
     pub demand: Option<f64>,
     /// Gravity \[m/s^2\].
@@ -46,58 +52,80 @@ pub struct SeismicCheck {
 }
 
 impl SeismicCheck {
-    /// Whether the capacity is at least the demand, if there is one.
+    /// Whether all mechanisms of the limit meet the demand, or the one that was found does not. `None` if it does and others may not,
+    /// and without a demand.
     pub fn is_satisfied(&self) -> Option<bool> {
-        self.demand.map(|demand| self.capacity >= demand)
+        let demand = self.demand?;
+        if self.least_capacity >= demand {
+            Some(true)
+        } else if self.capacity < demand {
+            Some(false)
+        } else {
+            None
+        }
     }
 }
 
-/// Why a scene with data for the check has none: it has no gravity, or something else than accelerations grows.
-pub(super) fn warning(scene: &Scene, group: &str) -> Option<String> {
-    let is_left_out = scene.limit.seismic.is_some() && !is_of_accelerations(scene, group);
-    is_left_out.then(|| {
-        if has_gravity(scene) {
-            format!(
-                "The seismic check is left out: \"{group}\" has other loads than accelerations. A weight that an \
-                 earthquake moves is a load with `mass`."
-            )
-        } else {
-            "The seismic check is left out: the scene has no gravity.".to_owned()
+impl Limit {
+    /// Whether the seismic check of this limit is worse than that of another: its answer, or, if the answers are equal, `a_0*` up to
+    /// the factor that is not carried.
+    pub fn has_worse_check(&self, other: &Self) -> bool {
+        let rank = |it: &SeismicCheck| match it.is_satisfied() {
+            Some(false) => 0,
+            None => 1,
+            Some(true) => 2,
+        };
+        match (&self.seismic, &other.seismic) {
+            (Some(own), Some(others)) => {
+                let most = own.capacity * (self.not_carried() / self.carried());
+                rank(own) < rank(others) || (rank(own) == rank(others) && most < others.capacity)
+            }
+            (Some(own), None) => own.is_satisfied() == Some(false),
+            (None, _) => false,
         }
-    })
+    }
+
+    /// Warns of a seismic check that is worse than that of this limit, which governs: that of another direction or combination.
+    pub fn compare_check(&mut self, name: &str, other: &Self) {
+        if other.has_worse_check(self) {
+            self.warnings.push(format!(
+                "The factor is the smallest, but the seismic check is not the worst: that of {name} is worse."
+            ));
+        }
+    }
 }
 
-fn has_gravity(scene: &Scene) -> bool {
-    scene.gravity.is_some_and(|it| it.iter().any(|it| it.abs() > 0.0))
-}
-
-fn is_of_accelerations(scene: &Scene, group: &str) -> bool {
-    let mut members = scene.loads.iter().filter(|load| load.is_called(group)).peekable();
-    has_gravity(scene)
-        && members.peek().is_some()
-        && members.all(|load| matches!(load.kind(), Some(LoadKind::Acceleration(_))))
-}
-
-/// The check by the law that [carries](super::Limit::carried), if its limit is known and it has a mechanism.
+/// The check by the law that [carries](super::Limit::carried), or why there is none.
 pub(super) fn of(
     scene: &Scene,
-    group: &str,
     structure: &LoadedStructure<'_>,
     associative: Option<&Associative>,
     path: Option<&Path>,
-) -> Option<SeismicCheck> {
-    if !is_of_accelerations(scene, group) {
-        return None;
+) -> Result<SeismicCheck, &'static str> {
+    let model = structure.model;
+    let gravity = model.gravity.norm();
+    if gravity <= 0.0 {
+        return Err("the scene has no gravity");
     }
-    let (factor, rates) = match (path, associative) {
-        (Some(path), _) if path.decided => (path.load_factor?, path.mechanism.as_ref()?),
-        (None, Some(found)) if found.proved => (found.load_factor?, found.mechanism.as_ref()?),
-        _ => return None,
-    };
+    if !is_of_accelerations(scene, structure.grows) {
+        return Err(
+            "what grows has other loads than accelerations; a weight that an earthquake moves is a load with `mass` in \
+             another group",
+        );
+    }
     let pushed = structure.under(0.0, 1.0).accelerations;
     let push: Vector2<f64> = pushed.iter().map(|it| it.value).sum();
-    let along = push.try_normalize(0.0)?;
-    let model = structure.model;
+    let down = model.gravity / gravity;
+    let across = push - down * push.dot(&down);
+    if across.norm() <= SAME_PLACE * push.norm() {
+        return Err("the acceleration has no component across gravity");
+    }
+    let (factor, rates) = match (path, associative) {
+        (Some(path), _) => of_path(path)?,
+        (None, Some(found)) => of_flow(found)?,
+        (None, None) => return Err(UNDECIDED),
+    };
+    let along = across.normalize();
     let (mut weight, mut work, mut square) = (0.0, 0.0, 0.0);
     for ((block, rates), _) in
         model.blocks.iter().zip(rates).zip(moving(rates)).filter(|(_, moves)| *moves)
@@ -111,25 +139,57 @@ pub(super) fn of(
             square += load * displacement * displacement;
         }
     }
-    if square <= 0.0 {
-        return None;
+    if work == 0.0 {
+        return Err("no weight moves across gravity in the mechanism");
     }
-    let gravity = model.gravity.norm();
-    let data = scene.limit.seismic.unwrap_or_default();
     let fraction = work * work / (square * weight);
-    let multiplier = factor * push.norm() / gravity;
+    let data = scene.limit.seismic.unwrap_or_default();
+    let multiplier = factor * across.norm() / gravity;
+    let least_capacity = multiplier * gravity / data.confidence;
     let site = data.ground.zip(data.soil);
-    Some(SeismicCheck {
+    Ok(SeismicCheck {
         is_of_path: path.is_some(),
         multiplier,
         weight,
         mass: fraction * weight / gravity,
         fraction,
-        capacity: multiplier * gravity / (fraction * data.confidence),
+        capacity: least_capacity / fraction,
+        least_capacity,
         demand: site.map(|(ground, soil)| ground * gravity * soil / data.behaviour),
         gravity,
         data,
     })
+}
+
+const UNDECIDED: &str = "the limit is undecided";
+const FALLS: &str = "the structure falls without what grows";
+const UNLIMITED: &str = "there is no limit";
+
+/// A factor and the rates of its mechanism.
+type Found<'a> = (f64, &'a [Vec<Vector2<f64>>]);
+
+fn of_path(path: &Path) -> Result<Found<'_>, &'static str> {
+    if !path.decided {
+        return Err(UNDECIDED);
+    }
+    let factor = path.load_factor.ok_or(FALLS)?;
+    let without = if path.falls.is_some() { "the path has no mechanism" } else { UNLIMITED };
+    Ok((factor, path.mechanism.as_ref().ok_or(without)?))
+}
+
+fn of_flow(found: &Associative) -> Result<Found<'_>, &'static str> {
+    match (found.answer, found.load_factor, &found.mechanism) {
+        (Answer::Falls, ..) => Err(FALLS),
+        (Answer::Unlimited, ..) => Err(UNLIMITED),
+        (Answer::Fails, Some(factor), Some(rates)) if found.proved => Ok((factor, rates)),
+        _ => Err(UNDECIDED),
+    }
+}
+
+fn is_of_accelerations(scene: &Scene, grows: &[bool]) -> bool {
+    let mut growing = scene.loads.iter().zip(grows).filter(|(_, grows)| **grows).peekable();
+    growing.peek().is_some()
+        && growing.all(|(load, _)| matches!(load.kind(), Some(LoadKind::Acceleration(_))))
 }
 
 /// The weights \[N\] on a block and their places: its own, and those of loads with a mass.

@@ -2,8 +2,9 @@
 
 use super::{Check, at_least_one, at_most, finite, needed, positive, value};
 use crate::scene::groups::WEIGHT;
-use crate::scene::rules::unknown;
-use crate::scene::{Fault, KeyPath, LoadError, Scene, SceneErrorKind, Seismic, Train};
+use crate::scene::limit::is_of_train;
+use crate::scene::rules::{each, unknown};
+use crate::scene::{Fault, KeyPath, Load, LoadError, Scene, SceneErrorKind, Seismic, Train};
 
 impl Scene {
     pub(super) fn check_limit(&self) -> Check {
@@ -30,6 +31,8 @@ impl Scene {
 
 /// Positions of a train, at most. Chosen: far more than a curve shows.
 const MOST_POSITIONS: u32 = 100_000;
+/// Axles of a train, at most. Chosen: more than the longest trains have on a bridge.
+const MOST_AXLES: u32 = 1000;
 
 impl Scene {
     fn check_train(&self, at: &KeyPath, train: &Train) -> Check {
@@ -38,6 +41,7 @@ impl Scene {
             let remedy = "give at least one axle, such as [[0.0, 100.0]]";
             return Err(Fault::new(axles, SceneErrorKind::EmptyList(remedy)));
         }
+        at_most(axles.clone(), "axles of a train", train.axles.len() as f64, MOST_AXLES)?;
         for (k, [offset, force]) in train.axles.iter().enumerate() {
             finite(axles.item(k).item(0), *offset)?;
             positive(axles.item(k).item(1), *force)?;
@@ -47,6 +51,7 @@ impl Scene {
         let positions = at.key("positions");
         at_least_one(positions.clone(), train.positions, "a train has at least one position")?;
         at_most(positions, "positions of a train", f64::from(train.positions), MOST_POSITIONS)?;
+        each("loads", &self.loads, check_beside_train)?;
         self.check_on_fill(at, &train.over, train.level, train.angle_deg)
     }
 
@@ -77,6 +82,15 @@ impl Scene {
         let missing = "it under [[arches]]".to_owned();
         Err(unknown(at, "arch, wall or block", name, names().cloned().collect(), missing))
     }
+}
+
+/// A load beside a train has not the name of its axles, which would grow with them or be taken for one.
+fn check_beside_train(at: &KeyPath, load: &Load) -> Check {
+    let names = [("name", Some(&load.name)), ("group", load.group.as_ref())];
+    let taken =
+        names.into_iter().find_map(|(key, name)| Some((key, name.filter(|it| is_of_train(it))?)));
+    let Some((key, name)) = taken else { return Ok(()) };
+    Err(Fault::new(at.key(key), LoadError::OfTrain(name.clone())))
 }
 
 fn check_seismic(at: &KeyPath, seismic: &Seismic) -> Check {

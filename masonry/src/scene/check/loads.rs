@@ -48,7 +48,7 @@ impl Scene {
         let Some(Axle { over, x, force, level, angle_deg }) = &load.axle else { return Ok(()) };
         let at = at.key("axle");
         finite(at.key("x"), *x)?;
-        finite(at.key("force"), *force)?;
+        positive(at.key("force"), *force)?;
         self.check_on_fill(&at, over, *level, *angle_deg)
     }
 
@@ -75,8 +75,8 @@ impl Scene {
             point(&at, acceleration)?;
         }
         let densities = self.used_materials().filter_map(|name| self.materials.get(name)?.density);
-        let has_mass = |load: &Load| load.mass.is_some_and(|part| part > 0.0);
-        if densities.count() > 0 || self.loads.iter().any(has_mass) {
+        // A factor of zero, as of a load that other combinations name, leaves nothing to accelerate.
+        if load.factor == 0.0 || densities.count() > 0 || self.loads.iter().any(Load::has_mass) {
             return Ok(());
         }
         Err(Fault::new(at, LoadError::NoMass(load.name.clone())))

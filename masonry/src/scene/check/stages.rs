@@ -1,13 +1,16 @@
 //! Checks of the load history, and of combinations.
 
 use super::{Check, at_least_one, at_most, finite, not_negative, unwanted, value};
+use crate::scene::combinations::OPPOSITE;
 use crate::scene::rules::unknown;
-use crate::scene::{Combination, KeyPath, Scene, Stage};
+use crate::scene::{Combination, Fault, KeyPath, LoadError, Scene, Stage};
 
 /// Rotation of a support \[rad\] at which its joints' normals are off by a tenth.
 const LARGEST_TURN: f64 = 0.1;
 /// Steps of one stage, at most.
 const MOST_STEPS: u32 = 100_000;
+/// Combinations of a scene, at most. Chosen: more than codes ask for, and each is an analysis of its own.
+const MOST_COMBINATIONS: u32 = 1000;
 
 impl Scene {
     /// A stage: loads and supports that exist, numbers in their range.
@@ -38,8 +41,15 @@ impl Scene {
         }
         Ok(())
     }
-    /// A combination: loads that exist, numbers in their range.
+
+    /// A combination: its name, loads that exist, numbers in their range.
     pub(super) fn check_combination(&self, at: &KeyPath, combination: &Combination) -> Check {
+        let count = self.combinations.len() as f64;
+        at_most(KeyPath::of("combinations"), "combinations", count, MOST_COMBINATIONS)?;
+        if combination.name.ends_with(OPPOSITE) {
+            let error = LoadError::Opposite(combination.name.clone());
+            return Err(Fault::new(at.key("name"), error));
+        }
         not_negative(at.key("gravity"), combination.gravity)?;
         self.check_factors(&at.key("loads"), &combination.loads)
     }

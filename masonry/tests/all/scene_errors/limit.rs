@@ -41,8 +41,28 @@ fn trains() {
     assert_train_error(&none, "[]", ".axles", &["at least one axle"]);
     let up = with("over = \"wall\"\naxles = [[0, -1]]");
     assert_train_error(&up, "-1", ".axles[0][1]", &["-1 is not allowed"]);
+    let long = with(&format!("over = \"wall\"\naxles = [{}]", "[0, 1], ".repeat(1001)));
+    let words = ["1001 axles of a train are too many: at most 1000"];
+    assert_train_error(&long, "[[0, 1], ", ".axles", &words);
     let many = with(&format!("{over}positions = 0"));
     assert_train_error(&many, "0\n\n", ".positions", &["at least one position"]);
     let flat = with(&format!("{over}level = 2\nangle_deg = 90"));
     assert_train_error(&flat, "90", ".angle_deg", &["at most 80 degrees"]);
+}
+
+/// A load of the name of the train, or of one of its axles, would grow with them.
+#[test]
+fn names_that_belong_to_a_train() {
+    let solver = "[solver]\ntolerance = 1e-10\n";
+    let train = "[limit.train]\nover = \"wall\"\naxles = [[0, 1]]\nfrom = 0\nto = 1\n";
+    for (key, name) in [("group", "train"), ("group", "train axle 2"), ("name", "train")] {
+        let name_too = if key == "group" { "name = \"ballast\"\n" } else { "" };
+        let load = format!(
+            "[[loads]]\n{name_too}{key} = \"{name}\"\nfrom = [0, 0.5]\nto = [1, 0.5]\npressure = 1\n"
+        );
+        let words = [&*format!("the name \"{name}\" belongs to the axles"), "another name"];
+        let marked = format!("\"{name}\"");
+        let at = format!("loads[1].{key}");
+        assert_error(solver, &format!("{load}{train}{solver}"), &marked, &at, &words);
+    }
 }

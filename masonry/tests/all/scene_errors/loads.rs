@@ -295,6 +295,12 @@ fn fill_and_axles() {
             "inf is not allowed",
         ),
         (
+            "axle = { over = \"wall\", x = 1, force = -60 }",
+            "-60",
+            "axle.force",
+            "-60 is not allowed: give a finite number greater than zero",
+        ),
+        (
             "axle = { over = \"wall\", x = 1, force = 1, level = 2, angle_deg = 0.0 }",
             "0.0 }",
             "axle.angle_deg",
