@@ -1,6 +1,7 @@
-//! Files that are whole or not there.
+//! Files that are read up to a size, and written whole or not at all.
 
 use std::ffi::OsString;
+use std::io::Read;
 use std::path::Path;
 use std::{fs, io};
 
@@ -14,4 +15,27 @@ pub fn write_atomically(path: &Path, bytes: &[u8]) -> io::Result<()> {
         let _ = fs::remove_file(&temporary);
     }
     result
+}
+
+/// Reads a file of at most `largest` bytes. Devices and pipes, which may have no end or never begin, are refused.
+///
+/// # Errors
+/// The message of the operating system, or that the file is none or too large.
+pub fn read_bounded(path: &Path, largest: usize) -> io::Result<Vec<u8>> {
+    // A pipe must not even be opened: that waits for a writer.
+    let metadata = fs::metadata(path)?;
+    if metadata.is_dir() {
+        return Err(io::ErrorKind::IsADirectory.into());
+    }
+    if !metadata.is_file() {
+        return Err(io::Error::other("it is a device or a pipe, and no file"));
+    }
+    let mut bytes = Vec::new();
+    // One more byte than is allowed shows that the file is too large.
+    fs::File::open(path)?.take(largest as u64 + 1).read_to_end(&mut bytes)?;
+    if bytes.len() > largest {
+        let message = format!("the file is larger than {} MB", largest >> 20);
+        return Err(io::Error::new(io::ErrorKind::FileTooLarge, message));
+    }
+    Ok(bytes)
 }

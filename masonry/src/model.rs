@@ -63,7 +63,7 @@ pub struct Model {
     pub accelerations: Vec<Acceleration>,
     /// Names and factors of the loads, in the order of the scene.
     pub loads: Vec<LoadCase>,
-    /// The corners of single blocks that were moved; `None` if none were.
+    /// The corners of single blocks that were moved, and the changes of their drawing; `None` if there are none.
     pub healed: Option<Healed>,
     /// The units of the scene, in which results are reported.
     pub units: Units,

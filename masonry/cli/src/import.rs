@@ -1,12 +1,11 @@
 //! `masonry import`: a scene of a drawing.
 
-use std::io::Read;
 use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
 
 use crate::end::{Failure, SOLVED, is_same, listing, print};
-use masonry::files::write_atomically;
+use masonry::files::{read_bounded, write_atomically};
 use masonry_drawing::{Drawing, Format, LARGEST_FILE, Unit};
 use masonry_import::{Joints, Options, import};
 
@@ -53,6 +52,7 @@ enum UnitName {
     M,
     In,
     Ft,
+    Km,
 }
 
 #[derive(Debug, Clone, Copy, ValueEnum)]
@@ -97,12 +97,8 @@ fn read(path: &Path) -> Result<Drawing, Failure> {
     let format = Format::of_ending(&ending).ok_or_else(|| {
         format!("{name}: drawings end in .dxf, .svg, .obj or .json: save it as one of these")
     })?;
-    let mut bytes = Vec::new();
-    // One more byte than is allowed shows that the file is too large.
-    let limit = LARGEST_FILE as u64 + 1;
-    std::fs::File::open(path)
-        .and_then(|file| file.take(limit).read_to_end(&mut bytes))
-        .map_err(|error| format!("cannot read {name}: {error}"))?;
+    let bytes =
+        read_bounded(path, LARGEST_FILE).map_err(|error| format!("cannot read {name}: {error}"))?;
     Ok(Drawing::read(&bytes, format).map_err(|error| format!("{name}: {error}"))?)
 }
 
@@ -132,6 +128,7 @@ impl UnitName {
             Self::M => Unit::Metre,
             Self::In => Unit::Inch,
             Self::Ft => Unit::Foot,
+            Self::Km => Unit::Kilometre,
         }
     }
 }

@@ -22,7 +22,7 @@ use std::process::ExitCode;
 
 use clap::{Args, CommandFactory, Parser, Subcommand};
 
-use crate::end::{BAD_INPUT, Failure, SOLVED, keep_scene, print, without_controls};
+use crate::end::{BAD_INPUT, Failure, SOLVED, is_same, keep_scene, print, without_controls};
 use crate::route::RouteValue;
 use masonry::files::write_atomically;
 use masonry::model::Model;
@@ -113,6 +113,9 @@ fn plan(args: &PlanArgs) -> Result<u8, Failure> {
         scene = scene.route(route.0);
     }
     let model = Model::from_scene(&scene)?;
+    for warning in model.unusual() {
+        eprintln!("warning: {}", without_controls(&warning));
+    }
     let plan = Plan::of(&scene, &model);
     if args.json {
         print(&(serde_json::to_string_pretty(&plan)? + "\n"))?;
@@ -124,17 +127,24 @@ fn plan(args: &PlanArgs) -> Result<u8, Failure> {
 
 fn draw(args: &DrawArgs) -> Result<u8, Failure> {
     let scene = read_scene(&args.scene)?;
+    let beside = || args.scene.with_extension("svg");
+    let picture = args.out.clone().or_else(|| args.dxf.is_none().then(beside));
+    for (out, option) in [(&picture, "--out"), (&args.dxf, "--dxf")] {
+        out.iter().try_for_each(|out| keep_scene(&scene, out, option))?;
+    }
+    if let (Some(out), Some(dxf)) = (&picture, &args.dxf)
+        && (out == dxf || is_same(out, dxf))
+    {
+        return Err(format!("{} is both --out and --dxf: choose two files", out.display()).into());
+    }
     let mut files = Vec::new();
-    if args.out.is_some() || args.dxf.is_none() {
-        let model = Model::from_scene(&scene)?;
-        let out = args.out.clone().unwrap_or_else(|| args.scene.with_extension("svg"));
-        files.push((out, "--out", svg::scene(&scene.title, &model)));
+    if let Some(out) = picture {
+        files.push((out, svg::scene(&scene.title, &Model::from_scene(&scene)?)));
     }
     if let Some(out) = args.dxf.clone() {
-        files.push((out, "--dxf", dxf::drawing(&masonry::solve(&scene)?)));
+        files.push((out, dxf::drawing(&masonry::solve(&scene)?)));
     }
-    for (out, option, text) in files {
-        keep_scene(&scene, &out, option)?;
+    for (out, text) in files {
         write_atomically(&out, text.as_bytes())
             .map_err(|error| format!("cannot write {}: {error}", out.display()))?;
         print(&format!("{}\n", out.display()))?;

@@ -15,12 +15,14 @@ pub enum Unit {
     Inch,
     /// Foot.
     Foot,
+    /// Kilometre.
+    Kilometre,
 }
 
 impl Unit {
     /// All units, from the smallest.
-    pub const ALL: [Self; 5] =
-        [Self::Millimetre, Self::Centimetre, Self::Inch, Self::Foot, Self::Metre];
+    pub const ALL: [Self; 6] =
+        [Self::Millimetre, Self::Centimetre, Self::Inch, Self::Foot, Self::Metre, Self::Kilometre];
 
     /// Metres in one unit.
     pub fn metres(self) -> f64 {
@@ -30,6 +32,7 @@ impl Unit {
             Self::Metre => 1.0,
             Self::Inch => 0.0254,
             Self::Foot => 0.3048,
+            Self::Kilometre => 1e3,
         }
     }
 
@@ -41,6 +44,7 @@ impl Unit {
             Self::Metre => "m",
             Self::Inch => "in",
             Self::Foot => "ft",
+            Self::Kilometre => "km",
         }
     }
 
@@ -57,6 +61,7 @@ impl Unit {
             4 => Some(Self::Millimetre),
             5 => Some(Self::Centimetre),
             6 => Some(Self::Metre),
+            7 => Some(Self::Kilometre),
             _ => None,
         }
     }

@@ -106,9 +106,11 @@ pub enum ImportErrorKind {
     },
     /// Blocks have a size that no stone has.
     #[error(
-        "half of all blocks are larger than {size} m, with {unit} as the unit ({from}): {remedy}"
+        "half of all blocks are {compared} than {size} m, with {unit} as the unit ({from}): {remedy}"
     )]
     Size {
+        /// `larger` or `smaller`.
+        compared: &'static str,
         /// The median size \[m\].
         size: String,
         /// The unit that was taken.

@@ -49,7 +49,10 @@ pub(crate) struct Grown {
 /// # Errors
 /// Joints are open, and nobody says what they are, or no mortar of one width fits.
 pub(crate) fn grow(sheet: &mut Sheet, joints: Option<Joints>) -> Result<Grown, ImportError> {
-    let gaps = gaps(sheet)?;
+    let gaps = gaps(sheet, sheet.tolerance)?;
+    if matches!(joints, Some(Joints::Open | Joints::Mortar)) {
+        note_narrow(sheet)?;
+    }
     let mut grown = Grown::default();
     let Some(first) = gaps.first() else { return Ok(grown) };
     match joints {
@@ -94,9 +97,26 @@ fn note(sheet: &mut Sheet, gaps: &[Gap], joints: Option<Joints>) {
     }
 }
 
+/// Notes even gaps that are narrower than the tolerance, which closes them whatever joints are to be.
+fn note_narrow(sheet: &mut Sheet) -> Result<(), ImportError> {
+    /// Gaps below this part of the tolerance are rounding errors. Chosen: a gap of millimetres is told, one of micrometres is not.
+    const NARROWEST: f64 = 0.05;
+    let tolerance = sheet.tolerance;
+    let narrow = gaps(sheet, NARROWEST * tolerance)?;
+    let what = format!(
+        "gaps were closed, as the tolerance of {} m is larger (one of half their width keeps them open)",
+        metres(tolerance)
+    );
+    for gap in narrow.iter().filter(|gap| gap.width <= tolerance) {
+        let place = &sheet.stones[gap.stones[0]].place;
+        sheet.changes.push(Change::by(&what, place, gap.width));
+    }
+    Ok(())
+}
+
 /// All gaps that are wider than the tolerance.
-fn gaps(sheet: &Sheet) -> Result<Vec<Gap>, ImportError> {
-    let (stones, tolerance) = (&sheet.stones, sheet.tolerance);
+fn gaps(sheet: &Sheet, tolerance: f64) -> Result<Vec<Gap>, ImportError> {
+    let stones = &sheet.stones;
     let edges = stones.iter().flat_map(|stone| size::edges(&stone.corners));
     let reach = WIDEST * edges.fold(f64::INFINITY, f64::min);
     let mut gaps = Vec::new();

@@ -56,7 +56,11 @@ pub fn import(drawing: &Drawing, options: &Options) -> Result<Imported, ImportEr
     };
     attempt(options.tolerance).map_err(|error| match error.tolerance() {
         Some(tolerance) => {
-            error.with_remedy(fit::sufficient(tolerance, |it| attempt(Some(it)).is_ok()))
+            // A tolerance that takes further blocks for slivers or for others drawn twice mends nothing.
+            let count =
+                Sheet::of(drawing, options, options.tolerance).map_or(0, |it| it.stones.len());
+            let does = |it| attempt(Some(it)).is_ok_and(|it| it.scene.blocks.len() >= count);
+            error.with_remedy(fit::sufficient(tolerance, does))
         }
         None => error,
     })

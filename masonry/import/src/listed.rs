@@ -65,6 +65,7 @@ impl Imported {
     fn into_drawn(self, metres: f64) -> Drawn {
         let per_metre = metres.recip();
         let scaled = |point: [f64; 2]| point.map(|it| it * per_metre);
+        let changes = self.told();
         let Scene { blocks, supports, between, .. } = self.scene;
         let block =
             |it: Block| Block { corners: it.corners.into_iter().map(scaled).collect(), ..it };
@@ -75,6 +76,7 @@ impl Imported {
             places: self.places.iter().map(Place::to_string).collect(),
             supports: supports.into_iter().take(own).map(support).collect(),
             between,
+            changes,
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use nalgebra::Point2;
 
-use masonry::geometry;
+use masonry::geometry::{self, PolygonError};
 use masonry_drawing::{Change, Place};
 
 /// Distances below this part of the tolerance are rounding errors. Chosen: far above those of coordinates, far below all
@@ -15,6 +15,8 @@ pub(crate) enum Cleaned {
     Polygon(Vec<Point2<f64>>),
     /// Nothing: it is thinner than the tolerance.
     Sliver,
+    /// Edges that cross: the areas on both sides of the crossing cancel each other.
+    Crossing,
 }
 
 /// Cleans an outline, and notes what that changes.
@@ -33,8 +35,12 @@ pub(crate) fn clean(
     if let Some(by) = straight.filter(|by| *by > EXACT * tolerance) {
         changes.push(Change::by("nearly straight corners vanished", place, by));
     }
-    if corners.len() < 3 || width(&corners) <= tolerance {
+    if corners.len() < 3 {
         return Cleaned::Sliver;
+    }
+    if width(&corners) <= tolerance {
+        let is_crossing = geometry::check_simple(&corners) == Err(PolygonError::Crossing);
+        return if is_crossing { Cleaned::Crossing } else { Cleaned::Sliver };
     }
     if geometry::area(&corners) < 0.0 {
         // It begins where it began.

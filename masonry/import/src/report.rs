@@ -29,6 +29,12 @@ impl Imported {
         text
     }
 
+    /// The table of what was changed and left out, without the spaces of a table.
+    pub(crate) fn told(&self) -> Vec<String> {
+        let line = |(what, row): (&str, Row)| format!("{} x {what}{}", row.count, row.places());
+        self.rows().into_iter().map(line).collect()
+    }
+
     /// Changes of one kind together, in the order of the first of each.
     fn rows(&self) -> Vec<(&str, Row<'_>)> {
         let mut rows: Vec<(&str, Row)> = Vec::new();

@@ -141,12 +141,12 @@ impl Sheet {
         }
         for Raw { outline, material } in sorted.raw {
             let Outline { corners, name, place, .. } = outline;
-            if let Some(corners) = self.cleaned(&corners, &place) {
+            if let Some(corners) = self.cleaned(&corners, &place)? {
                 self.stones.push(Stone { name, material, corners, place });
             }
         }
         for (name, outline) in sorted.fixed {
-            if let Some(mut corners) = self.cleaned(&outline.corners, &outline.place) {
+            if let Some(mut corners) = self.cleaned(&outline.corners, &outline.place)? {
                 corners.push(corners[0]);
                 self.supports.extend(pieces(&name, &corners, &outline.place));
             }
@@ -171,13 +171,19 @@ impl Sheet {
         ImportErrorKind::NoBlocks { dropped }.at(&[])
     }
 
-    fn cleaned(&mut self, corners: &[Point2<f64>], place: &Place) -> Option<Vec<Point2<f64>>> {
+    /// The corners of an outline that are left; `None` of a sliver.
+    fn cleaned(
+        &mut self,
+        corners: &[Point2<f64>],
+        place: &Place,
+    ) -> Result<Option<Vec<Point2<f64>>>, ImportError> {
         match outline::clean(corners, place, self.tolerance, &mut self.changes) {
-            Cleaned::Polygon(corners) => Some(corners),
+            Cleaned::Polygon(corners) => Ok(Some(corners)),
             Cleaned::Sliver => {
                 self.changes.push(Change::new("slivers were dropped", place));
-                None
+                Ok(None)
             }
+            Cleaned::Crossing => Err(ImportErrorKind::Crossing.at(&[place])),
         }
     }
 

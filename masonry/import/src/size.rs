@@ -39,9 +39,10 @@ pub(crate) fn unit(drawing: &Drawing, options: &Options) -> Result<Unit, ImportE
     } else {
         format!("give {}, or --unit {unit} if that is right", others.join(" or "))
     };
+    let compared = if metres_of(unit) > LARGEST { "larger" } else { "smaller" };
     // In the sentence "larger than": rounding to three digits does not matter.
     let size = metres(metres_of(unit));
-    Err(ImportErrorKind::Size { size, unit, from, remedy }.at(&[]))
+    Err(ImportErrorKind::Size { compared, size, unit, from, remedy }.at(&[]))
 }
 
 /// The median of the sizes of outlines, or of lines without these, in the unit of the drawing.

@@ -23,7 +23,7 @@ impl Model {
     ///
     /// # Errors
     /// The mistakes that [`Scene::check`] finds, and those of the whole: overlapping blocks, a support that runs
-    /// through a block or meets none, a load on no free edge or outside of its block, a block that meets nothing, a
+    /// through a block, lies on another or meets none, a load on no free edge or outside of its block, a block that meets nothing, a
     /// joint whose class is not given. Each has its line and column if the scene was read from text.
     pub fn from_scene(scene: &Scene) -> Result<Self, SceneError> {
         scene.check()?;
@@ -42,15 +42,20 @@ fn build(scene: &Scene) -> Result<Model, Fault> {
     let Laid { mut blocks, keys, parts } = lay_blocks(scene)?;
     let supports: Vec<PlacedSupport> =
         scene.all_supports().iter().map(|s| support(s, units)).collect();
-    let healed = heal_corners(scene, &mut blocks, &keys, &supports)?;
+    let mut healed = heal_corners(scene, &mut blocks, &keys, &supports)?;
     placement::check_supports(&blocks, &supports, units)?;
     placement::check_movements(scene, &blocks)?;
 
     let classes = Classes::of(scene, &blocks, parts)?;
     let found = find_joints(scene, &blocks, &supports, classes, thickness)?;
     placement::check_touching(&blocks, &keys, &supports, &found.joints)?;
+    placement::check_overlapping_supports(&blocks, &supports, &found.joints, units)?;
     // Loads have the places that corners had before they were moved.
-    let moved = healed.map_or(0.0, |it| it.largest);
+    let moved = healed.as_ref().map_or(0.0, |it| it.largest);
+    let drawing = scene.changes_of_drawing();
+    if !drawing.is_empty() {
+        healed.get_or_insert_default().drawing = drawing;
+    }
     let (loads, accelerations) =
         place_loads::place(scene, &mut blocks, &found.joints, &found.contacts, moved)?;
 

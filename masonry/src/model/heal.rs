@@ -19,8 +19,8 @@ const LARGEST: f64 = 0.25;
 /// Corners are moved by so many tolerances at most. Chosen: those of three blocks that meet move by less than two.
 const FARTHEST: f64 = 4.0;
 
-/// The corners that were moved.
-#[derive(Debug, Clone, Copy, PartialEq)]
+/// The corners that were moved, and what reading a drawing had changed before.
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct Healed {
     /// Corners that were moved.
     pub corners: usize,
@@ -28,6 +28,8 @@ pub struct Healed {
     pub largest: f64,
     /// The tolerance \[m\].
     pub tolerance: f64,
+    /// What was changed and left out of the drawing with the blocks, in sentences.
+    pub drawing: Vec<String>,
 }
 
 /// Why corners cannot be healed, in words that follow the tolerance.
@@ -76,7 +78,7 @@ pub fn heal(
         return Err("not all corners that are so near to others can be put onto them");
     }
     drawing.write(blocks);
-    Ok(Some(Healed { corners: moved.len(), largest, tolerance }))
+    Ok(Some(Healed { corners: moved.len(), largest, tolerance, drawing: Vec::new() }))
 }
 
 fn shortest_edge(blocks: &[PlacedBlock]) -> f64 {

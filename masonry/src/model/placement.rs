@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use super::{Body, PlacedBlock, PlacedJoint, PlacedSupport};
 use crate::geometry::{self, Extent, SAME_PLACE};
+use crate::ids::{BlockId, SupportId};
 use crate::model::joints::near_pairs;
 use crate::rounding::rounded;
 use crate::scene::{Fault, KeyPath, Scene, SceneErrorKind};
@@ -87,6 +88,57 @@ pub(super) fn check_supports(
         }
     }
     Ok(())
+}
+
+/// Refuses supports that lie on each other along a block: the strength of their joint would count twice.
+pub(super) fn check_overlapping_supports(
+    blocks: &[PlacedBlock],
+    supports: &[PlacedSupport],
+    joints: &[PlacedJoint],
+    units: Units,
+) -> Result<(), Fault> {
+    let mut held: BTreeMap<BlockId, Vec<(SupportId, &PlacedJoint)>> = BTreeMap::new();
+    for joint in joints {
+        let Body::Support(second) = joint.a else { continue };
+        let block = &blocks[joint.b.index()];
+        let near = SAME_PLACE * geometry::size(&block.corners);
+        let before = held.entry(joint.b).or_default();
+        for (first, other) in before.iter() {
+            let [one, two] = [*first, second].map(|id| &supports[id.index()]);
+            let length = common_length(joint, other);
+            if one.is_along(two, near) && joint.normal.dot(&other.normal) > 0.0 && length > near {
+                let kind = SceneErrorKind::OverlappingSupports {
+                    first: one.name.clone(),
+                    second: two.name.clone(),
+                    block: block.name.clone(),
+                    length: rounded(length / units.length_to_si()),
+                    unit: units.length_name(),
+                };
+                return Err(Fault::new(KeyPath::of("supports").item(second.index()), kind));
+            }
+        }
+        before.push((second, joint));
+    }
+    Ok(())
+}
+
+/// The length over which two parallel joints lie beside each other.
+fn common_length(joint: &PlacedJoint, other: &PlacedJoint) -> f64 {
+    let along = (joint.to - joint.from).normalize();
+    let [a, b] = [joint, other].map(|it| {
+        let [from, to] = [it.from, it.to].map(|end| (end - joint.from).dot(&along));
+        [from.min(to), from.max(to)]
+    });
+    a[1].min(b[1]) - a[0].max(b[0])
+}
+
+impl PlacedSupport {
+    /// Whether another support lies on this one, in whichever direction.
+    fn is_along(&self, other: &Self, near: f64) -> bool {
+        let lies_on =
+            |line| geometry::facing_overlap([self.from, self.to], line, near, 0.0).is_some();
+        lies_on([other.from, other.to]) || lies_on([other.to, other.from])
+    }
 }
 
 /// Refuses blocks and supports that meet nothing.

@@ -34,7 +34,7 @@ impl Model {
         lists.concat()
     }
 
-    /// Corners that were moved so that blocks touch.
+    /// What was changed of a drawing, and corners that were moved so that blocks touch.
     fn moved_corners(&self) -> Vec<String> {
         let in_scene = |metres: f64| format!("{:.1e}", metres / self.units.length_to_si());
         let sentence = |it: &Healed| {
@@ -47,7 +47,9 @@ impl Model {
                 in_scene(it.tolerance)
             )
         };
-        self.healed.iter().map(sentence).collect()
+        let Some(healed) = &self.healed else { return Vec::new() };
+        let moved = Some(healed).filter(|it| it.corners > 0).map(sentence);
+        healed.drawing.iter().cloned().chain(moved).collect()
     }
 
     /// Loads that press down beside an acceleration, without a `mass`.

@@ -19,6 +19,9 @@ pub struct Drawn {
     pub supports: Vec<Support>,
     /// Joint classes between its blocks.
     pub between: Vec<Between>,
+    /// What was changed and left out, a kind in each line.
+    #[serde(skip)]
+    pub changes: Vec<String>,
 }
 
 /// Reads a drawing for a scene, from its path and its bytes; the error says where in the drawing what is wrong.

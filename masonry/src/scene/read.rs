@@ -5,6 +5,10 @@ use std::path::{Path, PathBuf};
 use super::drawn::{Drawings, Drawn};
 use super::source::{List, Source};
 use super::{Fault, KeyPath, Scene, SceneError, SceneErrorKind, block_list};
+use crate::files::read_bounded;
+
+/// Bytes of a scene, and of its list of blocks. Theory: a hundred for each block of the most that a scene may have.
+const LARGEST_FILE: usize = 100 << 20;
 
 impl Scene {
     /// Reads a scene from TOML text and [checks](Scene::check) it.
@@ -25,8 +29,10 @@ impl Scene {
     }
 
     pub(super) fn read_by(path: &Path, drawings: Option<Drawings>) -> Result<Self, SceneError> {
-        let text = std::fs::read_to_string(path)
-            .map_err(|error| SceneError::unreadable(path, error.to_string()))?;
+        let unreadable = |message: String| SceneError::unreadable(path, message);
+        let bytes =
+            read_bounded(path, LARGEST_FILE).map_err(|error| unreadable(error.to_string()))?;
+        let text = String::from_utf8(bytes).map_err(|error| unreadable(error.to_string()))?;
         Self::parse(&Source::new(&text, Some(path)), drawings)
     }
 
@@ -42,6 +48,15 @@ impl Scene {
     pub fn files(&self) -> impl Iterator<Item = &Path> {
         let list = self.source.list().map(|list| list.path.as_path());
         self.source.path().into_iter().chain(list)
+    }
+
+    /// What was changed and left out of the drawing that the scene was read from, in sentences.
+    pub(crate) fn changes_of_drawing(&self) -> Vec<String> {
+        let Some(list) = self.source.list() else { return Vec::new() };
+        let name = list.path.file_name().unwrap_or(list.path.as_os_str()).to_string_lossy();
+        let sentence =
+            |it: &String| format!("Reading the drawing {name}: {}.", it.trim_end_matches(", ..."));
+        list.changes.iter().map(sentence).collect()
     }
 
     pub(super) fn without_source(&self) -> Self {
@@ -88,13 +103,13 @@ impl Scene {
 
 /// A file with more blocks: a JSON list, or a drawing if `drawings` is given; the error says why it is not read.
 fn more_blocks(path: PathBuf, scene: &Scene, drawings: Option<Drawings>) -> Result<List, String> {
-    let bytes = std::fs::read(&path).map_err(|error| error.to_string())?;
+    let bytes = read_bounded(&path, LARGEST_FILE).map_err(|error| error.to_string())?;
     let begins = bytes.iter().find(|byte| !byte.is_ascii_whitespace());
     let Some(read) = drawings.filter(|_| begins != Some(&b'[')) else {
         let text = String::from_utf8(bytes).map_err(|error| error.to_string())?;
-        return Ok(List { path, text, entities: None });
+        return Ok(List { path, text, entities: None, changes: Vec::new() });
     };
     let drawn = read(&path, &bytes, scene)?;
     let text = toml::to_string(&drawn).map_err(|error| error.to_string())?;
-    Ok(List { path, text, entities: Some(drawn.places) })
+    Ok(List { path, text, entities: Some(drawn.places), changes: drawn.changes })
 }

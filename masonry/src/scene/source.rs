@@ -30,6 +30,8 @@ pub(super) struct List {
     pub(super) text: String,
     /// The places of the blocks in a drawing; `None` for a JSON list.
     pub(super) entities: Option<Vec<String>>,
+    /// What was changed and left out of a drawing, a kind in each line.
+    pub(super) changes: Vec<String>,
 }
 
 /// The place of a value: the file, and a part of its text or of its drawing.

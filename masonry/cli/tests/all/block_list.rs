@@ -193,6 +193,13 @@ fn a_list_may_be_a_drawing() {
     let result: Value =
         serde_json::from_slice(&output.stdout).unwrap_or_else(|_| panic!("{output:?}"));
     assert_eq!((&result["verdict"], &result["plan"]["joints"]), (&"stands".into(), &4.into()));
+    // What was changed of the drawing is told.
+    let warnings: Vec<&str> =
+        result["warnings"].as_array().unwrap().iter().filter_map(Value::as_str).collect();
+    let moved = "Reading the drawing portal.dxf: 3 x corners were moved so that blocks meet exactly, by up to 0.0005 m: ";
+    assert!(warnings.iter().any(|it| it.starts_with(moved)), "{warnings:?}");
+    let planned = String::from_utf8(masonry("plan", &path).stderr).unwrap();
+    assert!(planned.contains(&format!("warning: {moved}")), "{planned}");
     let up = ["floor", "pier"].map(|name| result["reactions"][name]["fy"].as_f64().unwrap());
     // Half a metre thick: two posts of stone, the lintel of oak from 2000.5 mm, and the beam in the middle.
     let half = 0.5 * (0.5 * (20.0 * 2.0 * 1.0 + 7.0 * 2.6 * 0.4) + 5.0);
@@ -239,4 +246,38 @@ fn mistakes_in_a_drawing_have_the_entity() {
     fs::write(bad.with_file_name("portal.dwg"), "AC1032").unwrap();
     let bad = message(&bad);
     assert!(bad.contains("portal.dwg: drawings end in .dxf, .svg, .obj or .json"), "{bad}");
+}
+
+/// A device may have no end, and a pipe no beginning.
+#[cfg(unix)]
+#[test]
+fn devices_and_pipes_are_no_lists() {
+    let path = written("pipe", &SCENE.replace("portal.json", "pipe.dxf"), LIST);
+    let pipe = path.with_file_name("pipe.dxf");
+    let _ = fs::remove_file(&pipe);
+    assert!(Command::new("mkfifo").arg(&pipe).status().unwrap().success());
+    let words = "it is a device or a pipe, and no file";
+    let message = |output: Output| {
+        assert_eq!(output.status.code(), Some(2));
+        String::from_utf8(output.stderr).unwrap()
+    };
+    let listed = message(masonry("plan", &path));
+    assert!(listed.contains(&format!("the list of blocks pipe.dxf: {words}")), "{listed}");
+    let scene = message(masonry("plan", Path::new("/dev/zero")));
+    assert!(scene.contains(&format!("cannot read the scene: {words}")), "{scene}");
+    let import = ["import", pipe.to_str().unwrap()];
+    let output = Command::new(env!("CARGO_BIN_EXE_masonry")).args(import).output().unwrap();
+    assert!(message(output).contains(words));
+}
+
+#[test]
+fn two_drawings_are_two_files() {
+    let path = written("one", SCENE, LIST);
+    let one = path.with_file_name("one.dxf");
+    let one = one.to_str().unwrap();
+    let draw = ["draw", path.to_str().unwrap(), "--out", one, "--dxf", one];
+    let output = Command::new(env!("CARGO_BIN_EXE_masonry")).args(draw).output().unwrap();
+    let message = String::from_utf8(output.stderr).unwrap();
+    assert!(message.contains("is both --out and --dxf: choose two files"), "{message}");
+    assert!(output.status.code() == Some(2) && !Path::new(one).exists());
 }

@@ -258,6 +258,12 @@ fn a_unit_that_cannot_be_is_noticed() {
         "half of all blocks are larger than 280 m, with m as the unit (which the file does not say): give --unit mm or \
          --unit cm or --unit in, or --unit m if that is right",
     );
+    assert_not_imported(
+        &Dxf::new(4).polygons("brick", &wall(4, 4, 0.0)),
+        &Options::default(),
+        "half of all blocks are smaller than 0.00028 m, with mm as the unit (as the file says): give --unit cm or --unit in \
+         or --unit ft or --unit m, or --unit mm if that is right",
+    );
     let options = Options { unit: Some(masonry_drawing::Unit::Metre), ..Options::default() };
     assert!(import(&Dxf::new(0).polygons("brick", &scaled).read(), &options).is_ok());
 }
@@ -290,6 +296,22 @@ fn what_cannot_be_mended_has_its_place_and_remedy() {
         &Options::default(),
         "LWPOLYLINE 1 (line 22): its edges cross or touch each other: draw it with the corners in the order in which they \
          follow each other",
+    );
+    // Both halves of this one have the same area, which cancel each other.
+    let even = vec![[0.0, 0.0], [1.0, 1.0], [1.0, 0.0], [0.0, 1.0]];
+    assert_not_imported(
+        &Dxf::new(6).polygons("brick", &[square(2.0, 0.0), even]),
+        &Options::default(),
+        "LWPOLYLINE 2 (line 48): its edges cross or touch each other: draw it with the corners in the order in which they \
+         follow each other",
+    );
+    // A tolerance that takes the stone inside for a sliver mends nothing.
+    let around = vec![[-1.0, -1.0], [2.0, -1.0], [2.0, 2.0], [-1.0, 2.0]];
+    assert_not_imported(
+        &Dxf::new(6).polygons("brick", &[around, square(0.0, 0.0)]),
+        &Options::default(),
+        "LWPOLYLINE 1 (line 22) and LWPOLYLINE 2 (line 48): the blocks overlap by 2 m, more than the tolerance of 0.05 m \
+         closes: no tolerance mends that: correct the drawing there",
     );
     assert_not_imported(
         &Dxf::new(6).polygons("brick", &[square(0.0, 0.0)]),

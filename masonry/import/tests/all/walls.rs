@@ -118,6 +118,50 @@ fn overlaps_and_gaps_are_closed_from_both_sides() {
     assert_like_exact(&imported, 0.0, 2e-2);
 }
 
+/// Supports that are drawn twice hold once: the wall has the joints and the limit of the exact one.
+#[test]
+fn supports_that_lie_on_others_count_once() {
+    let dxf = on_floor(on_floor(Dxf::new(6).polygons("brick", &exact()), 0.0), 0.0);
+    let ground = vec![[0.3, -0.5], [0.7, -0.5], [0.7, 1e-4], [0.3, 1e-4]];
+    let imported = dxf.polygons("support_ground", &[ground]).import();
+    assert_like_exact(&imported, 0.0, 1e-9);
+    assert_eq!(
+        changes(&imported, "parts of supports that lie on other"),
+        2,
+        "{}",
+        imported.report()
+    );
+    // Each part of a brick is held by one of two lines that overlap.
+    let beside = Dxf::new(6).polygons("brick", &exact()).line("support", [-0.1, 0.0], [0.6, 0.0]);
+    let imported = beside.line("support_right", [1.1, 0.0], [0.4, 0.0]).import();
+    let [left, right] = &imported.scene.supports[..] else { panic!("{}", imported.report()) };
+    assert_eq!((left.to, right.from), ([0.6, 0.0], [1.1, 0.0]));
+    assert!((right.to[0] - 0.6).abs() < 1e-12);
+}
+
+#[test]
+fn a_drawing_in_kilometres_is_in_metres() {
+    let polygons = mapped(&exact(), |point| point.map(|it| 1e-3 * it));
+    let imported =
+        Dxf::new(7).polygons("brick", &polygons).line("support", [-1e-3, 0.0], [2e-3, 0.0]);
+    assert_like_exact(&imported.import(), 0.0, 1e-6);
+}
+
+/// Gaps that stay keep the support below them; those that the tolerance closes are told.
+#[test]
+fn gaps_stay_above_supports_or_are_told() {
+    let above = mapped(&wall(BRICKS, COURSES, 0.01), |[x, y]| [x, y + 0.01]);
+    let dxf = on_floor(Dxf::new(6).polygons("brick", &above), 0.0);
+    let open = Options { joints: Some(Joints::Open), ..Options::default() };
+    let imported = dxf.import_with(&open);
+    assert_eq!(imported.scene.supports.len(), 1, "{}", imported.report());
+    assert_eq!(changes(&imported, "gaps were closed"), 0, "{}", imported.report());
+    let wide = Options { tolerance: Some(0.012), ..open };
+    let closed = dxf.import_with(&wide);
+    assert!(changes(&closed, "gaps were closed") > 10, "{}", closed.report());
+    assert_eq!(closed.scene.contact.gap_limit, 0.0);
+}
+
 #[test]
 fn open_joints_are_closed_or_filled() {
     let dxf = || on_floor(Dxf::new(6).polygons("brick", &wall(BRICKS, COURSES, 0.01)), 0.0);

@@ -231,6 +231,24 @@ pub enum SceneErrorKind {
         /// Unit of length.
         unit: &'static str,
     },
+    /// Two supports hold the same part of an edge of a block.
+    #[error(
+        "supports \"{first}\" and \"{second}\" lie on each other along block \"{block}\" for a length of {} {unit}, so that \
+         their joint would count twice: remove one of them, or let one begin where the other ends",
+        number(*length)
+    )]
+    OverlappingSupports {
+        /// Name of one support.
+        first: String,
+        /// Name of the other.
+        second: String,
+        /// Name of the block.
+        block: String,
+        /// Length that both hold in units of the scene.
+        length: f64,
+        /// Unit of length.
+        unit: &'static str,
+    },
     /// The block of this name meets neither another block nor a support.
     #[error(
         "block \"{0}\" touches no other block and no support, so that it can move in every \

@@ -104,6 +104,22 @@ fn supports_and_loads_in_a_wrong_place() {
     let words = "runs through the inside of block \"lintel\" for a length of 0.5";
     assert!(error.to_string().contains(words), "{error}");
 
+    let twice =
+        hook.replace("hook", "again").replace("[7, 1]", "[3, 0]").replace("[8, 1]", "[0.5, 0]");
+    let error = error_of("[[supports]]", &twice);
+    let words =
+        "\"again\" and \"floor\" lie on each other along block \"wall/0/2\" for a length of ";
+    assert!(error.to_string().contains(words), "{error}");
+    assert!(error.to_string().contains("remove one of them"), "{error}");
+    assert_eq!(error.key(), "supports[1]");
+    // Supports that share an end, or hold the faces of two blocks from the same line, are two.
+    let beside = twice.replace("[0.5, 0]", "[8, 0]");
+    let beside = GOOD
+        .replacen("[[supports]]", &beside, 1)
+        .replace("from = [-1.0, 0.0]\nto = [3.0, 0.0]", "from = [-1.0, 0.0]\nto = [2.2, 0.0]")
+        .replace("[3, 0]", "[2.2, 0]");
+    super::Model::from_scene(&super::Scene::from_toml(&beside).unwrap()).unwrap();
+
     assert_error(
         "to = [3.0, 0.0]",
         "to = [-1.0, 0.0]",
