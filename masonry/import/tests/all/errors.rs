@@ -261,8 +261,8 @@ fn a_unit_that_cannot_be_is_noticed() {
     assert_not_imported(
         &Dxf::new(4).polygons("brick", &wall(4, 4, 0.0)),
         &Options::default(),
-        "half of all blocks are smaller than 0.00028 m, with mm as the unit (as the file says): give --unit cm or --unit in \
-         or --unit ft or --unit m, or --unit mm if that is right",
+        "half of all blocks are smaller than 0.00028 m, with mm as the unit (as the file says): give --unit in or \
+         --unit ft or --unit m, or --unit mm if that is right",
     );
     let options = Options { unit: Some(masonry_drawing::Unit::Metre), ..Options::default() };
     assert!(import(&Dxf::new(0).polygons("brick", &scaled).read(), &options).is_ok());
