@@ -196,7 +196,7 @@ fn a_list_may_be_a_drawing() {
     // What was changed of the drawing is told.
     let warnings: Vec<&str> =
         result["warnings"].as_array().unwrap().iter().filter_map(Value::as_str).collect();
-    let moved = "Reading the drawing portal.dxf: 3 x corners were moved so that blocks meet exactly, by up to 0.0005 m: ";
+    let moved = "Reading the drawing portal.dxf: 3 x corners were moved so that blocks meet exactly, by up to 0.000";
     assert!(warnings.iter().any(|it| it.starts_with(moved)), "{warnings:?}");
     let planned = String::from_utf8(masonry("plan", &path).stderr).unwrap();
     assert!(planned.contains(&format!("warning: {moved}")), "{planned}");
