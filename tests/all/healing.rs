@@ -61,7 +61,7 @@ fn assert_exact(model: &Model, exact: &Model, moved: f64) {
     assert_eq!(model.contacts.len(), exact.contacts.len());
     let widest = model.contacts.iter().map(|it| it.gap.abs()).fold(0.0, f64::max);
     assert!(widest <= 1e-13, "{widest}");
-    let healed = model.healed.unwrap();
+    let healed = model.healed.clone().unwrap();
     assert!(healed.largest <= moved, "{healed:?}");
     for (one, other) in model.blocks.iter().zip(&model.blocks[1..]) {
         assert!(geometry::overlap_area(&one.corners, &other.corners) <= 1e-13);
