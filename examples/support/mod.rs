@@ -8,7 +8,7 @@ use lcp::Status;
 use masonry::analysis::solve::{Event, solve_observed};
 use masonry::scene::Scene;
 use masonry_report::svg::ReferenceLines;
-use masonry_report::{self as report, Options, table};
+use masonry_report::{self as report, ReportOptions, table};
 
 /// Solves `scenes/NAME.toml`, prints the report and writes all files into `target/NAME/`.
 pub(crate) fn run(name: &str) -> Result<(), Box<dyn Error>> {
@@ -26,7 +26,8 @@ pub(crate) fn run(name: &str) -> Result<(), Box<dyn Error>> {
         }
         ControlFlow::Continue(())
     })?;
-    let options = Options { reference: ReferenceLines::of(&scene), ..Options::default() };
+    let options =
+        ReportOptions { reference: ReferenceLines::of(&scene), ..ReportOptions::default() };
     let files = report::write_all(&outcome, &root.join("target").join(name), &options)?;
     println!("{}", table::report(&outcome));
     for file in files {

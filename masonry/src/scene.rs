@@ -55,7 +55,7 @@ use std::path::PathBuf;
 
 use serde::{Deserialize, Serialize};
 
-pub use self::arch::{Arch, Line, Piers, Shape};
+pub use self::arch::{Arch, JointLine, Piers, Shape};
 pub use self::arch_error::ArchError;
 pub use self::combinations::{Combination, Combined};
 pub use self::contact::{Contact, Films, PointRule};

@@ -5,7 +5,7 @@ mod damage;
 mod market;
 mod qps;
 use lcp::{Lemke, Matrix, Solver};
-use lcp_problems::io::{Format, Position, Problem, ReadError, read, to_json};
+use lcp_problems::io::{Position, Problem, ProblemFormat, ReadError, read, to_json};
 
 fn problem(text: &str) -> Problem {
     read(text.as_bytes(), None).unwrap().problem
@@ -15,7 +15,7 @@ fn error(text: &str) -> ReadError {
     read(text.as_bytes(), None).unwrap_err()
 }
 
-fn error_as(format: Format, text: &str) -> ReadError {
+fn error_as(format: ProblemFormat, text: &str) -> ReadError {
     read(text.as_bytes(), Some(format)).unwrap_err()
 }
 
@@ -39,14 +39,14 @@ fn at(line: usize, column: usize) -> Position {
 #[test]
 fn plain_text_has_rows_and_comments() {
     let file = read(b"# order\n2\n1 2  # first row\n3 4\n-5 -6e0#q", None).unwrap();
-    assert_eq!(file.format, Format::Text);
+    assert_eq!(file.format, ProblemFormat::Text);
     assert_eq!(parts(&file.problem), (vec![vec![1.0, 2.0], vec![3.0, 4.0]], vec![-5.0, -6.0]));
     assert_eq!(problem("0").order(), 0);
 }
 
 #[test]
 fn plain_text_says_what_is_wrong_and_where() {
-    let short = error_as(Format::Text, "2\n1 2\n3 4\n5\n");
+    let short = error_as(ProblemFormat::Text, "2\n1 2\n3 4\n5\n");
     let expected = ReadError::TooShort { at: at(1, 2), what: "M and q", needed: 6, left: 5 };
     assert_eq!(short, expected);
     for (text, place) in [
@@ -59,7 +59,7 @@ fn plain_text_says_what_is_wrong_and_where() {
         ("1\n2 nan", at(2, 3)),
         ("1 2 3\n\n  4", at(3, 3)),
     ] {
-        let error = error_as(Format::Text, text);
+        let error = error_as(ProblemFormat::Text, text);
         assert_eq!(error.position(), Some(place), "{text:?}: {error}");
     }
 }
@@ -81,7 +81,7 @@ fn sizes_beyond_the_content_are_refused() {
             .to_owned(),
         format!(r#"{{"kind": "lcp", "m": {{"rows": 1, "cols": {huge}, "triplets": []}}, "q": [1]}}"#),
     ] {
-        for format in Format::ALL.map(Some).into_iter().chain([None]) {
+        for format in ProblemFormat::ALL.map(Some).into_iter().chain([None]) {
             assert!(read(text.as_bytes(), format).is_err(), "{format:?} {text}");
         }
     }
@@ -90,7 +90,7 @@ fn sizes_beyond_the_content_are_refused() {
 #[test]
 fn a_dense_matrix_of_siconos_stands_by_columns() {
     let file = read(b"2\n0\n2\n2\n2\t2\n1 2\n3 4\n-5 -6\n\nSome words 7 8", None).unwrap();
-    assert_eq!(file.format, Format::SiconosLcp);
+    assert_eq!(file.format, ProblemFormat::SiconosLcp);
     assert_eq!(parts(&file.problem), (vec![vec![1.0, 3.0], vec![2.0, 4.0]], vec![-5.0, -6.0]));
 }
 
@@ -121,7 +121,7 @@ fn all_storages_of_siconos_are_read() {
         (2, true, &by_rows),
     ] {
         let file = read(format!("3 {storage} 3 3 {text}\n-1 -2 -3").as_bytes(), None).unwrap();
-        assert_eq!(file.format, Format::SiconosLcp);
+        assert_eq!(file.format, ProblemFormat::SiconosLcp);
         assert_eq!(file.problem.matrices()[0].1.is_sparse(), is_sparse);
         assert_eq!(parts(&file.problem), (matrix.clone(), vec![-1.0, -2.0, -3.0]), "{text}");
     }
@@ -148,7 +148,7 @@ fn damaged_storages_are_refused_with_the_place() {
         "1 2 1 1 1 triplet: 1-by-1, nzmax: 1 nnz: 1 0 !1 : 1 1",
         "1 2 1 1 2 1-by-1, nzmax: 1 nnz: 1, 1-norm: 1 col 0 : locations 0 to !5 0 : 1 1",
     ] {
-        let error = error_as(Format::SiconosLcp, &marked.replace('!', ""));
+        let error = error_as(ProblemFormat::SiconosLcp, &marked.replace('!', ""));
         let column = marked.find('!').unwrap() + 1;
         assert_eq!(error.position(), Some(at(1, column)), "{marked}: {error}");
     }
@@ -163,7 +163,7 @@ fn mixed_problems_are_read_from_either_representation() {
         [format!("1 0 1 1 {one}"), format!("0 1 1 1 {four}"), format!("1 1 1 1 {one} {four} 1 2 3")]
     {
         let file = read(text.as_bytes(), None).unwrap();
-        assert_eq!(file.format, Format::SiconosMlcp);
+        assert_eq!(file.format, ProblemFormat::SiconosMlcp);
         assert_eq!(parts(&file.problem), (vec![vec![2.0, 3.0], vec![5.0, 6.0]], vec![4.0, 7.0]));
         let Problem::Mixed(mixed) = file.problem else { panic!("not mixed") };
         assert_eq!(mixed.free(), [true, false]);
@@ -178,7 +178,7 @@ fn mixed_problems_are_read_from_either_representation() {
 fn relays_are_variables_between_bounds() {
     let text = "2  0 2 2 2 2  2 0 1 2  -1 4  -1 -inf  1 3  words";
     let file = read(text.as_bytes(), None).unwrap();
-    assert_eq!(file.format, Format::SiconosRelay);
+    assert_eq!(file.format, ProblemFormat::SiconosRelay);
     let Problem::Boxed(relay) = &file.problem else { panic!("not boxed") };
     assert_eq!(rows(relay.m()), [[2.0, 1.0], [0.0, 2.0]]);
     assert_eq!((relay.q(), relay.upper()), (&[-1.0, 4.0][..], &[1.0, 3.0][..]));
@@ -191,7 +191,7 @@ fn relays_are_variables_between_bounds() {
         // No number between the bounds of the second variable.
         "2!  0 2 2 2 2  2 0 1 2  -1 4  -1 4  1 3",
     ] {
-        let error = error_as(Format::SiconosRelay, &marked.replace('!', ""));
+        let error = error_as(ProblemFormat::SiconosRelay, &marked.replace('!', ""));
         let column = marked.find('!').unwrap() + 1;
         assert_eq!(error.position(), Some(at(1, column)), "{marked}: {error}");
     }
@@ -200,7 +200,7 @@ fn relays_are_variables_between_bounds() {
 #[test]
 fn mixed_problems_that_contradict_themselves_are_refused() {
     let one = "0 1 2  0 1  0 2 2 2 2  2 5 3 6  4 7";
-    let error = |text: &str| error_as(Format::SiconosMlcp, text).to_string();
+    let error = |text: &str| error_as(ProblemFormat::SiconosMlcp, text).to_string();
     let message = error(&format!("1 1 1 1 {one}\n2 6 3 5.1 4 7"));
     assert!(message.contains("expected M[1, 0] = 5"), "{message}");
     let message = error("1 0 1 1  0 1 2  1 1  0 2 2 2 2  2 5 3 6  4 7");
@@ -213,7 +213,7 @@ fn mixed_problems_that_contradict_themselves_are_refused() {
 #[test]
 fn friction_becomes_a_standard_problem() {
     let file = read(b"2 1 0 2 2 2 2  2 1 1 3  -1 4  0.5  1", None).unwrap();
-    assert_eq!(file.format, Format::SiconosFriction);
+    assert_eq!(file.format, ProblemFormat::SiconosFriction);
     let Problem::Friction(friction) = &file.problem else { panic!("not friction") };
     let expected = vec![vec![1.5, 1.0, 0.0], vec![-0.5, 3.0, 1.0], vec![1.0, -1.0, 0.0]];
     assert_eq!(rows(friction.standard().m()), expected);
@@ -221,7 +221,7 @@ fn friction_becomes_a_standard_problem() {
     // It slides: r_T = -mu r_N.
     let forces = friction.forces(&[2.0 / 3.0, 0.0, 0.0]);
     assert_eq!((forces.normal, forces.tangential), (vec![2.0 / 3.0], vec![-1.0 / 3.0]));
-    let negative = error_as(Format::SiconosFriction, "2 1 0 2 2 2 2  2 1 1 3  -1 4  -0.5");
+    let negative = error_as(ProblemFormat::SiconosFriction, "2 1 0 2 2 2 2  2 1 1 3  -1 4  -0.5");
     assert_eq!(negative.position(), Some(at(1, 31)), "{negative}");
 }
 
@@ -230,10 +230,11 @@ fn friction_becomes_a_standard_problem() {
 #[test]
 fn a_file_that_fits_two_formats_is_refused() {
     let text = "4  1 4 4  0 3 3  1 2 4  1 2 4  2 0  0 0  -1 -2 -3 -4";
-    let expected = ReadError::Ambiguous { formats: vec![Format::Text, Format::SiconosLcp] };
+    let expected =
+        ReadError::Ambiguous { formats: vec![ProblemFormat::Text, ProblemFormat::SiconosLcp] };
     assert_eq!(error(text), expected);
     assert!(expected.to_string().contains("as text or as siconos-lcp"));
-    let named = read(text.as_bytes(), Some(Format::SiconosLcp)).unwrap();
+    let named = read(text.as_bytes(), Some(ProblemFormat::SiconosLcp)).unwrap();
     assert_eq!(parts(&named.problem).1, [-1.0, -2.0, -3.0, -4.0]);
 }
 
@@ -241,7 +242,10 @@ fn a_file_that_fits_two_formats_is_refused() {
 #[test]
 fn a_file_that_is_nearly_complete_is_of_its_format() {
     let error = read(b"2\n1 0\n0 1\n-1\n", None).unwrap_err();
-    assert!(matches!(&error, ReadError::Unrecognised { format: Format::Text, .. }), "{error}");
+    assert!(
+        matches!(&error, ReadError::Unrecognised { format: ProblemFormat::Text, .. }),
+        "{error}"
+    );
     assert!(error.to_string().contains("M and q needs 6 more numbers, but at most 5"), "{error}");
 }
 
@@ -249,12 +253,12 @@ fn a_file_that_is_nearly_complete_is_of_its_format() {
 #[test]
 fn more_numbers_than_announced_are_refused() {
     for (format, text, place) in [
-        (Format::Text, "1 2 -3 4", at(1, 8)),
-        (Format::SiconosLcp, "1 0 1 1 1 1 2 -3 4 words", at(1, 18)),
-        (Format::SiconosFriction, "2 1 0 2 2 2 2  2 1 1 3  -1 4  0.5  1 2", at(1, 38)),
+        (ProblemFormat::Text, "1 2 -3 4", at(1, 8)),
+        (ProblemFormat::SiconosLcp, "1 0 1 1 1 1 2 -3 4 words", at(1, 18)),
+        (ProblemFormat::SiconosFriction, "2 1 0 2 2 2 2  2 1 1 3  -1 4  0.5  1 2", at(1, 38)),
         // A known answer has n + 2 m numbers at most: here three.
-        (Format::SiconosMlcp, "0 1 1 1 2 6 3 5 4 7  1 2 3 4", at(1, 28)),
-        (Format::Json, r#"{"kind": "lcp", "m": [[1]], "q": [1]} 2"#, at(1, 39)),
+        (ProblemFormat::SiconosMlcp, "0 1 1 1 2 6 3 5 4 7  1 2 3 4", at(1, 28)),
+        (ProblemFormat::Json, r#"{"kind": "lcp", "m": [[1]], "q": [1]} 2"#, at(1, 39)),
     ] {
         let error = error_as(format, text);
         assert_eq!(error.position(), Some(place), "{text}: {error}");
@@ -272,25 +276,25 @@ fn more_numbers_than_announced_are_refused() {
 fn unknown_formats_name_the_known_ones() {
     let names = "json, text, qps, siconos-lcp, siconos-mlcp, siconos-relay, siconos-friction, \
                  siconos-global-friction";
-    let message = "xml".parse::<Format>().unwrap_err().to_string();
+    let message = "xml".parse::<ProblemFormat>().unwrap_err().to_string();
     assert_eq!(message, format!("there is no format `xml`: take one of {names}"));
     let message = error("<lcp>").to_string();
     assert!(
         message.starts_with("line 1, column 1: expected") && message.contains(names),
         "{message}"
     );
-    assert_eq!(Format::ALL.map(|format| format.name().parse()), Format::ALL.map(Ok));
+    assert_eq!(ProblemFormat::ALL.map(|format| format.name().parse()), ProblemFormat::ALL.map(Ok));
 }
 
 #[test]
 fn a_file_that_fits_no_format_names_the_one_that_comes_furthest() {
     let error = error("2 0 2 2 2 2\n1 2\n3 4\n-5 oops");
     let ReadError::Unrecognised { format, source } = &error else { panic!("{error}") };
-    assert_eq!((*format, source.position()), (Format::SiconosLcp, Some(at(4, 4))));
+    assert_eq!((*format, source.position()), (ProblemFormat::SiconosLcp, Some(at(4, 4))));
     // Numbers that were read to the last one, and overflow.
     let error = self::error("2  1e308 1e308 1 1  1e308 1");
     let ReadError::Unrecognised { format, source } = &error else { panic!("{error}") };
-    assert_eq!(*format, Format::Text);
+    assert_eq!(*format, ProblemFormat::Text);
     assert!(matches!(**source, ReadError::Refused { .. }), "{source}");
 }
 
@@ -381,7 +385,10 @@ fn what_problems_refuse_has_a_place_too() {
 fn text_that_is_not_unicode_is_read_up_to_where_it_matters() {
     let latin = b"1 0 1 1 1 1 2 -3 \xe4\xf6\xfc";
     assert_eq!(parts(&read(latin, None).unwrap().problem), (vec![vec![2.0]], vec![-3.0]));
-    assert_eq!(read(b"1 \xe4 2", Some(Format::Text)).unwrap_err().position(), Some(at(1, 3)));
+    assert_eq!(
+        read(b"1 \xe4 2", Some(ProblemFormat::Text)).unwrap_err().position(),
+        Some(at(1, 3))
+    );
     assert_eq!(problem("\u{feff}1 2 -3").order(), 1);
 }
 

@@ -18,7 +18,7 @@ pub use dense::{
     Lu, add_product, factorise_block, has_pivots, inverse_norm, solve_unit_lower, solve_upper,
 };
 pub use gram::{Gram, Overflow};
-pub use lu::{Growing, SparseLu, row_counts};
+pub use lu::{GrowingLu, SparseLu, row_counts};
 pub use order::{Turn, elimination_order};
 pub use supernodal::SupernodalLu;
 

@@ -9,7 +9,7 @@ const THRESHOLD: f64 = 0.1;
 /// A factorisation that takes one column after the other and refuses those that depend on the ones
 /// before.
 #[derive(Debug)]
-pub struct Growing {
+pub struct GrowingLu {
     /// Below the unit diagonal, by steps; rows as in the matrix until the end.
     lower: Columns,
     /// Above the diagonal, by steps.
@@ -27,7 +27,7 @@ pub struct Growing {
     path: Vec<(u32, usize)>,
 }
 
-impl Growing {
+impl GrowingLu {
     /// Begins with a matrix that has so many entries in its rows.
     pub fn new(row_counts: Vec<u32>) -> Self {
         let n = row_counts.len();
@@ -188,7 +188,7 @@ impl SparseLu {
     pub fn new(columns: &Columns) -> (Self, Vec<(usize, usize)>) {
         let n = columns.len();
         let tolerance = 4.0 * n as f64 * f64::EPSILON;
-        let mut growing = Growing::new(row_counts(n, columns));
+        let mut growing = GrowingLu::new(row_counts(n, columns));
         for turn in elimination_order(n, columns) {
             growing.offer(turn.column, columns, turn, tolerance);
         }

@@ -20,7 +20,7 @@ mod verdict;
 
 pub use dashu_ratio::RBig;
 
-pub use enumeration::{Enumeration, EnumerationSettings, Face, enumerate};
+pub use enumeration::{EnumerationSettings, ExactEnumeration, Face, enumerate};
 pub use feasibility::{Feasibility, feasibility};
 pub use verdict::{ExactVerdict, verify_basis};
 

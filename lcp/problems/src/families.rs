@@ -17,7 +17,7 @@
 //!
 //! ```
 //! use lcp::{Lemke, Solver};
-//! use lcp_problems::families::{self, Known};
+//! use lcp_problems::families::{self, KnownAnswer};
 //!
 //! let instance = families::positive_definite(10, 1);
 //! let solution = Lemke::default().solve(&instance.problem)?;
@@ -54,12 +54,12 @@ pub struct Instance<P = HorizontalLcp> {
     /// The problem.
     pub problem: P,
     /// What is known of it.
-    pub known: Known,
+    pub known: KnownAnswer,
 }
 
 /// What is known about a problem. In the standard and in the mixed form `t` is `z` and `y` is `w`.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Known {
+pub enum KnownAnswer {
     /// It has exactly one solution.
     Unique {
         /// The first variable of every pair.
@@ -145,7 +145,8 @@ fn planted(m: Mat<f64>, random: &mut Integers, planting: Planting) -> Instance<L
     let (t, y) = random.solution(m.nrows(), planting);
     let problem = with_solution(m, &t, &y);
     let is_unique = planting == Planting::Unique;
-    let known = if is_unique { Known::Unique { t, y } } else { Known::Solution { t, y } };
+    let known =
+        if is_unique { KnownAnswer::Unique { t, y } } else { KnownAnswer::Solution { t, y } };
     Instance { problem, known }
 }
 

@@ -55,13 +55,13 @@ use std::path::Path;
 use lcp::{BoxedLcp, Contact2d, Friction2d, HorizontalLcp, Lcp, MixedLcp, Qp};
 
 pub use error::{Position, ReadError};
-pub use format::Format;
+pub use format::ProblemFormat;
 pub use json::to_json;
 pub use problem::Problem;
 #[cfg(feature = "cli")]
 pub(crate) use problem::{each, pairs_of_forces};
 
-impl Format {
+impl ProblemFormat {
     fn parse(self, text: &str) -> Result<Problem, ReadError> {
         match self {
             Self::Json => json::read(text),
@@ -81,7 +81,7 @@ impl Format {
 #[non_exhaustive]
 pub struct ProblemFile {
     /// The format.
-    pub format: Format,
+    pub format: ProblemFormat,
     /// The problem.
     pub problem: Problem,
 }
@@ -90,11 +90,11 @@ pub struct ProblemFile {
 ///
 /// # Errors
 /// [`ReadError`], with the place in the file.
-pub fn read_file(path: &Path, format: Option<Format>) -> Result<ProblemFile, ReadError> {
+pub fn read_file(path: &Path, format: Option<ProblemFormat>) -> Result<ProblemFile, ReadError> {
     let ending = path.extension().map(std::ffi::OsStr::to_ascii_lowercase);
     let named = match ending.as_deref().and_then(|ending| ending.to_str()) {
-        Some("json") => Some(Format::Json),
-        Some("qps" | "mps") => Some(Format::Qps),
+        Some("json") => Some(ProblemFormat::Json),
+        Some("qps" | "mps") => Some(ProblemFormat::Qps),
         _ => None,
     };
     let bytes = std::fs::read(path)
@@ -107,7 +107,7 @@ pub fn read_file(path: &Path, format: Option<Format>) -> Result<ProblemFile, Rea
 /// Allocations are in proportion to the content, whatever sizes the content announces.
 ///
 /// ```
-/// use lcp_problems::io::{Format, read};
+/// use lcp_problems::io::{ProblemFormat, read};
 /// let file = read(b"2   2 1  1 2   -5 -6  # n, M by rows, q", None)?;
 /// assert_eq!(file.format, Format::Text);
 /// assert_eq!(file.problem.order(), 2);
@@ -116,14 +116,14 @@ pub fn read_file(path: &Path, format: Option<Format>) -> Result<ProblemFile, Rea
 ///
 /// # Errors
 /// [`ReadError`], with the place in the content.
-pub fn read(content: &[u8], format: Option<Format>) -> Result<ProblemFile, ReadError> {
+pub fn read(content: &[u8], format: Option<ProblemFormat>) -> Result<ProblemFile, ReadError> {
     let text = String::from_utf8_lossy(content);
     let text = text.strip_prefix('\u{feff}').unwrap_or(&text);
     if format.is_none() && text.starts_with(market::BANNER) {
         return Err(ReadError::OneMatrix);
     }
     let is_json = text.trim_start().starts_with('{');
-    match format.or(is_json.then_some(Format::Json)) {
+    match format.or(is_json.then_some(ProblemFormat::Json)) {
         Some(format) => Ok(ProblemFile { format, problem: format.parse(text)? }),
         None => read_by_content(text),
     }
@@ -132,8 +132,8 @@ pub fn read(content: &[u8], format: Option<Format>) -> Result<ProblemFile, ReadE
 /// The one format that fits; where none does, the failure of the one that came furthest.
 fn read_by_content(text: &str) -> Result<ProblemFile, ReadError> {
     let mut fits: Vec<ProblemFile> = Vec::new();
-    let mut failure: Option<(Format, ReadError)> = None;
-    for format in Format::ALL.into_iter().filter(|&format| format != Format::Json) {
+    let mut failure: Option<(ProblemFormat, ReadError)> = None;
+    for format in ProblemFormat::ALL.into_iter().filter(|&format| format != ProblemFormat::Json) {
         match format.parse(text) {
             Ok(problem) => fits.push(ProblemFile { format, problem }),
             Err(error) => {

@@ -9,7 +9,7 @@ mod matching;
 use web_time::Instant;
 
 use faer::{Mat, MatRef};
-use lcp_linalg::{Columns, Growing, Lu, elimination_order, row_counts};
+use lcp_linalg::{Columns, GrowingLu, Lu, elimination_order, row_counts};
 
 use matching::matched_sides;
 
@@ -138,7 +138,7 @@ fn independent(
         None => vec![(pair, preferred[pair]), (pair, preferred[pair].complement())],
     };
     let mut sides = vec![None; n];
-    let mut growing = Growing::new(row_counts(n, columns));
+    let mut growing = GrowingLu::new(row_counts(n, columns));
     for candidates in [given.collect::<Vec<_>>(), (0..n).flat_map(others).collect()] {
         let open = candidates.into_iter().filter(|&(pair, _)| sides[pair].is_none());
         let open: Vec<(usize, Side)> = open.collect();

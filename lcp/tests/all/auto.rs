@@ -9,7 +9,7 @@ use lcp::{
     Auto, AutoSettings, BoxedLcp, Contact2d, Error, Friction2d, HorizontalLcp, Lcp, Lemke, Matrix,
     Method, RunEnd, Solution, Solver, Status, WarmStart,
 };
-use lcp_problems::families::{self, Ground, Instance, Known, Obstacle};
+use lcp_problems::families::{self, Ground, Instance, KnownAnswer, Obstacle};
 use proptest::prelude::*;
 
 const LEMKE: Method = Method::Lemke;
@@ -90,21 +90,21 @@ fn masses(count: usize, mu: f64, spring: f64) -> Contact2d {
     Contact2d::new(k, f, select(0), select(1), zeros.clone(), zeros, vec![mu; count]).unwrap()
 }
 
-fn assert_known<P>(instance: &Known, solution: &Solution<P>) {
+fn assert_known<P>(instance: &KnownAnswer, solution: &Solution<P>) {
     match instance {
-        Known::Unique { t, y } => {
+        KnownAnswer::Unique { t, y } => {
             let pairs = t.iter().zip(&solution.t).chain(y.iter().zip(&solution.y));
             for (expected, found) in pairs {
                 assert!((expected - found).abs() <= 1e-8 * (1.0 + expected.abs()));
             }
         }
-        Known::Infeasible { .. } => {
+        KnownAnswer::Infeasible { .. } => {
             assert_eq!(solution.status, Status::Infeasible);
             assert!(solution.farkas().is_some());
         }
         _ => {}
     }
-    let is_infeasible = matches!(instance, Known::Infeasible { .. });
+    let is_infeasible = matches!(instance, KnownAnswer::Infeasible { .. });
     assert!(is_infeasible || solution.is_solved(), "{}", solution.status);
 }
 

@@ -12,7 +12,7 @@ mod gaps;
 use crate::common::methods;
 
 use lcp::{HorizontalLcp, Solution};
-use lcp_problems::exact::{Enumeration, EnumerationSettings, enumerate};
+use lcp_problems::exact::{EnumerationSettings, ExactEnumeration, enumerate};
 use methods::{AUTO, Treated};
 
 /// The answers that are called solved, by the name of their method. That of `Auto` must be one of them.
@@ -28,7 +28,7 @@ fn solved<P: Treated>(problem: &P) -> Vec<(&'static str, Solution<P>)> {
 }
 
 /// All solutions, in exact arithmetic.
-fn truth(problem: &HorizontalLcp) -> Enumeration {
+fn truth(problem: &HorizontalLcp) -> ExactEnumeration {
     enumerate(problem, &EnumerationSettings::default()).unwrap()
 }
 

@@ -6,9 +6,9 @@ use common::cases;
 use faer::Mat;
 use lcp::{HorizontalLcp, Lcp, Lemke, LemkeSettings, Solution, Solver, Status};
 use lcp_problems::exact::{
-    Enumeration, EnumerationSettings, ExactVerdict, enumerate, verify_basis,
+    EnumerationSettings, ExactEnumeration, ExactVerdict, enumerate, verify_basis,
 };
-use lcp_problems::families::{self, Instance, Known};
+use lcp_problems::families::{self, Instance, KnownAnswer};
 use proptest::collection::vec;
 use proptest::prelude::*;
 
@@ -51,7 +51,7 @@ fn assert_right(problem: &HorizontalLcp, solution: &Solution) {
     }
 }
 
-fn all_solutions(problem: &HorizontalLcp) -> Enumeration {
+fn all_solutions(problem: &HorizontalLcp) -> ExactEnumeration {
     let limits = EnumerationSettings { max_order: 16, max_generators: 1_000_000, time_limit: None };
     enumerate(problem, &limits).unwrap()
 }
@@ -80,8 +80,10 @@ fn assert_proof(problem: &HorizontalLcp, solution: &Solution) {
 }
 
 /// The planted answer, to 1e-10 of its largest entry.
-fn assert_planted(solution: &Solution, known: &Known) {
-    let Known::Unique { t, y } = known else { panic!("the class has one solution: {known:?}") };
+fn assert_planted(solution: &Solution, known: &KnownAnswer) {
+    let KnownAnswer::Unique { t, y } = known else {
+        panic!("the class has one solution: {known:?}")
+    };
     for (found, planted) in [(&solution.t, t), (&solution.y, y)] {
         let size = planted.iter().fold(0.0_f64, |max, v| max.max(*v));
         let is_near = |(f, p): (&f64, &f64)| (f - p).abs() <= 1e-10 * size;

@@ -46,7 +46,7 @@ fn scaled(problem: &HorizontalLcp, unit: &mut dyn FnMut() -> f64) -> HorizontalL
 }
 
 /// Whether the outcome is the truth about a problem, and holds in the data.
-fn is_true(outcome: &Solution, data: &HorizontalLcp, truth: &exact::Enumeration) -> bool {
+fn is_true(outcome: &Solution, data: &HorizontalLcp, truth: &exact::ExactEnumeration) -> bool {
     let is_proved = || outcome.certificate.as_ref().is_some_and(|proof| proof.holds(data));
     match outcome.status {
         Status::Solved => {
@@ -65,7 +65,7 @@ fn is_true(outcome: &Solution, data: &HorizontalLcp, truth: &exact::Enumeration)
     }
 }
 
-fn truth(problem: &HorizontalLcp) -> exact::Enumeration {
+fn truth(problem: &HorizontalLcp) -> exact::ExactEnumeration {
     exact::enumerate(problem, &EnumerationSettings::default()).unwrap()
 }
 

@@ -6,8 +6,8 @@ use common::cases;
 use faer::{Mat, mat};
 use lcp::{Basis, Error, HorizontalLcp, Lcp, Side};
 use lcp_problems::exact::{
-    Enumeration, EnumerationSettings, ExactPoint, ExactVerdict, Face, Feasibility, RBig, enumerate,
-    feasibility, verify_basis,
+    EnumerationSettings, ExactEnumeration, ExactPoint, ExactVerdict, Face, Feasibility, RBig,
+    enumerate, feasibility, verify_basis,
 };
 use proptest::collection::vec;
 use proptest::prelude::*;
@@ -16,7 +16,7 @@ fn lcp(m: Mat<f64>, q: &[f64]) -> HorizontalLcp {
     Lcp::new(m, q.to_vec()).unwrap().into()
 }
 
-fn all(problem: &HorizontalLcp) -> Enumeration {
+fn all(problem: &HorizontalLcp) -> ExactEnumeration {
     enumerate(problem, &EnumerationSettings::default()).unwrap()
 }
 

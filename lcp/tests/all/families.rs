@@ -6,7 +6,7 @@ use common::cases;
 use faer::{Mat, mat};
 use lcp::{Auto, Basis, BoxedLcp, HorizontalLcp, Lcp, MixedLcp, Side, Solver, Status};
 use lcp_problems::exact::{EnumerationSettings, ExactVerdict, RBig, enumerate, verify_basis};
-use lcp_problems::families::{self, Instance, Known};
+use lcp_problems::families::{self, Instance, KnownAnswer};
 use proptest::prelude::*;
 
 fn exact(value: f64) -> RBig {
@@ -40,12 +40,12 @@ fn assert_true(instance: &Instance) {
     let problem = &instance.problem;
     let all = enumerate(problem, &EnumerationSettings::default()).unwrap();
     match &instance.known {
-        Known::Unique { t, y } => {
+        KnownAnswer::Unique { t, y } => {
             assert_eq!(all.unique().unwrap().rounded(), (t.clone(), y.clone()));
         }
-        Known::Solution { t, y } => assert!(solves(problem, t, y)),
-        Known::Solvable => assert!(all.is_solvable()),
-        Known::Infeasible { farkas } => {
+        KnownAnswer::Solution { t, y } => assert!(solves(problem, t, y)),
+        KnownAnswer::Solvable => assert!(all.is_solvable()),
+        KnownAnswer::Infeasible { farkas } => {
             assert!(proves_infeasibility(problem, farkas) && !all.is_feasible());
         }
     }
@@ -56,9 +56,9 @@ fn general(instance: Instance<Lcp>) -> Instance {
 }
 
 fn mixed(Instance { problem, known }: Instance<MixedLcp>) -> Instance {
-    let Known::Solution { t, y } = known else { panic!("planted: {known:?}") };
+    let KnownAnswer::Solution { t, y } = known else { panic!("planted: {known:?}") };
     let (t, y) = problem.to_pairs(&t, &y);
-    Instance { problem: problem.to_general(), known: Known::Solution { t, y } }
+    Instance { problem: problem.to_general(), known: KnownAnswer::Solution { t, y } }
 }
 
 proptest! {

@@ -16,7 +16,7 @@ use lcp::{
     InteriorPointSettings, Lcp, Lemke, Method, MixedLcp, Side, Solution, Solver, SplitMix, Status,
     WarmStart,
 };
-use lcp_problems::families::{self, Ground, Known, Obstacle};
+use lcp_problems::families::{self, Ground, KnownAnswer, Obstacle};
 
 fn default() -> InteriorPointSettings {
     InteriorPointSettings::default()
@@ -229,7 +229,7 @@ fn standard_problems_with_known_answers_are_solved() {
             for instance in instances {
                 let solution = InteriorPoint::default().solve(&instance.problem).unwrap();
                 assert!(solution.is_solved(), "{n}, {seed}: {:?}", solution.status);
-                if let Known::Unique { t, y } = instance.known {
+                if let KnownAnswer::Unique { t, y } = instance.known {
                     let size = t.iter().chain(&y).fold(1.0_f64, |max, v| max.max(v.abs()));
                     let pairs = solution.t.iter().zip(&t).chain(solution.y.iter().zip(&y));
                     let error = pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);

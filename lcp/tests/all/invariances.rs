@@ -8,7 +8,7 @@ use crate::common;
 use common::cases;
 use faer::Mat;
 use lcp::{HorizontalLcp, Lemke, LemkeSettings, Solution, Solver, Status};
-use lcp_problems::families::{self, Instance, Known};
+use lcp_problems::families::{self, Instance, KnownAnswer};
 use proptest::collection::vec;
 use proptest::prelude::*;
 
@@ -55,7 +55,7 @@ fn unique() -> impl Strategy<Value = Case> {
     let kinds = [families::positive_definite, families::p_matrix];
     (1..=LARGEST, any::<u64>(), 0..kinds.len()).prop_map(move |(n, seed, kind)| {
         let Instance { problem, known } = kinds[kind](n, seed);
-        let Known::Unique { t, y } = known else { panic!("both classes have one solution") };
+        let KnownAnswer::Unique { t, y } = known else { panic!("both classes have one solution") };
         let a = Mat::from_fn(n, n, |i, j| -problem.m()[(i, j)]);
         Case { a, b: Mat::identity(n, n), c: problem.q().to_vec(), t, y }
     })

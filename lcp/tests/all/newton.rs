@@ -11,7 +11,7 @@ use lcp::{
     Basis, Error, HorizontalLcp, Lcp, Lemke, LemkeSettings, Matrix, Method, SemismoothNewton,
     SemismoothNewtonSettings, Side, Solution, Solver, Status, WarmStart,
 };
-use lcp_problems::families::{self, Instance, Known};
+use lcp_problems::families::{self, Instance, KnownAnswer};
 use proptest::collection::vec;
 use proptest::prelude::*;
 
@@ -58,7 +58,7 @@ fn unique() -> impl Strategy<Value = (Lcp, Vec<f64>)> {
             _ => families::obstacle(n.min(7)),
         };
         let t = match known {
-            Known::Unique { t, .. } => t,
+            KnownAnswer::Unique { t, .. } => t,
             _ => Lemke::default().solve(&problem).unwrap().t,
         };
         (problem, t)
@@ -261,7 +261,7 @@ proptest! {
 #[test]
 fn cycles_are_left() {
     let Instance { problem, known } = families::kostreva_1();
-    let Known::Unique { t, .. } = known else { panic!("a P-matrix") };
+    let KnownAnswer::Unique { t, .. } = known else { panic!("a P-matrix") };
     for lcp in [sparse(&problem), problem] {
         let found = with_start(WarmStart::Basis(basis(&[true, false, false]))).solve(&lcp).unwrap();
         assert_eq!(found.status, Status::Solved);

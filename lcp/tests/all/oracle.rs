@@ -6,14 +6,14 @@ use common::cases;
 use faer::Mat;
 use lcp::{HorizontalLcp, Lemke, Solver, Status};
 use lcp_problems::exact::{
-    Enumeration, EnumerationSettings, ExactVerdict, enumerate, verify_basis,
+    EnumerationSettings, ExactEnumeration, ExactVerdict, enumerate, verify_basis,
 };
 use proptest::collection::vec;
 use proptest::prelude::*;
 
 type Integers = Vec<Vec<i8>>;
 
-fn truth(problem: &HorizontalLcp) -> Enumeration {
+fn truth(problem: &HorizontalLcp) -> ExactEnumeration {
     enumerate(problem, &EnumerationSettings::default()).unwrap()
 }
 

@@ -15,7 +15,7 @@ use lcp::{
     Basis, BoxedLcp, Contact2d, Error, Friction2d, HorizontalLcp, Lcp, Lemke, Matrix, Method,
     ProjectedGaussSeidel, ProjectedGaussSeidelSettings, Side, Solution, Solver, Status, WarmStart,
 };
-use lcp_problems::families::{self, Known};
+use lcp_problems::families::{self, KnownAnswer};
 
 const INF: f64 = f64::INFINITY;
 
@@ -75,7 +75,7 @@ fn triangular_problems_take_two_sweeps() {
     for n in [1, 5, 20] {
         let families::Instance { problem, known } = families::murty(n);
         let solution = to(1e-8).solve(&problem).unwrap();
-        let Known::Unique { t, y } = known else { panic!("one solution") };
+        let KnownAnswer::Unique { t, y } = known else { panic!("one solution") };
         // A second one finds nothing to change.
         assert_eq!((solution.status, solution.info.iterations), (Status::Solved, 2));
         assert_eq!((solution.t, solution.y), (t, y));
@@ -96,7 +96,7 @@ fn nothing_to_do() {
 #[test]
 fn relaxations_have_one_fixed_point() {
     let families::Instance { problem, known } = families::obstacle(12);
-    let Known::Unique { t, .. } = known else { panic!("one solution") };
+    let KnownAnswer::Unique { t, .. } = known else { panic!("one solution") };
     let sweeps = [0.7, 1.0, 1.6].map(|relaxation| {
         let settings = ProjectedGaussSeidelSettings { relaxation, tolerance: 1e-11, ..settings() };
         let solution = ProjectedGaussSeidel::new(settings).solve(&problem).unwrap();

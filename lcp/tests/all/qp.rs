@@ -13,7 +13,7 @@ use lcp::{
     Basis, Contact2d, Error, HorizontalLcp, Lcp, Lemke, Method, MixedLcp, QuadraticProgram,
     QuadraticProgramSettings, Side, Solution, Solver, Status, WarmStart,
 };
-use lcp_problems::families::{self, Known};
+use lcp_problems::families::{self, KnownAnswer};
 use proptest::collection::vec;
 use proptest::prelude::*;
 use quadratic::{TOLERANCES, assert_proof, gram, near, settings};
@@ -358,7 +358,7 @@ fn disguised_problems_are_solved() {
 fn mixed_problems_are_solved() {
     for (n, seed) in (3..20).flat_map(|n| (0..4).map(move |seed| (n, seed))) {
         let mixed = families::mixed_monotone(n, seed);
-        let Known::Solution { t, .. } = &mixed.known else { panic!("planted") };
+        let KnownAnswer::Solution { t, .. } = &mixed.known else { panic!("planted") };
         let general = mixed.problem.to_general();
         for tolerance in TOLERANCES {
             let solution = with_tolerance(tolerance).solve(&mixed.problem).unwrap();

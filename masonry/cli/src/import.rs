@@ -6,8 +6,8 @@ use clap::{Args, ValueEnum};
 
 use crate::end::{Failure, SOLVED, is_same, listing, print};
 use masonry::files::{read_bounded, write_atomically};
-use masonry_drawing::{Drawing, Format, LARGEST_FILE, Unit};
-use masonry_import::{Joints, Options, import};
+use masonry_drawing::{Drawing, DrawingFormat, LARGEST_FILE, Unit};
+use masonry_import::{ImportOptions, Joints, import};
 
 #[derive(Debug, Args)]
 pub(super) struct ImportArgs {
@@ -35,10 +35,10 @@ pub(super) struct ImportArgs {
     #[arg(long, value_enum)]
     joints: Option<JointsName>,
     /// Density of the blocks [kg/m3].
-    #[arg(long, default_value_t = Options::default().density)]
+    #[arg(long, default_value_t = ImportOptions::default().density)]
     density: f64,
     /// Coefficient of friction of all joints.
-    #[arg(long, default_value_t = Options::default().mu)]
+    #[arg(long, default_value_t = ImportOptions::default().mu)]
     mu: f64,
     /// A layer that is left out; may be given several times.
     #[arg(long, value_name = "LAYER")]
@@ -94,7 +94,7 @@ pub(super) fn run(args: &ImportArgs) -> Result<u8, Failure> {
 fn read(path: &Path) -> Result<Drawing, Failure> {
     let name = path.display();
     let ending = path.extension().map_or_else(String::new, |it| it.to_string_lossy().into_owned());
-    let format = Format::of_ending(&ending).ok_or_else(|| {
+    let format = DrawingFormat::of_ending(&ending).ok_or_else(|| {
         format!("{name}: drawings end in .dxf, .svg, .obj or .json: save it as one of these")
     })?;
     let bytes =
@@ -103,10 +103,10 @@ fn read(path: &Path) -> Result<Drawing, Failure> {
 }
 
 impl ImportArgs {
-    fn options(&self) -> Options {
+    fn options(&self) -> ImportOptions {
         let title =
             self.file.file_stem().map_or_else(String::new, |it| it.to_string_lossy().into());
-        Options {
+        ImportOptions {
             title,
             unit: self.unit.map(UnitName::unit),
             scale: self.scale,

@@ -19,7 +19,7 @@ use masonry::scene::{Combined, Scene};
 use masonry_import::read_scene;
 use masonry_report::cases::Cases;
 use masonry_report::svg::ReferenceLines;
-use masonry_report::{self as report, Options, json, table};
+use masonry_report::{self as report, ReportOptions, json, table};
 
 /// The state after the last step, in the directory of a load history.
 const CHECKPOINT: &str = "checkpoint.json";
@@ -63,7 +63,8 @@ pub(super) fn run(args: &SolveArgs) -> Result<u8, Failure> {
     } else {
         run_combinations(&scene, args)?
     };
-    let options = Options { reference: ReferenceLines::of(&scene), ..Options::default() };
+    let options =
+        ReportOptions { reference: ReferenceLines::of(&scene), ..ReportOptions::default() };
     let written = match &out {
         Some(out) => report::write_all(&outcome, out.path(), &options),
         None => Ok(Vec::new()),

@@ -3,7 +3,7 @@
 //! A [`Drawing`] is what a file says, without repairs: the crate `masonry` makes a scene of it.
 //!
 //! ```
-//! use masonry_drawing::{Drawing, Format};
+//! use masonry_drawing::{Drawing, DrawingFormat};
 //! let text = r#"[{ "material": "stone", "corners": [[0, 0], [2, 0], [2, 1], [0, 1]] }]"#;
 //! let drawing = Drawing::read(text.as_bytes(), Format::List)?;
 //! assert_eq!(drawing.outlines[0].layer, "stone");
@@ -24,7 +24,7 @@ mod unit;
 
 pub use self::error::{DrawingError, DrawingErrorKind};
 pub use self::place::Place;
-pub use self::shapes::{Change, Drawing, Line, Outline};
+pub use self::shapes::{Change, Drawing, DrawnLine, Outline};
 pub use self::unit::Unit;
 
 /// Bytes of a file. Chosen: fifty times a drawing of 1500 stones; as numbers in a list, JSON takes half a gigabyte of memory.
@@ -32,7 +32,7 @@ pub const LARGEST_FILE: usize = 32 << 20;
 
 /// A format of files.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Format {
+pub enum DrawingFormat {
     /// Drawing exchange format, as text.
     Dxf,
     /// Scalable vector graphics.
@@ -45,7 +45,7 @@ pub enum Format {
     List,
 }
 
-impl Format {
+impl DrawingFormat {
     /// The format by the ending of a file's name.
     pub fn of_ending(ending: &str) -> Option<Self> {
         match ending.to_ascii_lowercase().as_str() {
@@ -63,7 +63,7 @@ impl Drawing {
     ///
     /// # Errors
     /// What is wrong with the file, with the entity and the line, and the remedy.
-    pub fn read(bytes: &[u8], format: Format) -> Result<Self, DrawingError> {
+    pub fn read(bytes: &[u8], format: DrawingFormat) -> Result<Self, DrawingError> {
         if bytes.len() > LARGEST_FILE {
             return Err(DrawingErrorKind::LargeFile { limit: LARGEST_FILE >> 20 }.nowhere());
         }
@@ -73,12 +73,12 @@ impl Drawing {
         let text = decoded(bytes);
         let text = text.trim_start_matches('\u{feff}');
         let drawing = match format {
-            Format::Dxf => dxf::read(text),
-            Format::Svg => svg::read(text),
-            Format::Obj => obj::read(text),
-            Format::Json if text.trim_start().starts_with('[') => list::read(text),
-            Format::Json => compas::read(text),
-            Format::List => list::read(text),
+            DrawingFormat::Dxf => dxf::read(text),
+            DrawingFormat::Svg => svg::read(text),
+            DrawingFormat::Obj => obj::read(text),
+            DrawingFormat::Json if text.trim_start().starts_with('[') => list::read(text),
+            DrawingFormat::Json => compas::read(text),
+            DrawingFormat::List => list::read(text),
         }?;
         if drawing.outlines.is_empty() && drawing.lines.is_empty() {
             return Err(DrawingErrorKind::Empty { left_out: drawing.left_out() }.nowhere());

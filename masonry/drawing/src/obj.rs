@@ -5,7 +5,7 @@ use nalgebra::Point3;
 use super::error::shown;
 use super::mesh::{self, Mesh};
 use super::shapes::{MOST_POINTS, MOST_SHAPES};
-use super::{Drawing, DrawingError, DrawingErrorKind, Line, Place};
+use super::{Drawing, DrawingError, DrawingErrorKind, DrawnLine, Place};
 
 /// The material of faces that name none.
 const MATERIAL: &str = "stone";
@@ -38,7 +38,7 @@ pub(super) fn read(text: &str) -> Result<Drawing, DrawingError> {
     let plane = mesh::add(&mut drawing, meshes)?;
     for SpaceLine { points, layer, place } in reader.lines {
         let points = points.iter().map(|k| plane.project(reader.corners[*k])).collect();
-        drawing.add_line(Line { points, layer, place })?;
+        drawing.add_line(DrawnLine { points, layer, place })?;
     }
     Ok(drawing)
 }

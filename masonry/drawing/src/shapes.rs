@@ -25,7 +25,7 @@ pub struct Drawing {
     /// Closed outlines.
     pub outlines: Vec<Outline>,
     /// Open lines.
-    pub lines: Vec<Line>,
+    pub lines: Vec<DrawnLine>,
     /// What was simplified or left out.
     pub changes: Vec<Change>,
     /// Corners so far.
@@ -49,7 +49,7 @@ pub struct Outline {
 
 /// An open line of straight pieces.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Line {
+pub struct DrawnLine {
     /// The ends of its pieces.
     pub points: Vec<Point2<f64>>,
     /// The layer.
@@ -103,7 +103,7 @@ impl Drawing {
         Ok(())
     }
 
-    pub(super) fn add_line(&mut self, mut line: Line) -> Result<(), DrawingError> {
+    pub(super) fn add_line(&mut self, mut line: DrawnLine) -> Result<(), DrawingError> {
         shorten(&mut line.layer, &mut line.place);
         self.count(&line.points, &line.place)?;
         self.lines.push(line);

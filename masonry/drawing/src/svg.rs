@@ -12,7 +12,7 @@ use self::path::Part;
 use super::curve::{Arc, Chords};
 use super::error::shown;
 use super::shapes::MOST_SHAPES;
-use super::{Change, Drawing, DrawingError, DrawingErrorKind, Line, Outline, Place, Unit};
+use super::{Change, Drawing, DrawingError, DrawingErrorKind, DrawnLine, Outline, Place, Unit};
 
 /// Groups in groups. Chosen: as blocks in blocks of other formats, with room for those of editors; a stack holds them.
 const DEEPEST: usize = 64;
@@ -123,7 +123,7 @@ impl Reader<'_> {
             let (name, is_fixed) = (None, false);
             self.drawing.add_outline(Outline { corners: points, layer, name, is_fixed, place })
         } else {
-            self.drawing.add_line(Line { points, layer, place })
+            self.drawing.add_line(DrawnLine { points, layer, place })
         }
     }
 

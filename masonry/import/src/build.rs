@@ -10,7 +10,7 @@ use super::report::metres;
 use super::sheet::Sheet;
 use super::stones::Piece;
 use super::supports::{self, CLASS};
-use super::{ImportError, ImportErrorKind, Imported, Options};
+use super::{ImportError, ImportErrorKind, ImportOptions, Imported};
 use masonry::model::{Body, Model};
 use masonry::scene::{Block, Joint, Material, Plane, Scene, SceneError, Support};
 use masonry::units::{ForceUnit, LengthUnit, Units};
@@ -30,7 +30,7 @@ const GRAVITY: f64 = 9.81;
 pub(crate) fn scene(
     mut sheet: Sheet,
     fitted: &Fitted,
-    options: &Options,
+    options: &ImportOptions,
 ) -> Result<Imported, ImportError> {
     let units = Units { length: LengthUnit::M, force: ForceUnit::Kn };
     let (thickness, assumed) = assumptions(&sheet, fitted, options);
@@ -60,7 +60,7 @@ pub(crate) fn scene(
     Ok(Imported { scene, changes, tolerance, unit, drawn, places, supports_of_scene, assumed })
 }
 
-fn assumptions(sheet: &Sheet, fitted: &Fitted, options: &Options) -> (f64, Vec<String>) {
+fn assumptions(sheet: &Sheet, fitted: &Fitted, options: &ImportOptions) -> (f64, Vec<String>) {
     let mut assumed = vec![
         format!("density {} kg/m3 of all blocks", options.density),
         format!("friction mu = {} in all joints", options.mu),
@@ -80,7 +80,7 @@ fn assumptions(sheet: &Sheet, fitted: &Fitted, options: &Options) -> (f64, Vec<S
     (thickness, assumed)
 }
 
-fn classes(mut scene: Scene, fitted: &Fitted, options: &Options) -> Scene {
+fn classes(mut scene: Scene, fitted: &Fitted, options: &ImportOptions) -> Scene {
     let dry = || Joint::mu(options.mu);
     for (name, width) in [("bed", fitted.grown.bed), ("head", fitted.grown.head)] {
         let joint = width.map_or_else(dry, |width| dry().mortar(width, MORTAR));
@@ -113,7 +113,7 @@ fn blocks(sheet: &Sheet) -> Vec<Block> {
 }
 
 /// Gives joints below marks their class.
-fn mark(scene: &mut Scene, model: &Model, sheet: &mut Sheet, options: &Options) {
+fn mark(scene: &mut Scene, model: &Model, sheet: &mut Sheet, options: &ImportOptions) {
     let mut is_used = vec![false; sheet.marks.len()];
     for joint in &model.joints {
         let thickness = joint.film.map_or(0.0, |film| film.mortar.thickness);

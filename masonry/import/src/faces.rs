@@ -9,18 +9,18 @@ use nalgebra::Point2;
 use super::outline::distance;
 use super::{ImportError, ImportErrorKind};
 use masonry::geometry;
-use masonry_drawing::{Change, Line, Outline, Place};
+use masonry_drawing::{Change, DrawnLine, Outline, Place};
 
 /// Pieces of lines. Theory: four for each of the blocks that are allowed, and as many again for arcs.
 const MOST_PIECES: usize = 160_000;
 
 /// The outlines that lines make, layer by layer.
 pub(crate) fn of(
-    lines: &[Line],
+    lines: &[DrawnLine],
     tolerance: f64,
     changes: &mut Vec<Change>,
 ) -> Result<Vec<Outline>, ImportError> {
-    let mut layers: BTreeMap<&str, Vec<&Line>> = BTreeMap::new();
+    let mut layers: BTreeMap<&str, Vec<&DrawnLine>> = BTreeMap::new();
     for line in lines {
         layers.entry(&line.layer).or_default().push(line);
     }

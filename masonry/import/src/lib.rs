@@ -1,13 +1,13 @@
 //! Scenes from drawings: outlines become blocks that meet exactly, lines become supports, and a report says what was changed.
 //!
 //! ```
-//! use masonry_drawing::{Drawing, Format};
-//! use masonry_import::{Options, import};
+//! use masonry_drawing::{Drawing, DrawingFormat};
+//! use masonry_import::{ImportOptions, import};
 //! // Two stones, the upper one a millimetre too low.
 //! let text = r#"[{ "material": "stone", "corners": [[0, 0], [2, 0], [2, 1], [0, 1]] },
 //!                { "material": "stone", "corners": [[0, 0.999], [2, 0.999], [2, 2], [0, 2]] }]"#;
 //! let drawing = Drawing::read(text.as_bytes(), Format::List)?;
-//! let imported = import(&drawing, &Options::default())?;
+//! let imported = import(&drawing, &ImportOptions::default())?;
 //! assert_eq!(imported.scene.blocks[1].corners[0], [0.0, 0.9995]);
 //! assert!(imported.report().contains("corners were moved"));
 //! # Ok::<(), Box<dyn std::error::Error>>(())
@@ -37,7 +37,7 @@ pub use self::error::{ImportError, ImportErrorKind};
 use self::fit::Fitted;
 pub use self::imported::Imported;
 pub use self::listed::read_scene;
-pub use self::options::{Joints, Options};
+pub use self::options::{ImportOptions, Joints};
 use self::sheet::Sheet;
 use masonry_drawing::Drawing;
 
@@ -45,7 +45,7 @@ use masonry_drawing::Drawing;
 ///
 /// # Errors
 /// What cannot be mended, with its place in the drawing and the remedy, such as the tolerance that would suffice.
-pub fn import(drawing: &Drawing, options: &Options) -> Result<Imported, ImportError> {
+pub fn import(drawing: &Drawing, options: &ImportOptions) -> Result<Imported, ImportError> {
     let attempt = |tolerance| -> Result<Imported, ImportError> {
         let mut sheet = Sheet::of(drawing, options, tolerance)?;
         let floor = floor::add(&mut sheet)?;

@@ -7,9 +7,9 @@ use nalgebra::Point2;
 use super::fit::Fitted;
 use super::sheet::Sheet;
 use super::stones::Piece;
-use super::{ImportError, Imported, Joints, Options, build};
+use super::{ImportError, ImportOptions, Imported, Joints, build};
 use masonry::scene::{Block, Drawn, Scene, SceneError, Support};
-use masonry_drawing::{Drawing, Format, Place};
+use masonry_drawing::{Drawing, DrawingFormat, Place};
 
 /// Reads a scene whose `block_list` may be a drawing of every format that is read.
 ///
@@ -22,7 +22,7 @@ pub fn read_scene(path: &Path) -> Result<Scene, SceneError> {
 /// The blocks, supports and marked joints of a drawing, in the units of a scene.
 fn drawn(path: &Path, bytes: &[u8], scene: &Scene) -> Result<Drawn, String> {
     let ending = path.extension().map_or_else(String::new, |it| it.to_string_lossy().into_owned());
-    let format = Format::of_ending(&ending)
+    let format = DrawingFormat::of_ending(&ending)
         .ok_or("drawings end in .dxf, .svg, .obj or .json: save it as one of these")?;
     let drawing = Drawing::read(bytes, format).map_err(|error| error.to_string())?;
     let imported = imported(&drawing, scene).map_err(|error| {
@@ -38,12 +38,12 @@ fn imported(drawing: &Drawing, scene: &Scene) -> Result<Imported, ImportError> {
     let metres = scene.units.length_to_si();
     let has_mortar = scene.joints.values().any(|joint| joint.mortar_thickness() > 0.0);
     let joints = if has_mortar { Some(Joints::Mortar) } else { None };
-    let options = Options {
+    let options = ImportOptions {
         // A drawing without a unit has that of the scene.
         scale: if drawing.unit.or(unknown(drawing)).is_none() { metres } else { 1.0 },
         tolerance: scene.contact.tolerance.map(|it| it * metres),
         joints: joints.or((scene.contact.gap_limit > 0.0).then_some(Joints::Open)),
-        ..Options::default()
+        ..ImportOptions::default()
     };
     let mut sheet = Sheet::of(drawing, &options, options.tolerance)?;
     sheet.supports.extend(scene.supports.iter().map(|it| Piece {

@@ -15,7 +15,7 @@ pub enum Joints {
 
 /// How a drawing becomes a scene.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Options {
+pub struct ImportOptions {
     /// The title of the scene.
     pub title: String,
     /// The unit of the drawing, in place of that of the file.
@@ -36,7 +36,7 @@ pub struct Options {
     pub ignore: Vec<String>,
 }
 
-impl Default for Options {
+impl Default for ImportOptions {
     fn default() -> Self {
         Self {
             title: "Imported drawing".to_owned(),

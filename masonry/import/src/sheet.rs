@@ -7,8 +7,8 @@ use super::outline::{self, Cleaned};
 use super::report::metres;
 use super::size::{self, median};
 use super::stones::{self, Piece, Stone};
-use super::{ImportError, ImportErrorKind, Options, faces};
-use masonry_drawing::{Change, Drawing, Line, Outline, Place, Unit};
+use super::{ImportError, ImportErrorKind, ImportOptions, faces};
+use masonry_drawing::{Change, Drawing, DrawnLine, Outline, Place, Unit};
 
 /// The tolerance that nobody gives, relative to the shortest edge. Theory: joints of mortar are wider, being 10 mm beside
 /// bricks of 65 mm; corners that are rounded to millimetres are off by less, from edges of 30 mm on.
@@ -52,7 +52,7 @@ impl Sheet {
     /// A unit that cannot be, too many blocks, and blocks whose edges cross at every tolerance.
     pub(crate) fn of(
         drawing: &Drawing,
-        options: &Options,
+        options: &ImportOptions,
         tolerance: Option<f64>,
     ) -> Result<Self, ImportError> {
         check(options)?;
@@ -85,7 +85,13 @@ impl Sheet {
         }
     }
 
-    fn sort(&mut self, drawing: &Drawing, factor: f64, options: &Options, sorted: &mut Sorted) {
+    fn sort(
+        &mut self,
+        drawing: &Drawing,
+        factor: f64,
+        options: &ImportOptions,
+        sorted: &mut Sorted,
+    ) {
         let scaled =
             |points: &[Point2<f64>]| points.iter().map(|it| it * factor).collect::<Vec<_>>();
         for outline in &drawing.outlines {
@@ -111,10 +117,12 @@ impl Sheet {
             self.drawn.push(closed);
         }
         for line in &drawing.lines {
-            let line = Line { points: scaled(&line.points), ..line.clone() };
+            let line = DrawnLine { points: scaled(&line.points), ..line.clone() };
             self.drawn.push(line.points.clone());
             match Meaning::of(&line.layer, &options.ignore) {
-                Meaning::Blocks(material) => sorted.lines.push(Line { layer: material, ..line }),
+                Meaning::Blocks(material) => {
+                    sorted.lines.push(DrawnLine { layer: material, ..line });
+                }
                 Meaning::Supports(name) => {
                     self.supports.extend(pieces(&name, &line.points, &line.place));
                 }
@@ -206,7 +214,7 @@ impl Sheet {
 #[derive(Default)]
 struct Sorted {
     raw: Vec<Raw>,
-    lines: Vec<Line>,
+    lines: Vec<DrawnLine>,
     fixed: Vec<(String, Outline)>,
 }
 
@@ -234,7 +242,7 @@ fn pieces(name: &str, points: &[Point2<f64>], place: &Place) -> Vec<Piece> {
     pairs.map(piece).collect()
 }
 
-fn check(options: &Options) -> Result<(), ImportError> {
+fn check(options: &ImportOptions) -> Result<(), ImportError> {
     let values = [
         ("--scale", Some(options.scale)),
         ("--tolerance", options.tolerance),

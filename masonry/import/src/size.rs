@@ -3,7 +3,7 @@
 use nalgebra::Point2;
 
 use super::report::metres;
-use super::{ImportError, ImportErrorKind, Options};
+use super::{ImportError, ImportErrorKind, ImportOptions};
 use masonry::geometry;
 use masonry_drawing::{Drawing, Unit};
 
@@ -17,7 +17,7 @@ const LARGEST: f64 = 25.0;
 /// # Errors
 /// The unit of the file is not known, or no stones have the size that half of the blocks would have in it; never for a
 /// unit of the options.
-pub(crate) fn unit(drawing: &Drawing, options: &Options) -> Result<Unit, ImportError> {
+pub(crate) fn unit(drawing: &Drawing, options: &ImportOptions) -> Result<Unit, ImportError> {
     if let (None, Some(number)) = (options.unit, drawing.unknown_unit) {
         return Err(ImportErrorKind::UnknownUnit { number }.at(&[]));
     }

@@ -1,7 +1,7 @@
 //! Scenes from drawings.
 
-use masonry_drawing::{Drawing, Format, Unit};
-use masonry_import::{Joints, Options, import};
+use masonry_drawing::{Drawing, DrawingFormat, Unit};
+use masonry_import::{ImportOptions, Joints, import};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
@@ -11,7 +11,7 @@ use crate::watch::detached;
 
 /// How a drawing becomes a scene; `None` is the default.
 #[derive(FromPyObject)]
-pub(crate) struct ImportOptions {
+pub(crate) struct GivenImport {
     #[pyo3(item)]
     title: String,
     #[pyo3(item)]
@@ -32,9 +32,9 @@ pub(crate) struct ImportOptions {
     ignore: Vec<String>,
 }
 
-impl ImportOptions {
-    fn options(self) -> PyResult<Options> {
-        let defaults = Options::default();
+impl GivenImport {
+    fn options(self) -> PyResult<ImportOptions> {
+        let defaults = ImportOptions::default();
         let unit = self.unit.map(|symbol| {
             let names: Vec<&str> = Unit::ALL.iter().map(|unit| unit.symbol()).collect();
             let unknown = || unknown("unit", &symbol, &names);
@@ -46,7 +46,7 @@ impl ImportOptions {
             "open" => Ok(Joints::Open),
             other => Err(unknown("joints", other, &["mortar", "close", "open"])),
         });
-        Ok(Options {
+        Ok(ImportOptions {
             title: self.title,
             unit: unit.transpose()?,
             scale: self.scale,
@@ -99,12 +99,12 @@ pub(crate) fn import_drawing(
     py: Python<'_>,
     name: &str,
     bytes: &[u8],
-    options: ImportOptions,
+    options: GivenImport,
 ) -> PyResult<Imported> {
     let options = options.options()?;
     let named = |error: &dyn std::fmt::Display| SceneError::new_err(format!("{name}: {error}"));
     let ending = name.rsplit_once('.').map_or("", |(_, ending)| ending);
-    let format = Format::of_ending(ending).ok_or_else(|| {
+    let format = DrawingFormat::of_ending(ending).ok_or_else(|| {
         named(&"drawings end in .dxf, .svg, .obj or .json: save it as one of these")
     })?;
     detached(py, || {

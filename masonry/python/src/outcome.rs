@@ -178,8 +178,12 @@ impl Outcome {
 
     /// Writes all files into a directory, and gives their paths.
     fn save(&self, directory: PathBuf) -> PyResult<Vec<PathBuf>> {
-        masonry_report::write_all(&self.outcome, &directory, &masonry_report::Options::default())
-            .map_err(|error| PyOSError::new_err(error.to_string()))
+        masonry_report::write_all(
+            &self.outcome,
+            &directory,
+            &masonry_report::ReportOptions::default(),
+        )
+        .map_err(|error| PyOSError::new_err(error.to_string()))
     }
 }
 

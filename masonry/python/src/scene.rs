@@ -184,7 +184,7 @@ impl PyScene {
         let mut watch = Watch::new(callback.as_ref());
         let found = detached(py, || {
             let observer =
-                &mut |at: study::Progress| watch.ask((at.mesh, at.route.name(), at.tolerance));
+                &mut |at: study::StudyProgress| watch.ask((at.mesh, at.route.name(), at.tolerance));
             study::study(&self.scene, &settings, observer)
         })?;
         watch.finish()?;

@@ -37,7 +37,7 @@ use svg::pictures::{Pictures, Shown, of_outcome};
 /// A kind of file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
-pub enum Format {
+pub enum OutputFormat {
     /// `scene.svg` always; `principal_stresses.svg` if stresses were recovered, `deformed.svg` and `forces.svg`
     /// if solved, with `cracks.svg` if joints have opened or slid; `mechanism.svg` if a mechanism is known;
     /// `history.svg` if there is a load history.
@@ -52,23 +52,23 @@ pub enum Format {
     Json,
 }
 
-impl Format {
+impl OutputFormat {
     /// All formats.
     pub const ALL: [Self; 5] = [Self::Svg, Self::Vtu, Self::Csv, Self::Text, Self::Json];
 }
 
 /// The choice of files that [`write_all`] writes; by default all.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Options {
+pub struct ReportOptions {
     /// The formats wanted.
-    pub formats: Vec<Format>,
+    pub formats: Vec<OutputFormat>,
     /// Lines to compare the principal stresses with.
     pub reference: Option<ReferenceLines>,
 }
 
-impl Default for Options {
+impl Default for ReportOptions {
     fn default() -> Self {
-        Self { formats: Format::ALL.to_vec(), reference: None }
+        Self { formats: OutputFormat::ALL.to_vec(), reference: None }
     }
 }
 
@@ -131,33 +131,34 @@ pub enum OutputError {
 pub fn write_all(
     outcome: &Outcome,
     dir: &Path,
-    options: &Options,
+    options: &ReportOptions,
 ) -> Result<Vec<PathBuf>, OutputError> {
-    let listing = options.formats.contains(&Format::Json).then_some("result.json");
+    let listing = options.formats.contains(&OutputFormat::Json).then_some("result.json");
     write_files(dir, contents(outcome, options), listing, |names| json::result(outcome, names))
 }
 
 /// Names and contents of all files but `result.json`.
-fn contents(outcome: &Outcome, options: &Options) -> Vec<(&'static str, Vec<u8>)> {
+fn contents(outcome: &Outcome, options: &ReportOptions) -> Vec<(&'static str, Vec<u8>)> {
     let (model, state) = (&outcome.model, outcome.state.as_ref());
     let title = &titled(outcome);
     let mut files = Vec::new();
-    if options.formats.contains(&Format::Svg) {
+    if options.formats.contains(&OutputFormat::Svg) {
         let shown: Vec<Shown<'_>> =
             state.into_iter().map(|state| Shown { title, model, state }).collect();
         let reference = options.reference.as_ref();
         files.extend(self::files(of_outcome(outcome, title, &shown, reference, false)));
     }
-    if options.formats.contains(&Format::Vtu) {
+    if options.formats.contains(&OutputFormat::Vtu) {
         files.push(("panel.vtu", vtu::vtu(model, state)));
     }
-    if let (true, Some(state)) = (options.formats.contains(&Format::Csv), state) {
+    if let (true, Some(state)) = (options.formats.contains(&OutputFormat::Csv), state) {
         files.push(("contacts.csv", csv::contacts(model, state).into_bytes()));
     }
-    if let (true, Some(history)) = (options.formats.contains(&Format::Csv), &outcome.history) {
+    if let (true, Some(history)) = (options.formats.contains(&OutputFormat::Csv), &outcome.history)
+    {
         files.push(("history.csv", csv::history(model, history).into_bytes()));
     }
-    if options.formats.contains(&Format::Text) {
+    if options.formats.contains(&OutputFormat::Text) {
         files.push(("report.txt", table::report(outcome).into_bytes()));
     }
     files

@@ -45,7 +45,7 @@ use web_time::Instant;
 pub use associative::{Answer, Associative, Rest};
 pub use directions::{Directions, Governs};
 pub use error::LimitError;
-pub use path::{Change, JointEvent, Path, Stand};
+pub use path::{JointChange, JointEvent, Path, Stand};
 pub use range::{Extremes, Range, ranges, ranges_observed};
 pub use seismic::SeismicCheck;
 pub use thickness::{Thickness, least_thickness, least_thickness_observed};

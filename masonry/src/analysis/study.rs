@@ -246,7 +246,7 @@ impl Study {
 
 /// The solve that is running.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Progress {
+pub struct StudyProgress {
     /// The factor of the mesh.
     pub mesh: u32,
     /// The route.
@@ -256,7 +256,7 @@ pub struct Progress {
 }
 
 /// Hears what is being solved, many times in each solve; after `Break` all further solves are skipped.
-pub type StudyObserver<'a> = dyn FnMut(Progress) -> ControlFlow<()> + 'a;
+pub type StudyObserver<'a> = dyn FnMut(StudyProgress) -> ControlFlow<()> + 'a;
 
 /// Studies a scene and reports to the observer what is being solved.
 ///
@@ -285,7 +285,7 @@ pub fn study<'a>(
             for &tolerance in &settings.tolerances {
                 records.push(runner.record(
                     &finer,
-                    Progress { mesh: factor, route, tolerance },
+                    StudyProgress { mesh: factor, route, tolerance },
                     figures.as_ref(),
                 ));
             }

@@ -53,7 +53,7 @@ pub struct Arch {
     pub ring_joint: Option<String>,
     /// The joints from left to right, each from the intrados to the extrados \[length\], if no shape gives them.
     #[serde(default, deserialize_with = "strict::read")]
-    pub lines: Option<Vec<Line>>,
+    pub lines: Option<Vec<JointLine>>,
     /// The class of the joints within the arch, instead of `bed` and `head`.
     pub joint: Option<String>,
     /// The class of the joints with rigid supports below both ends; without it there are none.
@@ -68,7 +68,7 @@ pub struct Arch {
 }
 
 /// A joint from the intrados to the extrados \[length\].
-pub type Line = [[f64; 2]; 2];
+pub type JointLine = [[f64; 2]; 2];
 
 /// The shape of an arch.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -161,7 +161,7 @@ impl Arch {
     /// let lines = vec![[[0.0, 0.0], [-0.2, 0.3]], [[0.5, 0.1], [0.5, 0.4]], [[1.0, 0.0], [1.2, 0.3]]];
     /// assert_eq!(Arch::between_joints("arch", "stone", lines).lines.unwrap().len(), 3);
     /// ```
-    pub fn between_joints(name: &str, material: &str, lines: Vec<Line>) -> Self {
+    pub fn between_joints(name: &str, material: &str, lines: Vec<JointLine>) -> Self {
         let arch = Self::new(name, material, Shape::Joints, 0.0, 0.0, 0);
         Self { span: None, thickness: None, voussoirs: None, lines: Some(lines), ..arch }
     }

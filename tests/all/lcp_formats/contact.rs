@@ -3,7 +3,7 @@
 use lcp::faer::mat;
 use lcp::faer::sparse::SparseColMat;
 use lcp::{Contact2d, Lemke, Solver};
-use lcp_problems::io::{Format, Problem, ReadError, read, to_json};
+use lcp_problems::io::{Problem, ProblemFormat, ReadError, read, to_json};
 
 use super::{at, error, error_as, problem};
 
@@ -87,7 +87,7 @@ fn global_friction_of_siconos_is_a_contact_of_velocities() {
     let sparse = format!("2 1  0 2 2 2 2  3 0 0 1  {h}  0.4 -2  0.1 -0.2  0.5");
     for text in [dense, &sparse] {
         let file = read(text.as_bytes(), None).unwrap();
-        assert_eq!(file.format, Format::SiconosGlobalFriction);
+        assert_eq!(file.format, ProblemFormat::SiconosGlobalFriction);
         let contact = contact(&file.problem);
         let dense = |m: &SparseColMat<usize, f64>| m.to_dense();
         assert_eq!(dense(contact.stiffness()), mat![[3.0, 0.0], [0.0, 1.0]]);
@@ -121,10 +121,10 @@ fn damaged_global_friction_is_refused_with_the_place() {
         // M is not symmetric.
         "2 1!  0 2 2 2 2  3 1 0 1  0 2 2 2 2  0 1 1 0  0.4 -2  0.1 -0.2  0.5",
     ] {
-        let error = error_as(Format::SiconosGlobalFriction, &marked.replace('!', ""));
+        let error = error_as(ProblemFormat::SiconosGlobalFriction, &marked.replace('!', ""));
         let column = marked.find('!').unwrap() + 1;
         assert_eq!(error.position(), Some(at(1, column)), "{marked}: {error}");
     }
-    let short = error_as(Format::SiconosGlobalFriction, "2 1 0 1000000000 1000000000 1");
+    let short = error_as(ProblemFormat::SiconosGlobalFriction, "2 1 0 1000000000 1000000000 1");
     assert!(matches!(short, ReadError::TooShort { .. }), "{short}");
 }

@@ -1,6 +1,6 @@
 //! Files with any content: what is read is never larger than the file, and comes back from JSON.
 
-use lcp_problems::io::{Format, read, to_json};
+use lcp_problems::io::{ProblemFormat, read, to_json};
 use proptest::prelude::*;
 use proptest::sample::{Index, select};
 use proptest::test_runner::TestCaseError;
@@ -29,7 +29,7 @@ const VALID: [&str; 15] = [
 /// Reads in every format; what is read must not be larger than the content, and JSON must give it
 /// back.
 fn read_in_every_format(content: &[u8]) -> Result<(), TestCaseError> {
-    for format in Format::ALL.map(Some).into_iter().chain([None]) {
+    for format in ProblemFormat::ALL.map(Some).into_iter().chain([None]) {
         let Ok(file) = read(content, format) else { continue };
         prop_assert!(file.problem.order() <= content.len());
         let json = to_json(&file.problem);

@@ -1,7 +1,7 @@
 //! The Matrix Market format.
 
 use lcp::Matrix;
-use lcp_problems::io::{Format, ReadError, market, read};
+use lcp_problems::io::{ProblemFormat, ReadError, market, read};
 
 use super::{at, rows};
 
@@ -118,5 +118,5 @@ fn one_matrix_is_no_problem() {
     let error = read(text.as_bytes(), None).unwrap_err();
     assert_eq!(error, ReadError::OneMatrix);
     assert!(error.to_string().contains("--m M.mtx --q q.mtx"), "{error}");
-    assert!(read(text.as_bytes(), Some(Format::Text)).is_err());
+    assert!(read(text.as_bytes(), Some(ProblemFormat::Text)).is_err());
 }

@@ -1,7 +1,7 @@
 //! QPS: programs with known optima, lines that leave out or repeat something, and what is refused.
 
 use lcp::{Auto, Qp, QpPoint, QuadraticProgram, Solver};
-use lcp_problems::io::{Format, Problem, ReadError, read, read_file, to_json};
+use lcp_problems::io::{Problem, ProblemFormat, ReadError, read, read_file, to_json};
 
 use super::at;
 
@@ -83,7 +83,7 @@ ENDATA
 
 fn program(text: &str) -> Qp {
     let file = read(text.as_bytes(), None).unwrap();
-    assert_eq!(file.format, Format::Qps);
+    assert_eq!(file.format, ProblemFormat::Qps);
     let Problem::Qp(program) = file.problem else { panic!("not a program") };
     program
 }
@@ -270,13 +270,13 @@ fn mistakes_have_their_places() {
     ] {
         let text = whole.replacen(from, to, 1);
         assert_ne!(text, whole, "{from}");
-        let error = read(text.as_bytes(), Some(Format::Qps)).unwrap_err();
+        let error = read(text.as_bytes(), Some(ProblemFormat::Qps)).unwrap_err();
         assert!(error.to_string().contains(words), "{text}\n{error}");
         assert_eq!(error.position(), Some(place), "{text}\n{error}");
         // It is recognised all the same.
         let error = read(text.as_bytes(), None).unwrap_err();
         assert!(
-            matches!(error, ReadError::Unrecognised { format: Format::Qps, .. }),
+            matches!(error, ReadError::Unrecognised { format: ProblemFormat::Qps, .. }),
             "{text}\n{error}"
         );
     }

@@ -9,7 +9,7 @@ use serde::Deserialize;
 
 use super::output::{Failure, in_file};
 use crate::io::{
-    Format, Problem, ProblemFile, ReadError, market, pairs_of_forces, read, read_file,
+    Problem, ProblemFile, ProblemFormat, ReadError, market, pairs_of_forces, read, read_file,
 };
 use lcp::{ContactForces, HorizontalLcp, Lcp, Residuals};
 
@@ -19,7 +19,7 @@ pub(super) struct InputArgs {
     #[arg(required_unless_present_any = ["m", "a"], conflicts_with_all = ["m", "q", "a", "b", "c"])]
     file: Option<PathBuf>,
     /// The format of the file; by default the one that its content fits.
-    #[arg(long, value_name = "F", value_parser = PossibleValuesParser::new(Format::ALL.map(Format::name)), requires = "file")]
+    #[arg(long, value_name = "F", value_parser = PossibleValuesParser::new(ProblemFormat::ALL.map(ProblemFormat::name)), requires = "file")]
     format: Option<String>,
     /// M of w = M z + q, in the Matrix Market format.
     #[arg(long, value_name = "FILE", requires = "q", conflicts_with_all = ["a", "b", "c"])]

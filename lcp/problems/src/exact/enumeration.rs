@@ -36,7 +36,7 @@ impl Default for EnumerationSettings {
 
 /// All solutions of a problem.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Enumeration {
+pub struct ExactEnumeration {
     /// The solutions as a union of polyhedra, none of which lies in another; they may touch. Ordered
     /// by the variables that are positive in them.
     pub faces: Vec<Face>,
@@ -48,7 +48,7 @@ pub struct Enumeration {
     pub feasibility: Feasibility,
 }
 
-impl Enumeration {
+impl ExactEnumeration {
     /// Whether there is a solution.
     pub fn is_solvable(&self) -> bool {
         !self.faces.is_empty()
@@ -110,7 +110,7 @@ pub struct Face {
 pub fn enumerate(
     problem: &HorizontalLcp,
     settings: &EnumerationSettings,
-) -> Result<Enumeration, Error> {
+) -> Result<ExactEnumeration, Error> {
     let (n, max_order) = (problem.order(), settings.max_order);
     if max_order > EnumerationSettings::LARGEST_ORDER {
         let range = "at most 32";
@@ -129,7 +129,7 @@ pub fn enumerate(
         Err(Stop::Time) => false,
         Err(Stop::Limit(error)) => return Err(error),
     };
-    Ok(Enumeration {
+    Ok(ExactEnumeration {
         faces: faces.found.into_values().collect(),
         is_complete,
         has_basis: root.has_basis(deadline),

@@ -1,6 +1,6 @@
 //! Problems of control and of finance.
 
-use super::{Instance, Integers, Known, standard};
+use super::{Instance, Integers, KnownAnswer, standard};
 use crate::sparse;
 use lcp::{BoxedLcp, Lcp};
 
@@ -38,7 +38,7 @@ pub fn control(steps: usize, seed: u64) -> Instance<BoxedLcp> {
     let m = sparse(3 * n, 3 * n, entries);
     let problem = BoxedLcp::new(m, q, lower, upper);
     let problem = problem.unwrap_or_else(|e| unreachable!("finite and of one order: {e}"));
-    Instance { problem, known: Known::Solvable }
+    Instance { problem, known: KnownAnswer::Solvable }
 }
 
 /// A perpetual American put option with a strike of one, on a grid of `points` in the logarithm of the price: `z` is what
@@ -72,5 +72,5 @@ pub fn perpetual_option(points: usize, interest: f64, volatility: f64) -> Instan
         below.into_iter().chain([(i, i, middle)]).chain(above)
     });
     let problem = standard(sparse(points, points, entries), q);
-    Instance { problem, known: Known::Solvable }
+    Instance { problem, known: KnownAnswer::Solvable }
 }

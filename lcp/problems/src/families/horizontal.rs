@@ -2,7 +2,7 @@
 
 use faer::Mat;
 
-use super::{Instance, Integers, Known, Planting, product};
+use super::{Instance, Integers, KnownAnswer, Planting, product};
 use lcp::{HorizontalLcp, Matrix};
 
 /// Monotone with both matrices singular (from order 6 on): a semidefinite problem with a matrix of a
@@ -20,7 +20,7 @@ pub fn horizontal_monotone(n: usize, seed: u64) -> Instance {
     let a = &mixing * Mat::from_fn(n, n, |i, j| column(i, j, j % 2 == 0));
     let b = &mixing * Mat::from_fn(n, n, |i, j| column(i, j, j % 2 == 1));
     let (t, y) = random.solution(n, Planting::Degenerate);
-    Instance { problem: with_solution(a, b, &t, &y), known: Known::Solution { t, y } }
+    Instance { problem: with_solution(a, b, &t, &y), known: KnownAnswer::Solution { t, y } }
 }
 
 /// No class at all: random integers, where a quarter of the columns of `A` are sums of two others,
@@ -39,7 +39,7 @@ pub fn horizontal_singular(n: usize, seed: u64) -> Instance {
     // Never both columns of a pair, so that a complementary basis remains.
     let (a, b) = (matrix(&|k| k), matrix(&|k| n - 1 - k));
     let (t, y) = random.solution(n, Planting::Strict);
-    Instance { problem: with_solution(a, b, &t, &y), known: Known::Solution { t, y } }
+    Instance { problem: with_solution(a, b, &t, &y), known: KnownAnswer::Solution { t, y } }
 }
 
 /// Random integers with the signs of columns and of `c` such that a random vector proves
@@ -68,7 +68,7 @@ pub fn infeasible(n: usize, seed: u64) -> Instance {
     let mut c = random.vector(n, -3, 3);
     // `farkas[0]` is one: the first entry makes up for what the others lack.
     c[0] += (1.0 - value(&c)).max(0.0);
-    Instance { problem: general(a, b, c), known: Known::Infeasible { farkas } }
+    Instance { problem: general(a, b, c), known: KnownAnswer::Infeasible { farkas } }
 }
 
 fn with_solution(a: Mat<f64>, b: Mat<f64>, t: &[f64], y: &[f64]) -> HorizontalLcp {

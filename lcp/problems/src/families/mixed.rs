@@ -2,7 +2,7 @@
 
 use faer::Mat;
 
-use super::{Instance, Integers, Known, Planting};
+use super::{Instance, Integers, KnownAnswer, Planting};
 use lcp::MixedLcp;
 
 /// The conditions of a convex quadratic program with equations: `M = [0 E; -E^T C C^T]`, monotone and
@@ -48,5 +48,5 @@ fn with_solution(m: Mat<f64>, free: usize, random: &mut Integers) -> Instance<Mi
     let is_free = (0..n).map(|i| i < free).collect();
     let problem = MixedLcp::new(planted.m().clone(), planted.q().to_vec(), is_free);
     let problem = problem.expect("finite and of one order");
-    Instance { problem, known: Known::Solution { t, y } }
+    Instance { problem, known: KnownAnswer::Solution { t, y } }
 }

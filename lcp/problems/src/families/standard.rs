@@ -2,7 +2,7 @@
 
 use faer::Mat;
 
-use super::{Instance, Integers, Known, Planting, planted, standard, with_solution};
+use super::{Instance, Integers, KnownAnswer, Planting, planted, standard, with_solution};
 use lcp::Lcp;
 
 /// Positive definite and not symmetric: `M = C C^T + K - K^T + 1`, with its one solution planted.
@@ -44,7 +44,7 @@ pub fn strictly_copositive(n: usize, seed: u64) -> Instance<Lcp> {
     let mut random = Integers::new(seed);
     let m = nonnegative(&mut random, n) + random.skew(n);
     let q = random.vector(n, -4, 1);
-    Instance { problem: standard(m, q), known: Known::Solvable }
+    Instance { problem: standard(m, q), known: KnownAnswer::Solvable }
 }
 
 /// Copositive-plus and not strictly so: a strictly copositive block and zeros, plus a semidefinite
@@ -92,7 +92,7 @@ pub fn ties(n: usize, seed: u64) -> Instance<Lcp> {
     let is_first = |i: usize| !groups[..i].contains(&groups[i]);
     let t: Vec<f64> = (0..n).map(|i| f64::from(u8::from(is_first(i)))).collect();
     let y = vec![0.0; n];
-    Instance { problem: with_solution(m, &t, &y), known: Known::Solution { t, y } }
+    Instance { problem: with_solution(m, &t, &y), known: KnownAnswer::Solution { t, y } }
 }
 
 /// Positive definite of the kind of Harker and Pang (Lectures in Applied Mathematics 26, 1990):
@@ -112,7 +112,7 @@ pub fn harker_pang(n: usize, seed: u64) -> Instance<Lcp> {
         std::cmp::Ordering::Greater => ata[(i, j)] - s[(j, i)],
     });
     let q = (0..n).map(|_| within(500.0)).collect();
-    Instance { problem: standard(m, q), known: Known::Solvable }
+    Instance { problem: standard(m, q), known: KnownAnswer::Solvable }
 }
 
 /// The equilibria of a game of two players, each with one choice at least, with costs `P`, `Q` of 1
@@ -125,7 +125,7 @@ pub fn bimatrix(rows: usize, columns: usize, seed: u64) -> Instance<Lcp> {
     let n = rows + columns;
     let costs = random.matrix(n, n, 1, 9);
     let m = Mat::from_fn(n, n, |i, j| if (i < rows) == (j < rows) { 0.0 } else { costs[(i, j)] });
-    Instance { problem: standard(m, vec![-1.0; n]), known: Known::Solvable }
+    Instance { problem: standard(m, vec![-1.0; n]), known: KnownAnswer::Solvable }
 }
 
 /// A symmetric positive semidefinite problem, of order 2 at least, in which two rows of `M` add up to
@@ -141,7 +141,7 @@ pub fn infeasible_semidefinite(n: usize, seed: u64) -> Instance<Lcp> {
     q[second] = -q[first] - 1.0;
     let mut farkas = vec![0.0; n];
     (farkas[first], farkas[second]) = (-1.0, -1.0);
-    Instance { problem: standard(gram(&c), q), known: Known::Infeasible { farkas } }
+    Instance { problem: standard(gram(&c), q), known: KnownAnswer::Infeasible { farkas } }
 }
 
 fn gram(c: &Mat<f64>) -> Mat<f64> {

@@ -4,7 +4,7 @@ use std::cmp::Ordering;
 
 use faer::{Mat, mat};
 
-use super::{Instance, Known, standard, with_solution};
+use super::{Instance, KnownAnswer, standard, with_solution};
 use crate::sparse;
 use lcp::Lcp;
 
@@ -36,21 +36,21 @@ fn first_unit_vector(m: Mat<f64>) -> Instance<Lcp> {
     let unit = |i: usize, value: f64| if i == 0 { value } else { 0.0 };
     let t: Vec<f64> = (0..n).map(|i| unit(i, 1.0)).collect();
     let y: Vec<f64> = (0..n).map(|i| 1.0 - unit(i, 1.0)).collect();
-    Instance { problem: standard(m, vec![-1.0; n]), known: Known::Unique { t, y } }
+    Instance { problem: standard(m, vec![-1.0; n]), known: KnownAnswer::Unique { t, y } }
 }
 
 /// A P-matrix of order 3, `q = -1`, on which the ratio test without a rule for ties cycles (Kostreva
 /// 1979).
 pub fn kostreva_1() -> Instance<Lcp> {
     let m = mat![[1.0, 2.0, 0.0], [0.0, 1.0, 2.0], [2.0, 0.0, 1.0]];
-    let known = Known::Unique { t: vec![1.0 / 3.0; 3], y: vec![0.0; 3] };
+    let known = KnownAnswer::Unique { t: vec![1.0 / 3.0; 3], y: vec![0.0; 3] };
     Instance { problem: standard(m, vec![-1.0; 3]), known }
 }
 
 /// A problem of order 3 without a solution: the last row has no positive entry (Kostreva 1979).
 pub fn kostreva_2() -> Instance<Lcp> {
     let m = mat![[1.0, -1.0, 3.0], [2.0, -1.0, 3.0], [-1.0, -2.0, 0.0]];
-    let known = Known::Infeasible { farkas: vec![0.0, 0.0, -1.0] };
+    let known = KnownAnswer::Infeasible { farkas: vec![0.0, 0.0, -1.0] };
     Instance { problem: standard(m, vec![-1.0; 3]), known }
 }
 
@@ -78,5 +78,5 @@ pub fn obstacle(side: usize) -> Instance<Lcp> {
     };
     let t: Vec<f64> = (0..n).map(|i| height(i).max(0.0)).collect();
     let y: Vec<f64> = (0..n).map(|i| if height(i) > 0.0 { 0.0 } else { 1.0 }).collect();
-    Instance { problem: with_solution(m, &t, &y), known: Known::Unique { t, y } }
+    Instance { problem: with_solution(m, &t, &y), known: KnownAnswer::Unique { t, y } }
 }

@@ -3,7 +3,7 @@
 use std::fmt::Display;
 use std::path::PathBuf;
 
-use super::format::Format;
+use super::format::ProblemFormat;
 
 /// A place in a file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -76,7 +76,7 @@ pub enum ReadError {
     )]
     Unrecognised {
         /// The format.
-        format: Format,
+        format: ProblemFormat,
         /// Why it does not fit.
         source: Box<ReadError>,
     },
@@ -96,7 +96,7 @@ pub enum ReadError {
     #[error("the file can be read as {}; name the format", list(.formats))]
     Ambiguous {
         /// The formats that fit.
-        formats: Vec<Format>,
+        formats: Vec<ProblemFormat>,
     },
     /// The file could not be opened or read.
     #[error("cannot read {}: {reason}", .path.display())]
@@ -143,16 +143,16 @@ impl ReadError {
 
 /// The names of all formats.
 fn known() -> String {
-    Format::ALL.map(Format::name).join(", ")
+    ProblemFormat::ALL.map(ProblemFormat::name).join(", ")
 }
 
-fn list(formats: &[Format]) -> String {
+fn list(formats: &[ProblemFormat]) -> String {
     let names: Vec<String> = formats.iter().map(ToString::to_string).collect();
     names.join(" or as ")
 }
 
 /// From its name.
-impl std::str::FromStr for Format {
+impl std::str::FromStr for ProblemFormat {
     type Err = ReadError;
 
     fn from_str(name: &str) -> Result<Self, ReadError> {

@@ -3,7 +3,7 @@
 /// A format of files.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[non_exhaustive]
-pub enum Format {
+pub enum ProblemFormat {
     /// Our JSON.
     Json,
     /// Plain text: `n`, `M` by rows, `q`.
@@ -22,7 +22,7 @@ pub enum Format {
     SiconosGlobalFriction,
 }
 
-impl Format {
+impl ProblemFormat {
     /// All formats.
     pub const ALL: [Self; 8] = [
         Self::Json,
@@ -50,7 +50,7 @@ impl Format {
     }
 }
 
-impl std::fmt::Display for Format {
+impl std::fmt::Display for ProblemFormat {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.write_str(self.name())
     }

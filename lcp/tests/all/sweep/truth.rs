@@ -1,7 +1,7 @@
 //! What is true of a problem, and what a verdict is worth in this light.
 
 use lcp::{Certificate, HorizontalLcp, Leaf, Side, Solution, Status};
-use lcp_problems::exact::{Enumeration, EnumerationSettings, Face, RBig, enumerate};
+use lcp_problems::exact::{EnumerationSettings, ExactEnumeration, Face, RBig, enumerate};
 
 use super::methods::TOLERANCE;
 use super::problems::Case;
@@ -28,12 +28,12 @@ pub(crate) enum Worth {
     Wrong(String),
 }
 
-pub(crate) fn truth(problem: &HorizontalLcp) -> Enumeration {
+pub(crate) fn truth(problem: &HorizontalLcp) -> ExactEnumeration {
     let limits = EnumerationSettings { max_order: 8, max_generators: 1_000_000, time_limit: None };
     enumerate(problem, &limits).unwrap()
 }
 
-pub(crate) fn worth(case: &Case, truth: &Enumeration, solution: &Solution) -> Worth {
+pub(crate) fn worth(case: &Case, truth: &ExactEnumeration, solution: &Solution) -> Worth {
     let is_solvable = truth.is_solvable();
     match solution.status {
         Status::Solved if !is_solvable => {
@@ -74,7 +74,7 @@ fn rounded(value: &RBig) -> f64 {
 
 /// What is wrong with a point. The rows are summed up without rounding, and there must be exact
 /// solutions in which the same variables are positive.
-fn defect(case: &Case, truth: &Enumeration, t: &[f64], y: &[f64]) -> Option<String> {
+fn defect(case: &Case, truth: &ExactEnumeration, t: &[f64], y: &[f64]) -> Option<String> {
     let (problem, largest) = (&case.integers, case.largest);
     if t.iter().chain(y).any(|v| !v.is_finite()) {
         return Some(format!("not a number: {t:?} {y:?}"));
@@ -138,7 +138,7 @@ fn defect(case: &Case, truth: &Enumeration, t: &[f64], y: &[f64]) -> Option<Stri
 }
 
 /// An infeasible problem has a Farkas vector; others without a solution need one for every choice.
-fn of_proof(problem: &HorizontalLcp, truth: &Enumeration, certificate: &Certificate) -> Worth {
+fn of_proof(problem: &HorizontalLcp, truth: &ExactEnumeration, certificate: &Certificate) -> Worth {
     let wrong = match certificate {
         Certificate::Farkas { pi } => no_proof(problem, &vec![None; problem.order()], pi),
         Certificate::Choices { .. } if !truth.is_feasible() => return Worth::Unproved,

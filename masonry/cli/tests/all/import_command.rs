@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
 use masonry::{Model, Scene};
-use masonry_drawing::{Drawing, Format};
+use masonry_drawing::{Drawing, DrawingFormat};
 use serde_json::Value;
 
 /// A drawing in a directory of its own.
@@ -127,7 +127,7 @@ fn a_drawing_of_a_scene_is_the_scene() {
         let [drawing, scene, again] = [&path, &scene, &again].map(|it| it.to_str().unwrap());
         let output = masonry(&["draw", scene, "--dxf", drawing]);
         assert_eq!(String::from_utf8(output.stdout).unwrap(), format!("{drawing}\n"));
-        let read = Drawing::read(&fs::read(drawing).unwrap(), Format::Dxf).unwrap();
+        let read = Drawing::read(&fs::read(drawing).unwrap(), DrawingFormat::Dxf).unwrap();
         let model = Model::from_scene(&Scene::read(Path::new(scene)).unwrap()).unwrap();
         let metre = model.units.length_to_si();
         let outlines =

@@ -8,7 +8,7 @@ use super::pairs::Record;
 use super::shapes::{self, Shape};
 use crate::error::shown;
 use crate::shapes::MOST_SHAPES;
-use crate::{Change, Drawing, DrawingError, DrawingErrorKind, Line, Outline, Place};
+use crate::{Change, Drawing, DrawingError, DrawingErrorKind, DrawnLine, Outline, Place};
 
 /// Blocks in blocks. Chosen: drawings have three or four; a block in itself has no end.
 const DEEPEST: usize = 16;
@@ -115,7 +115,7 @@ impl<'a> Expansion<'a> {
             let (name, is_fixed) = (None, false);
             self.drawing.add_outline(Outline { corners: points, layer, name, is_fixed, place })
         } else {
-            self.drawing.add_line(Line { points, layer, place })
+            self.drawing.add_line(DrawnLine { points, layer, place })
         }
     }
 

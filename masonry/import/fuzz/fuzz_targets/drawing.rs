@@ -5,13 +5,13 @@
 
 use libfuzzer_sys::fuzz_target;
 
-use masonry_drawing::{Drawing, Format};
-use masonry_import::{Options, import};
+use masonry_drawing::{Drawing, DrawingFormat};
+use masonry_import::{ImportOptions, import};
 
 fuzz_target!(|content: &[u8]| {
-    for format in [Format::Dxf, Format::Svg, Format::Obj, Format::Json] {
+    for format in [DrawingFormat::Dxf, DrawingFormat::Svg, DrawingFormat::Obj, DrawingFormat::Json] {
         let Ok(drawing) = Drawing::read(content, format) else { continue };
-        let Ok(imported) = import(&drawing, &Options::default()) else { continue };
+        let Ok(imported) = import(&drawing, &ImportOptions::default()) else { continue };
         assert!(!imported.picture().contains("NaN"));
         imported.to_toml().expect("what was imported is written");
     }

@@ -2,14 +2,14 @@
 
 use std::fmt::Write as _;
 
-use masonry_drawing::{Drawing, Format, LARGEST_FILE};
-use masonry_import::{Options, import};
+use masonry_drawing::{Drawing, DrawingFormat, LARGEST_FILE};
+use masonry_import::{ImportOptions, import};
 use proptest::prelude::*;
 
 use crate::common::{Dxf, Polygon, wall};
 
 #[track_caller]
-fn assert_refused(text: &str, format: Format, expected: &str) {
+fn assert_refused(text: &str, format: DrawingFormat, expected: &str) {
     let error = Drawing::read(text.as_bytes(), format).unwrap_err();
     assert_eq!(error.to_string(), expected);
 }
@@ -19,7 +19,7 @@ fn square(x: f64, y: f64) -> Polygon {
 }
 
 #[track_caller]
-fn assert_not_imported(dxf: &Dxf, options: &Options, expected: &str) {
+fn assert_not_imported(dxf: &Dxf, options: &ImportOptions, expected: &str) {
     let error = import(&dxf.read(), options).unwrap_err();
     assert_eq!(error.to_string(), expected);
 }
@@ -27,9 +27,9 @@ fn assert_not_imported(dxf: &Dxf, options: &Options, expected: &str) {
 #[test]
 fn files_that_are_no_drawings_say_why() {
     let binary = b"AutoCAD Binary DXF\r\n\x1a\0";
-    let error = Drawing::read(binary, Format::Dxf).unwrap_err();
+    let error = Drawing::read(binary, DrawingFormat::Dxf).unwrap_err();
     assert_eq!(error.to_string(), "the file is binary: save it as text (DXF: \"ASCII\")");
-    let error = Drawing::read(&vec![b' '; LARGEST_FILE + 1], Format::Dxf).unwrap_err();
+    let error = Drawing::read(&vec![b' '; LARGEST_FILE + 1], DrawingFormat::Dxf).unwrap_err();
     assert_eq!(
         error.to_string(),
         "the file is larger than 32 MB: save only the layers with the blocks"
@@ -37,7 +37,7 @@ fn files_that_are_no_drawings_say_why() {
     let empty = Dxf::new(6).entity("TEXT", "0", "1\nA\n").text();
     assert_refused(
         &empty,
-        Format::Dxf,
+        DrawingFormat::Dxf,
         "nothing in the file bounds a block (TEXT 1 (line 22): TEXT was left out: only polylines, lines and arcs \
          bound blocks): draw blocks as closed polylines",
     );
@@ -49,22 +49,22 @@ fn mistakes_of_dxf_have_their_line() {
     let cut = text.rfind("0\nENDSEC").unwrap();
     assert_refused(
         &text[..cut],
-        Format::Dxf,
+        DrawingFormat::Dxf,
         "DXF (line 22): the file ends in the middle: save it again",
     );
     assert_refused(
         &text.replace("90\n4", "ninety\n4"),
-        Format::Dxf,
+        DrawingFormat::Dxf,
         "LWPOLYLINE 1 (line 22): line 27 has \"ninety\" in place of a group code: save it again as DXF",
     );
     assert_refused(
         &text.replace("10\n0\n20", "10\nO\n20"),
-        Format::Dxf,
+        DrawingFormat::Dxf,
         "LWPOLYLINE 1 (line 32): \"O\" is no number",
     );
     assert_refused(
         &text.replace("10\n0\n20", "10\n1e99\n20"),
-        Format::Dxf,
+        DrawingFormat::Dxf,
         "LWPOLYLINE 1 (line 22): a coordinate is no finite number below 1e60: correct it or delete the entity",
     );
 }
@@ -74,7 +74,7 @@ fn a_coordinate_that_is_no_number_is_refused() {
     let text = Dxf::new(6).polygons("brick", &[square(0.0, 0.0)]).text();
     assert_refused(
         &text.replace("10\n0\n20", "10\nNaN\n20"),
-        Format::Dxf,
+        DrawingFormat::Dxf,
         "LWPOLYLINE 1 (line 22): a coordinate is no finite number below 1e60: correct it or delete the entity",
     );
 }
@@ -82,8 +82,9 @@ fn a_coordinate_that_is_no_number_is_refused() {
 #[test]
 fn insertions_without_an_end_are_refused() {
     let myself = Dxf::new(6).insert("a", [0.0, 0.0], "").into_block("a", [0.0, 0.0]);
-    let error = Drawing::read(myself.insert("a", [0.0, 0.0], "").text().as_bytes(), Format::Dxf)
-        .unwrap_err();
+    let error =
+        Drawing::read(myself.insert("a", [0.0, 0.0], "").text().as_bytes(), DrawingFormat::Dxf)
+            .unwrap_err();
     assert!(
         error.to_string().ends_with("blocks are inserted in each other 16 times: explode them"),
         "{error}"
@@ -91,13 +92,13 @@ fn insertions_without_an_end_are_refused() {
     assert!(error.to_string().starts_with("INSERT 1 in block a of INSERT 1"), "{error}");
     assert_refused(
         &Dxf::new(6).insert("b", [0.0, 0.0], "").text(),
-        Format::Dxf,
+        DrawingFormat::Dxf,
         "INSERT 1 (line 22): it inserts the block \"b\", which the file does not have: bind external references",
     );
     let many = Dxf::new(6).polygons("0", &[square(0.0, 0.0)]).into_block("a", [0.0, 0.0]);
     assert_refused(
         &many.insert("a", [0.0, 0.0], "70\n100000\n71\n100000\n").text(),
-        Format::Dxf,
+        DrawingFormat::Dxf,
         "INSERT 2 (line 60): there are more than 150000 copies of a block: save only the layers with the blocks",
     );
     // Each block inserts the one before ten times.
@@ -109,7 +110,8 @@ fn insertions_without_an_end_are_refused() {
         bomb = bomb.into_block(&k.to_string(), [0.0, 0.0]);
     }
     let error =
-        Drawing::read(bomb.insert("9", [0.0, 0.0], "").text().as_bytes(), Format::Dxf).unwrap_err();
+        Drawing::read(bomb.insert("9", [0.0, 0.0], "").text().as_bytes(), DrawingFormat::Dxf)
+            .unwrap_err();
     assert!(error.to_string().contains("there are more than 150000 "), "{error}");
 }
 
@@ -117,40 +119,40 @@ fn insertions_without_an_end_are_refused() {
 fn mistakes_of_other_formats_have_their_place() {
     assert_refused(
         "{\"vertex\": ",
-        Format::Json,
+        DrawingFormat::Json,
         "JSON (line 1): the file ends in the middle: save it again",
     );
     assert_refused(
         r#"{"data": {"vertex": {"0": {"x": 1, "y": 2}}, "face": {}}}"#,
-        Format::Json,
+        DrawingFormat::Json,
         "data: vertex 0 has no number z: save it again",
     );
     assert_refused(
         r#"{"data": {"vertex": {"0": {"x": 1, "y": 2, "z": 0}}, "face": {"3": [0, 7]}}}"#,
-        Format::Json,
+        DrawingFormat::Json,
         "data: there is no corner 7: save the file again",
     );
     assert_refused(
         "v 0 0\n",
-        Format::Obj,
+        DrawingFormat::Obj,
         "v (line 1): the file ends in the middle: save it again",
     );
-    assert_refused("v 0 0 a\n", Format::Obj, "v (line 1): \"a\" is no number");
+    assert_refused("v 0 0 a\n", DrawingFormat::Obj, "v (line 1): \"a\" is no number");
     assert_refused(
         "v 0 0 0\nf 1 2 3\n",
-        Format::Obj,
+        DrawingFormat::Obj,
         "f (line 2): there is no corner 2: save the file again",
     );
     let svg = |inside: &str| format!("<svg xmlns=\"http://www.w3.org/2000/svg\">\n{inside}</svg>");
     assert_refused(
         &svg("<rect id=\"r\" width=\"1x\"/>"),
-        Format::Svg,
+        DrawingFormat::Svg,
         "<rect> id \"r\" (line 2): \"1x\" is no number",
     );
     let deep = svg(&("<g>".repeat(80) + &"</g>".repeat(80)));
     assert_refused(
         &deep,
-        Format::Svg,
+        DrawingFormat::Svg,
         "<g> (line 2): blocks are inserted in each other 64 times: explode them",
     );
 }
@@ -171,13 +173,13 @@ fn bodies_that_are_not_plane_are_refused() {
     let first = body(1, [0.0; 3], 0.0);
     assert_refused(
         &(first.clone() + &body(2, [1.0, 0.0, 0.0], 0.1)),
-        Format::Obj,
+        DrawingFormat::Obj,
         "o body2 (line 16): it is no prism across one plane with the others: the model is plane; cut it with a plane \
          and draw the section",
     );
     assert_refused(
         &(first + &body(2, [0.5, 0.2, 0.5], 0.0)),
-        Format::Obj,
+        DrawingFormat::Obj,
         "o body2 (line 16): it reaches from -0.4 to -0.2 across the plane and others do not: the model is plane; \
          export one layer of blocks",
     );
@@ -199,7 +201,7 @@ fn bodies_with_steps_across_the_plane_are_refused() {
     }
     assert_refused(
         &text,
-        Format::Obj,
+        DrawingFormat::Obj,
         "o step (line 1): it is no prism across one plane with the others: the model is plane; cut it with a plane \
          and draw the section",
     );
@@ -209,12 +211,12 @@ fn bodies_with_steps_across_the_plane_are_refused() {
 fn bodies_and_lines_of_obj_are_limited() {
     assert_refused(
         &"o a\n".repeat(150_001),
-        Format::Obj,
+        DrawingFormat::Obj,
         "o a (line 150001): there are more than 150000 bodies or lines: save only the layers with the blocks",
     );
     assert_refused(
         &("v 0 0 0\n".to_owned() + &"l 1 1\n".repeat(150_001)),
-        Format::Obj,
+        DrawingFormat::Obj,
         "l (line 150002): there are more than 150000 bodies or lines: save only the layers with the blocks",
     );
 }
@@ -223,12 +225,12 @@ fn bodies_and_lines_of_obj_are_limited() {
 fn names_cannot_command_the_terminal() {
     assert_refused(
         &Dxf::new(6).insert("\u{1b}[31m", [0.0, 0.0], "").text(),
-        Format::Dxf,
+        DrawingFormat::Dxf,
         "INSERT 1 (line 22): it inserts the block \"\u{fffd}[31m\", which the file does not have: bind external \
          references",
     );
     let list = r#"[{ "name": "a\nb", "material": "stone", "corners": [[0, 0], [1, 0], [1, 1]] }]"#;
-    let drawing = Drawing::read(list.as_bytes(), Format::List).unwrap();
+    let drawing = Drawing::read(list.as_bytes(), DrawingFormat::List).unwrap();
     assert_eq!(drawing.outlines[0].name.as_deref(), Some("a\u{fffd}b"));
     let ray = Dxf::new(6).entity("RAY\u{7}", "0", "").polygons("0", &[square(0.0, 0.0)]).read();
     assert!(ray.changes[0].what.starts_with("RAY\u{fffd} was left out"), "{:?}", ray.changes);
@@ -239,11 +241,11 @@ fn a_unit_that_is_not_known_must_be_given() {
     let wall = Dxf::new(14).polygons("brick", &wall(4, 4, 0.0));
     assert_not_imported(
         &wall,
-        &Options::default(),
+        &ImportOptions::default(),
         "the unit 14 of $INSUNITS is not known: give --unit, or --unit m and the metres in one unit as --scale",
     );
     let unit = Some(masonry_drawing::Unit::Metre);
-    assert!(import(&wall.read(), &Options { unit, ..Options::default() }).is_ok());
+    assert!(import(&wall.read(), &ImportOptions { unit, ..ImportOptions::default() }).is_ok());
 }
 
 #[test]
@@ -254,24 +256,25 @@ fn a_unit_that_cannot_be_is_noticed() {
         .collect();
     assert_not_imported(
         &Dxf::new(0).polygons("brick", &scaled),
-        &Options::default(),
+        &ImportOptions::default(),
         "half of all blocks are larger than 280 m, with m as the unit (which the file does not say): give --unit mm or \
          --unit cm or --unit in, or --unit m if that is right",
     );
     assert_not_imported(
         &Dxf::new(4).polygons("brick", &wall(4, 4, 0.0)),
-        &Options::default(),
+        &ImportOptions::default(),
         "half of all blocks are smaller than 0.00028 m, with mm as the unit (as the file says): give --unit in or \
          --unit ft or --unit m, or --unit mm if that is right",
     );
-    let options = Options { unit: Some(masonry_drawing::Unit::Metre), ..Options::default() };
+    let options =
+        ImportOptions { unit: Some(masonry_drawing::Unit::Metre), ..ImportOptions::default() };
     assert!(import(&Dxf::new(0).polygons("brick", &scaled).read(), &options).is_ok());
 }
 
 #[test]
 fn what_cannot_be_mended_has_its_place_and_remedy() {
     let pair = |by: f64| Dxf::new(6).polygons("brick", &[square(0.0, 0.0), square(0.0, 1.0 - by)]);
-    let fine = Options { tolerance: Some(1e-3), ..Options::default() };
+    let fine = ImportOptions { tolerance: Some(1e-3), ..ImportOptions::default() };
     assert_not_imported(
         &pair(0.01),
         &fine,
@@ -280,20 +283,20 @@ fn what_cannot_be_mended_has_its_place_and_remedy() {
     );
     assert_not_imported(
         &pair(-0.1),
-        &Options::default(),
+        &ImportOptions::default(),
         "LWPOLYLINE 1 (line 22) and LWPOLYLINE 2 (line 48): 1 joints are open, the first by 0.1 m: give --joints close \
          if they are thin, --joints mortar if they are filled, or --joints open if they are gaps",
     );
     assert_not_imported(
         &pair(-0.5),
-        &Options::default(),
+        &ImportOptions::default(),
         "LWPOLYLINE 2 (line 48): blocks[1].corners: block \"brick/2\" touches no other block and no support, so that it \
          can move in every direction: move it, or raise contact.gap_limit",
     );
     let bow = vec![[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.5], [0.5, 2.0]];
     assert_not_imported(
         &Dxf::new(6).polygons("brick", &[bow]),
-        &Options::default(),
+        &ImportOptions::default(),
         "LWPOLYLINE 1 (line 22): its edges cross or touch each other: draw it with the corners in the order in which they \
          follow each other",
     );
@@ -301,7 +304,7 @@ fn what_cannot_be_mended_has_its_place_and_remedy() {
     let even = vec![[0.0, 0.0], [1.0, 1.0], [1.0, 0.0], [0.0, 1.0]];
     assert_not_imported(
         &Dxf::new(6).polygons("brick", &[square(2.0, 0.0), even]),
-        &Options::default(),
+        &ImportOptions::default(),
         "LWPOLYLINE 2 (line 48): its edges cross or touch each other: draw it with the corners in the order in which they \
          follow each other",
     );
@@ -309,57 +312,58 @@ fn what_cannot_be_mended_has_its_place_and_remedy() {
     let around = vec![[-1.0, -1.0], [2.0, -1.0], [2.0, 2.0], [-1.0, 2.0]];
     assert_not_imported(
         &Dxf::new(6).polygons("brick", &[around, square(0.0, 0.0)]),
-        &Options::default(),
+        &ImportOptions::default(),
         "LWPOLYLINE 1 (line 22) and LWPOLYLINE 2 (line 48): the blocks overlap by 2 m, more than the tolerance of 0.05 m \
          closes: no tolerance mends that: correct the drawing there",
     );
     assert_not_imported(
         &Dxf::new(6).polygons("brick", &[square(0.0, 0.0)]),
-        &Options { tolerance: Some(0.3), ..Options::default() },
+        &ImportOptions { tolerance: Some(0.3), ..ImportOptions::default() },
         "LWPOLYLINE 1 (line 22): its edge of 1 m is shorter than four times the tolerance of 0.3 m: give --tolerance 0.25 \
          or less",
     );
     assert_not_imported(
         &Dxf::new(6).line("support", [0.0, 0.0], [1.0, 0.0]),
-        &Options::default(),
+        &ImportOptions::default(),
         "no outline bounds a block: draw blocks as closed polylines, on other layers than \"support\" and \"joint\"",
     );
     assert_not_imported(
         &Dxf::new(6).polygons("brick", &[square(0.0, 0.0)]),
-        &Options { tolerance: Some(0.6), ..Options::default() },
+        &ImportOptions { tolerance: Some(0.6), ..ImportOptions::default() },
         "no outline bounds a block (LWPOLYLINE 1 (line 22): slivers were dropped): draw blocks as closed polylines, on \
          other layers than \"support\" and \"joint\"",
     );
     let diamond = vec![[0.0, 0.0], [1.0, 1.1], [0.0, 2.2], [-1.0, 1.1]];
     assert_not_imported(
         &Dxf::new(6).polygons("brick", &[diamond]),
-        &Options::default(),
+        &ImportOptions::default(),
         "no support is drawn, and no block rests with an edge on a line below all others: draw supports on a layer \
          \"support\"",
     );
     let same: Vec<Polygon> =
         (0..200).map(|k| square(0.2 * f64::from(k % 3), 1e-3 * f64::from(k))).collect();
-    let error =
-        import(&Dxf::new(6).polygons("brick", &same).read(), &Options::default()).unwrap_err();
+    let error = import(&Dxf::new(6).polygons("brick", &same).read(), &ImportOptions::default())
+        .unwrap_err();
     assert!(error.to_string().contains("dozens of outlines lie over each other here"), "{error}");
-    let options = Options { scale: -1.0, ..Options::default() };
+    let options = ImportOptions { scale: -1.0, ..ImportOptions::default() };
     assert_not_imported(&pair(0.0), &options, "--scale is -1: give a positive number");
 }
 
 #[test]
 fn a_joint_that_no_mortar_fits_is_named() {
     let polygons = [square(0.0, 0.0), square(0.0, 1.1), square(0.0, 2.35)];
-    let options = Options { joints: Some(masonry_import::Joints::Mortar), ..Options::default() };
+    let options =
+        ImportOptions { joints: Some(masonry_import::Joints::Mortar), ..ImportOptions::default() };
     assert_not_imported(
         &Dxf::new(6).polygons("brick", &polygons),
-        &Options { tolerance: Some(0.01), ..options },
+        &ImportOptions { tolerance: Some(0.01), ..options },
         "LWPOLYLINE 1 (line 22) and LWPOLYLINE 2 (line 48): the joint is 0.1 m wide and others are 0.25 m: correct the \
          drawing, or give --joints close",
     );
 }
 
 /// Valid files of each format.
-fn files() -> Vec<(String, Format)> {
+fn files() -> Vec<(String, DrawingFormat)> {
     let dxf = Dxf::new(6).polygons("0", &wall(2, 2, 0.0)).into_block("wall", [0.0, 0.0]);
     let quoin = [[0.0, 0.0], [1.0, 0.0], [1.0, 0.5], [0.5, 0.5], [0.5, 1.0], [0.0, 1.0]];
     let dxf = dxf.polygons("quoin", &[quoin.to_vec()]);
@@ -372,11 +376,11 @@ fn files() -> Vec<(String, Format)> {
     let list = r#"[{"name": "a", "material": "stone", "corners": [[0, 0], [1, 0], [1, 1]]}]"#;
     let obj = body(1, [0.0; 3], 0.0) + &body(2, [1.0, 0.0, 0.0], 0.0);
     vec![
-        (dxf.text(), Format::Dxf),
-        (svg.to_owned(), Format::Svg),
-        (mesh.to_owned(), Format::Json),
-        (list.to_owned(), Format::Json),
-        (obj, Format::Obj),
+        (dxf.text(), DrawingFormat::Dxf),
+        (svg.to_owned(), DrawingFormat::Svg),
+        (mesh.to_owned(), DrawingFormat::Json),
+        (list.to_owned(), DrawingFormat::Json),
+        (obj, DrawingFormat::Obj),
     ]
 }
 
@@ -407,7 +411,7 @@ proptest! {
             bytes.drain(at..(at + length).min(bytes.len()));
         }
         let drawing = Drawing::read(&bytes, format);
-        let imported = drawing.map(|it| import(&it, &Options::default()));
+        let imported = drawing.map(|it| import(&it, &ImportOptions::default()));
         if let Ok(Ok(imported)) = imported {
             prop_assert!(imported.to_toml().is_ok());
             prop_assert!(!imported.picture().contains("NaN"));

@@ -6,16 +6,16 @@ use std::collections::BTreeMap;
 use std::f64::consts::PI;
 
 use masonry::{Model, Verdict, solve};
-use masonry_drawing::{Drawing, Format, Unit};
-use masonry_import::{Imported, Options, import};
+use masonry_drawing::{Drawing, DrawingFormat, Unit};
+use masonry_import::{ImportOptions, Imported, import};
 use serde_json::{Value, json};
 
 use crate::common::{BRICK, Dxf, Polygon, changes, mapped, turned, wall};
 
 #[track_caller]
-fn imported(text: &str, format: Format) -> Imported {
+fn imported(text: &str, format: DrawingFormat) -> Imported {
     let drawing = Drawing::read(text.as_bytes(), format).unwrap_or_else(|error| panic!("{error}"));
-    import(&drawing, &Options::default()).unwrap_or_else(|error| panic!("{error}"))
+    import(&drawing, &ImportOptions::default()).unwrap_or_else(|error| panic!("{error}"))
 }
 
 /// A plane of space: where a point of the drawing comes to, at a depth.
@@ -76,7 +76,7 @@ fn a_wall_of_compas_stands() {
     let mut blocks = prisms(&wall(4, 4, 0.0), 0.2, in_xz);
     let ground = vec![[-0.1, -0.3], [1.1, -0.3], [1.1, 0.0], [-0.1, 0.0]];
     blocks.push((mesh(&ground, 0.2, in_xz, true), true));
-    let found = imported(&assembly(&blocks), Format::Json);
+    let found = imported(&assembly(&blocks), DrawingFormat::Json);
     assert_eq!(found.scene.thickness, Some(0.2));
     assert_eq!(found.scene.blocks[0].corners[1], [BRICK[0], 0.0]);
     assert_eq!((found.scene.blocks.len(), found.scene.supports.len()), (18, 1));
@@ -97,9 +97,9 @@ fn walls_in_other_upright_planes_are_the_wall() {
         [u, v, y]
     }
     for plane in [in_xz as Plane, in_yz, askew] {
-        let found = imported(&assembly(&prisms(&wall(3, 3, 0.0), 0.2, plane)), Format::Json);
+        let found = imported(&assembly(&prisms(&wall(3, 3, 0.0), 0.2, plane)), DrawingFormat::Json);
         let model = Model::from_scene(&found.scene).unwrap();
-        let flat = imported(&list(&wall(3, 3, 0.0)), Format::List);
+        let flat = imported(&list(&wall(3, 3, 0.0)), DrawingFormat::List);
         assert_eq!(model.joints.len(), Model::from_scene(&flat.scene).unwrap().joints.len());
         assert!((found.scene.thickness.unwrap() - 0.2).abs() < 1e-12);
     }
@@ -114,7 +114,7 @@ fn an_arch_of_compas_stands() {
     };
     let voussoir = |k: usize| vec![at(1.0, k), at(1.2, k), at(1.2, k + 1), at(1.0, k + 1)];
     let polygons: Vec<Polygon> = (0..COUNT).map(voussoir).collect();
-    let found = imported(&assembly(&prisms(&polygons, 0.4, in_xz)), Format::Json);
+    let found = imported(&assembly(&prisms(&polygons, 0.4, in_xz)), DrawingFormat::Json);
     assert_eq!(solve(&found.scene).unwrap().judgement.verdict, Verdict::Stands);
     assert_eq!(Model::from_scene(&found.scene).unwrap().joints.len(), COUNT + 1);
 }
@@ -132,7 +132,7 @@ fn bars_between_posts_of_compas_lie_on_both() {
     for (bar, posts) in cases {
         let mut blocks = vec![(mesh(&bar, 0.2, in_xz, true), false)];
         blocks.extend(posts.iter().map(|post| (mesh(post, 0.2, in_xz, false), true)));
-        let found = imported(&assembly(&blocks), Format::Json);
+        let found = imported(&assembly(&blocks), DrawingFormat::Json);
         let model = Model::from_scene(&found.scene).unwrap();
         assert_eq!([model.blocks.len(), model.supports.len(), model.joints.len()], [1, 2, 2]);
         assert!(model.joints.iter().all(|joint| joint.normal.x.abs() > 0.99));
@@ -149,7 +149,7 @@ fn a_flat_mesh_has_a_block_for_each_face() {
     let mesh = json!({ "vertex": vertices, "face": { "0": [0, 1, 2, 3], "1": ["3", "2", "4"] } });
     let found = imported(
         &json!({ "dtype": "compas.datastructures/Mesh", "data": mesh }).to_string(),
-        Format::Json,
+        DrawingFormat::Json,
     );
     assert_eq!(found.scene.blocks[1].corners, [[0.0, 1.0], [1.0, 1.0], [0.5, 1.5]]);
 }
@@ -162,7 +162,7 @@ fn list(polygons: &[Polygon]) -> String {
 #[test]
 fn a_list_is_healed_as_a_drawing_is() {
     let polygons = mapped(&wall(3, 3, 0.0), |[x, y]| [x, if y > 0.3 { y + 1e-3 } else { y }]);
-    let found = imported(&list(&polygons), Format::Json);
+    let found = imported(&list(&polygons), DrawingFormat::Json);
     assert_eq!(found.scene.blocks[0].material, "brick");
     assert_eq!(solve(&found.scene).unwrap().judgement.verdict, Verdict::Stands);
 }
@@ -181,7 +181,7 @@ fn svg_has_transforms_units_and_layers() {
       <g id="support"><line x1="0" y1="100" x2="150" y2="100"/></g>
       <text>A wall</text>
     </svg>"#;
-    let found = imported(svg, Format::Svg);
+    let found = imported(svg, DrawingFormat::Svg);
     assert_eq!(found.unit, Unit::Millimetre);
     // Lengths are twice the coordinates in millimetres, and y points up.
     let near = |found: [f64; 2], expected: [f64; 2]| {
@@ -202,7 +202,7 @@ fn svg_has_transforms_units_and_layers() {
 #[test]
 fn curves_of_svg_become_chords() {
     let svg = r#"<svg xmlns="http://www.w3.org/2000/svg"><path d="M 0 0 L 1 0 A 0.5 0.5 0 0 0 0 0 Z"/></svg>"#;
-    let found = imported(svg, Format::Svg);
+    let found = imported(svg, DrawingFormat::Svg);
     let corners = &found.scene.blocks[0].corners;
     assert!(corners.len() > 5, "{corners:?}");
     assert!(corners.iter().all(|[x, y]| ((x - 0.5).hypot(*y) - 0.5).abs() < 1e-3), "{corners:?}");
@@ -213,7 +213,7 @@ fn faces_and_bodies_of_obj_are_blocks() {
     let flat = "# two stones\nv 0 0 0\nv 2 0 0\nv 2 1 0\nv 0 1 0\nv 2 2 0\nv 0 2 0\nusemtl tuff\nf 1/1 2/2 3/3 4/4\nf -3//1 -4//1 -2//1 -1//1\n";
     // The second face has its corners in a circle of its own.
     let flat = flat.replace("f -3//1 -4//1 -2//1 -1//1", "f 4 3 -2 -1");
-    let found = imported(&flat, Format::Obj);
+    let found = imported(&flat, DrawingFormat::Obj);
     assert_eq!(found.scene.blocks[1].corners, [[0.0, 1.0], [2.0, 1.0], [2.0, 2.0], [0.0, 2.0]]);
     assert_eq!(found.scene.blocks[0].material, "tuff");
 
@@ -223,7 +223,7 @@ fn faces_and_bodies_of_obj_are_blocks() {
         let faces = "f -8 -7 -6 -5\nf -1 -2 -3 -4\nf -8 -4 -3 -7\nf -7 -3 -2 -6\nf -6 -2 -1 -5\nf -5 -1 -4 -8\n";
         format!("o stone{x}\n{}{}{faces}", corner(0.0), corner(0.3))
     };
-    let found = imported(&(body(0.0) + &body(1.0)), Format::Obj);
+    let found = imported(&(body(0.0) + &body(1.0)), DrawingFormat::Obj);
     assert_eq!(found.scene.thickness, Some(0.3));
     assert_eq!(found.scene.blocks[1].name, "stone1");
     assert_eq!(Model::from_scene(&found.scene).unwrap().joints.len(), 3);
@@ -285,7 +285,7 @@ fn drawings_in_a_drawing_of_svg_are_left_out_if_they_are_moved() {
       <svg x="5"><rect width="1" height="1"/></svg>
       <svg viewBox="0 0 9 9"><rect width="1" height="1"/></svg>
     </svg>"#;
-    let drawing = Drawing::read(svg.as_bytes(), Format::Svg).unwrap();
+    let drawing = Drawing::read(svg.as_bytes(), DrawingFormat::Svg).unwrap();
     assert_eq!((drawing.outlines.len(), drawing.changes.len()), (1, 2));
     assert_eq!(drawing.changes[1].place.to_string(), "<svg> (line 4)");
 }
@@ -293,7 +293,7 @@ fn drawings_in_a_drawing_of_svg_are_left_out_if_they_are_moved() {
 #[test]
 fn lines_of_obj_are_in_the_plane_of_the_faces() {
     let obj = "v 0 0 0\nv 1 0 0\nv 1 0 1\nv 0 0 1\nf 1 2 3 4\nl 2 4\n";
-    let drawing = Drawing::read(obj.as_bytes(), Format::Obj).unwrap();
+    let drawing = Drawing::read(obj.as_bytes(), DrawingFormat::Obj).unwrap();
     let corners = &drawing.outlines[0].corners;
     assert_eq!(drawing.lines[0].points, [corners[1], corners[3]]);
 }
@@ -305,7 +305,7 @@ fn bodies_without_faces_are_passed_over() {
                  f 1 2 3\nf 6 5 4\nf 1 4 5 2\nf 2 5 6 3\nf 3 6 4 1\n";
     for obj in [face, prism] {
         let obj = format!("g root\n{obj}g end\n");
-        let drawing = Drawing::read(obj.as_bytes(), Format::Obj).unwrap();
+        let drawing = Drawing::read(obj.as_bytes(), DrawingFormat::Obj).unwrap();
         assert_eq!(drawing.outlines.len(), 1);
     }
 }

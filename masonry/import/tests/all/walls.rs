@@ -7,7 +7,7 @@ use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
 use masonry::analysis::limit::{Laws, limit_by};
 use masonry::scene::Load;
 use masonry::{Model, Scene, Verdict, solve};
-use masonry_import::{Imported, Joints, Options};
+use masonry_import::{ImportOptions, Imported, Joints};
 
 use crate::common::{BRICK, Dxf, Polygon, changes, mapped, rounded, turned, wall};
 
@@ -68,7 +68,8 @@ fn a_wall_in_millimetres_is_in_metres() {
     let line = |dxf: Dxf| dxf.line("support", [-1e3, 0.0], [2e3, 0.0]);
     let imported = line(Dxf::new(4).polygons("brick", &polygons)).import();
     assert_like_exact(&imported, 0.0, 1e-9);
-    let options = Options { unit: Some(masonry_drawing::Unit::Millimetre), ..Options::default() };
+    let options =
+        ImportOptions { unit: Some(masonry_drawing::Unit::Millimetre), ..ImportOptions::default() };
     let imported = line(Dxf::new(0).polygons("brick", &polygons)).import_with(&options);
     assert_like_exact(&imported, 0.0, 1e-9);
 }
@@ -152,11 +153,11 @@ fn a_drawing_in_kilometres_is_in_metres() {
 fn gaps_stay_above_supports_or_are_told() {
     let above = mapped(&wall(BRICKS, COURSES, 0.01), |[x, y]| [x, y + 0.01]);
     let dxf = on_floor(Dxf::new(6).polygons("brick", &above), 0.0);
-    let open = Options { joints: Some(Joints::Open), ..Options::default() };
+    let open = ImportOptions { joints: Some(Joints::Open), ..ImportOptions::default() };
     let imported = dxf.import_with(&open);
     assert_eq!(imported.scene.supports.len(), 1, "{}", imported.report());
     assert_eq!(changes(&imported, "gaps were closed"), 0, "{}", imported.report());
-    let wide = Options { tolerance: Some(0.012), ..open };
+    let wide = ImportOptions { tolerance: Some(0.012), ..open };
     let closed = dxf.import_with(&wide);
     assert!(changes(&closed, "gaps were closed") > 10, "{}", closed.report());
     assert_eq!(closed.scene.contact.gap_limit, 0.0);
@@ -165,7 +166,9 @@ fn gaps_stay_above_supports_or_are_told() {
 #[test]
 fn open_joints_are_closed_or_filled() {
     let dxf = || on_floor(Dxf::new(6).polygons("brick", &wall(BRICKS, COURSES, 0.01)), 0.0);
-    let with = |joints| dxf().import_with(&Options { joints: Some(joints), ..Options::default() });
+    let with = |joints| {
+        dxf().import_with(&ImportOptions { joints: Some(joints), ..ImportOptions::default() })
+    };
     let closed = with(Joints::Close);
     assert_like_exact(&closed, 0.0, 1e-6);
     assert_eq!(closed.scene.blocks[0].corners[2], [0.25, 0.125]);
@@ -189,7 +192,7 @@ fn open_joints_are_closed_or_filled() {
 #[test]
 fn mortar_that_was_rounded_and_turned_is_one() {
     let polygons = mapped(&mapped(&wall(BRICKS, COURSES, 0.01), turned(5.0)), rounded(1e-4));
-    let options = Options { joints: Some(Joints::Mortar), ..Options::default() };
+    let options = ImportOptions { joints: Some(Joints::Mortar), ..ImportOptions::default() };
     let imported = on_floor(Dxf::new(6).polygons("brick", &polygons), 5.0).import_with(&options);
     let thickness = |name: &str| imported.scene.joints[name].mortar_thickness();
     assert_eq!([thickness("bed"), thickness("head")], [0.01; 2]);
@@ -320,7 +323,7 @@ fn layers_name_materials_supports_and_joints() {
     let dxf =
         dxf.polygons("support_base", &[at(0.0, -0.5)]).line("JOINT-lead", [-1.0, 0.5], [2.0, 0.5]);
     let dxf = dxf.line("joint-idle", [0.0, 3.0], [1.0, 3.0]).polygons("frame", &[at(5.0, 5.0)]);
-    let options = Options { ignore: vec!["Frame".to_owned()], ..Options::default() };
+    let options = ImportOptions { ignore: vec!["Frame".to_owned()], ..ImportOptions::default() };
     let imported = dxf.import_with(&options);
     let scene = &imported.scene;
     let names: Vec<&str> = scene.blocks.iter().map(|it| it.name.as_str()).collect();

@@ -3,7 +3,7 @@
 use std::fmt;
 use std::ops::ControlFlow;
 
-use masonry::analysis::study::{self, Progress};
+use masonry::analysis::study::{self, StudyProgress};
 use masonry::{
     Bracket, Laws, LimitError, Scene, least_thickness_observed, limit_observed, ranges_observed,
 };
@@ -83,7 +83,7 @@ pub(super) fn thickness(
 }
 
 pub(super) fn study(scene: &Scene, watch: &mut Watch<'_>) -> Result<Found, Fault> {
-    let mut observe = |at: Progress| -> ControlFlow<()> {
+    let mut observe = |at: StudyProgress| -> ControlFlow<()> {
         watch(&format_args!("{} to {:e}, mesh {}", at.route.name(), at.tolerance, at.mesh))
     };
     let settings = study::Settings::default();

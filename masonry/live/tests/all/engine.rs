@@ -3,7 +3,7 @@
 use std::fmt::Display;
 use std::ops::ControlFlow;
 
-use masonry_drawing::{Drawing, Format};
+use masonry_drawing::{Drawing, DrawingFormat};
 use masonry_live::beginnings::BEGINNINGS;
 use masonry_live::engine::Engine;
 use serde_json::{Value, json};
@@ -178,7 +178,8 @@ fn ranges_and_thicknesses_have_a_sentence_and_a_report() {
 #[test]
 fn an_exported_drawing_has_the_blocks_of_the_scene() {
     let file = ask(&json!({ "task": "export", "text": DOOR, "format": "dxf" }));
-    let drawing = Drawing::read(file["file"].as_str().unwrap().as_bytes(), Format::Dxf).unwrap();
+    let drawing =
+        Drawing::read(file["file"].as_str().unwrap().as_bytes(), DrawingFormat::Dxf).unwrap();
     let scene = masonry::Scene::from_toml(DOOR).unwrap();
     let model = masonry::Model::from_scene(&scene).unwrap();
     let outlines = drawing.outlines.iter().filter(|it| it.layer == "blocks");

@@ -7,7 +7,7 @@ use crate::format::Quantity::{Force, Length, Pure};
 use crate::format::{InUnits, significant};
 use crate::moving::moving_part;
 use masonry::analysis::limit::{
-    Associative, Change, JointEvent, Path, Range, Rest, Stand, Thickness,
+    Associative, JointChange, JointEvent, Path, Range, Rest, Stand, Thickness,
 };
 use masonry::data::statics::Extreme;
 use masonry::model::Model;
@@ -116,9 +116,9 @@ pub(crate) fn events(path: &Path) -> Table {
         .words("between", |it| sides(it.1)[0])
         .words("and", |it| sides(it.1)[1])
         .words("change", |it| match it.1.change {
-            Change::Hinges => "hinges",
-            Change::Opens => "opens",
-            Change::Slides => "slides",
+            JointChange::Hinges => "hinges",
+            JointChange::Opens => "opens",
+            JointChange::Slides => "slides",
         })
         .number("after", Pure, Significant(5), |it| it.1.after)
         .number("before", Pure, Significant(5), |it| it.1.before)

@@ -111,7 +111,7 @@ impl Series {
 
 /// A place where something begins, and its name.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Beginning {
+pub struct CurveStart {
     /// On the axis across.
     pub at: f64,
     /// Beside a line there.
@@ -132,7 +132,7 @@ pub struct Diagram {
     /// Later ones are drawn over earlier ones.
     pub series: Vec<Series>,
     /// Where stages begin.
-    pub stages: Vec<Beginning>,
+    pub stages: Vec<CurveStart>,
     /// Where a page marks the step that it shows: a place for every step; none in a file.
     pub steps: Vec<f64>,
 }
@@ -274,7 +274,7 @@ impl<'a> Panel<'a> {
             labels.avoid(line(it.at));
         }
         canvas.group("class=\"labels\"", |canvas| {
-            for Beginning { at, name: text } in &self.diagram.stages {
+            for CurveStart { at, name: text } in &self.diagram.stages {
                 let at = Pixel::new(self.across.at(*at) + TICK, top + TEXT_LINE);
                 let side = nalgebra::Vector2::x();
                 labels.draw(canvas, &Label { text, size: TEXT, at, side, name: "" });

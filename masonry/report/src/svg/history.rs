@@ -1,7 +1,7 @@
 //! Curves: loads or reactions of a load history against displacements, and both step by step; the factor along the path of
 //! a limit load.
 
-use super::diagram::{Beginning, Diagram, Look, Series, picture};
+use super::diagram::{CurveStart, Diagram, Look, Series, picture};
 use crate::figures::history::steps;
 use crate::figures::limit::curve;
 use crate::figures::{Table, Value};
@@ -154,9 +154,9 @@ fn most_moved<'a>(model: &'a Model, table: &Table) -> Option<Moved<'a>> {
 }
 
 /// The first step of every stage.
-fn stages(records: &[StepRecord]) -> Vec<Beginning> {
+fn stages(records: &[StepRecord]) -> Vec<CurveStart> {
     let all = (1..).zip(records).filter(|(_, it)| it.step.number == 1);
-    all.map(|(number, it)| Beginning { at: f64::from(number), name: it.step.stage.clone() })
+    all.map(|(number, it)| CurveStart { at: f64::from(number), name: it.step.stage.clone() })
         .collect()
 }
 

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use crate::synthetic::{self, Wall};
 use masonry_report::svg::ReferenceLines;
-use masonry_report::{Format, Options, OutputError, write_all};
+use masonry_report::{OutputError, OutputFormat, ReportOptions, write_all};
 use nalgebra::Point2;
 
 /// A directory of its own for each test, empty at the start.
@@ -36,7 +36,7 @@ fn reference() -> ReferenceLines {
 fn a_solved_scene_gives_every_file_and_no_other() {
     let dir = directory("solved");
     let outcome = synthetic::solved(Wall::PANEL);
-    let options = Options { reference: Some(reference()), ..Options::default() };
+    let options = ReportOptions { reference: Some(reference()), ..ReportOptions::default() };
     let written = write_all(&outcome, &dir, &options).unwrap();
     let expected = [
         "contacts.csv",
@@ -57,7 +57,7 @@ fn a_solved_scene_gives_every_file_and_no_other() {
 #[test]
 fn an_unsolved_scene_gives_what_is_known() {
     let dir = directory("unsolved");
-    write_all(&synthetic::unsolved(Wall::PANEL), &dir, &Options::default()).unwrap();
+    write_all(&synthetic::unsolved(Wall::PANEL), &dir, &ReportOptions::default()).unwrap();
     let expected = ["mechanism.svg", "panel.vtu", "report.txt", "result.json", "scene.svg"];
     assert_eq!(names(&dir), expected);
 }
@@ -66,7 +66,7 @@ fn an_unsolved_scene_gives_what_is_known() {
 fn equal_outcomes_give_equal_bytes() {
     let (one, other) = (directory("first"), directory("second"));
     for dir in [&one, &other] {
-        write_all(&synthetic::solved(Wall::PANEL), dir, &Options::default()).unwrap();
+        write_all(&synthetic::solved(Wall::PANEL), dir, &ReportOptions::default()).unwrap();
     }
     for name in names(&one) {
         assert_eq!(fs::read(one.join(&name)).unwrap(), fs::read(other.join(&name)).unwrap());
@@ -79,7 +79,7 @@ fn a_file_that_fails_is_named_and_the_others_are_written() {
     // A directory in the place of a file cannot be replaced by a rename.
     fs::create_dir_all(dir.join("deformed.svg")).unwrap();
     let outcome = synthetic::solved(Wall::PANEL);
-    let error = write_all(&outcome, &dir, &Options::default()).unwrap_err();
+    let error = write_all(&outcome, &dir, &ReportOptions::default()).unwrap_err();
     let OutputError::Files { written, failed } = &error else { panic!("{error}") };
     assert_eq!(failed.len(), 1);
     assert_eq!(failed[0].0, dir.join("deformed.svg"));
@@ -100,14 +100,14 @@ fn a_directory_that_cannot_be_made_is_named() {
     fs::write(dir.join("file"), "").unwrap();
     let below = dir.join("file").join("below");
     let error =
-        write_all(&synthetic::solved(Wall::PANEL), &below, &Options::default()).unwrap_err();
+        write_all(&synthetic::solved(Wall::PANEL), &below, &ReportOptions::default()).unwrap_err();
     assert!(matches!(&error, OutputError::Directory { path, .. } if *path == below), "{error}");
 }
 
 #[test]
 fn only_the_formats_asked_for_are_written() {
     let dir = directory("one_format");
-    let options = Options { formats: vec![Format::Csv], reference: None };
+    let options = ReportOptions { formats: vec![OutputFormat::Csv], reference: None };
     write_all(&synthetic::solved(Wall::PANEL), &dir, &options).unwrap();
     assert_eq!(names(&dir), ["contacts.csv"]);
 }

@@ -6,7 +6,7 @@ mod steps;
 use nalgebra::Vector2;
 
 use events::EventSearch;
-pub use events::{Change, JointEvent};
+pub use events::{JointChange, JointEvent};
 use steps::{AtRest, StepEnd, Steps};
 
 use super::watch::{Bracket, Watch};

@@ -5,7 +5,7 @@ use serde::Serialize;
 
 use super::runs::{Ran, Runner};
 use super::verified::{Exact, Verification};
-use super::{End, Errors, Figures, Progress};
+use super::{End, Errors, Figures, StudyProgress};
 use crate::analysis::outcome::Outcome;
 use crate::scene::{Route, Scene};
 use crate::verify::checks::Checks;
@@ -113,7 +113,7 @@ fn tightest(
 ) -> Option<RankedReference> {
     let tolerances = if route == Route::Alm { &CONVERGED[..] } else { &TOLERANCES[..] };
     for &tolerance in tolerances {
-        let ran = runner.run(scene, Progress { mesh, route, tolerance });
+        let ran = runner.run(scene, StudyProgress { mesh, route, tolerance });
         if let (Some(outcome), Some(seconds)) = (ran.solved(), ran.seconds) {
             let exact = Exact::of(outcome);
             let reference = Reference {

@@ -5,7 +5,7 @@ use web_time::{Duration, Instant};
 
 use lcp::Status;
 
-use super::{End, Figures, Progress, Record, Settings, StudyObserver};
+use super::{End, Figures, Record, Settings, StudyObserver, StudyProgress};
 use crate::analysis::outcome::Outcome;
 use crate::analysis::solve::solve_observed;
 use crate::model::Model;
@@ -76,7 +76,7 @@ pub(super) struct Runner<'a> {
     settings: &'a Settings,
     observer: &'a mut StudyObserver<'a>,
     is_interrupted: bool,
-    beyond: Vec<(Beyond, Progress)>,
+    beyond: Vec<(Beyond, StudyProgress)>,
     /// The last record by pivots, with its balances.
     pivots: Option<(Record, Checks)>,
 }
@@ -100,14 +100,14 @@ impl<'a> Runner<'a> {
     pub(super) fn record(
         &mut self,
         scene: &Scene,
-        at: Progress,
+        at: StudyProgress,
         reference: Option<&Figures>,
     ) -> Record {
         if let Some(same) = self.same_pivots(at) {
             return same;
         }
         let ran = self.run(scene, at);
-        let Progress { mesh, route, tolerance } = at;
+        let StudyProgress { mesh, route, tolerance } = at;
         let count = |outcome: &Outcome| match route {
             Route::Lemke => outcome.solve.pivots,
             _ => outcome.solve.iterations,
@@ -135,8 +135,8 @@ impl<'a> Runner<'a> {
 
     /// Pivots are the same to every tolerance that their residual is below: only what is called solved
     /// depends on it.
-    fn same_pivots(&self, at: Progress) -> Option<Record> {
-        let Progress { mesh, route, tolerance } = at;
+    fn same_pivots(&self, at: StudyProgress) -> Option<Record> {
+        let StudyProgress { mesh, route, tolerance } = at;
         let (last, checks) = self.pivots.as_ref()?;
         let is_same = route == Route::Lemke && last.mesh == mesh && tolerance <= last.tolerance;
         let is_reached = last.residual.is_some_and(|residual| residual <= tolerance);
@@ -146,8 +146,8 @@ impl<'a> Runner<'a> {
 
     /// Solves a scene, several times if that is quick. Skips it if the time ran out at a looser tolerance or
     /// on a coarser mesh, or if the iterations ran out at a looser tolerance.
-    pub(super) fn run(&mut self, scene: &Scene, at: Progress) -> Ran {
-        let is_easier = |(beyond, other): &&(Beyond, Progress)| {
+    pub(super) fn run(&mut self, scene: &Scene, at: StudyProgress) -> Ran {
+        let is_easier = |(beyond, other): &&(Beyond, StudyProgress)| {
             let on_mesh = other.mesh == at.mesh || *beyond == Beyond::Time && other.mesh <= at.mesh;
             other.route == at.route && on_mesh && other.tolerance >= at.tolerance
         };
@@ -183,12 +183,12 @@ impl<'a> Runner<'a> {
     }
 
     /// Asks the observer; once it has ended the study, it is not asked again.
-    fn ask(&mut self, at: Progress) -> ControlFlow<()> {
+    fn ask(&mut self, at: StudyProgress) -> ControlFlow<()> {
         self.is_interrupted = self.is_interrupted || (self.observer)(at).is_break();
         if self.is_interrupted { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     }
 
-    fn once(&mut self, scene: &Scene, at: Progress) -> Ran {
+    fn once(&mut self, scene: &Scene, at: StudyProgress) -> Ran {
         let began = Instant::now();
         let limit = self.settings.time_limit;
         let result = solve_observed(scene, &mut |_| {
@@ -209,7 +209,7 @@ impl<'a> Runner<'a> {
 }
 
 /// The scene by a route to a tolerance, with the stresses that are compared.
-fn on_route(scene: &Scene, Progress { route, tolerance, .. }: Progress) -> Scene {
+fn on_route(scene: &Scene, StudyProgress { route, tolerance, .. }: StudyProgress) -> Scene {
     let mut scene = scene.clone().route(route).tolerance(tolerance).stresses(true);
     scene.solver.soft = None;
     if route != Route::Lemke {

@@ -2,13 +2,13 @@
 
 use nalgebra::Point2;
 
-use super::{Arch, Line, Shape};
+use super::{Arch, JointLine, Shape};
 use crate::geometry;
 use crate::scene::rules::{One, exactly_one, needed, positive, unwanted, value};
 use crate::scene::{ArchError, Fault, KeyPath};
 
 /// The joints from the left springing to the right, each from the intrados to the extrados \[length\].
-pub(crate) fn lines(arch: &Arch, at: &KeyPath) -> Result<Vec<Line>, Fault> {
+pub(crate) fn lines(arch: &Arch, at: &KeyPath) -> Result<Vec<JointLine>, Fault> {
     refuse_others(arch, at)?;
     if arch.shape == Shape::Joints {
         return given(arch, at);
@@ -33,7 +33,7 @@ pub(crate) fn lines(arch: &Arch, at: &KeyPath) -> Result<Vec<Line>, Fault> {
 }
 
 /// The given joints, checked to bound voussoirs.
-fn given(arch: &Arch, at: &KeyPath) -> Result<Vec<Line>, Fault> {
+fn given(arch: &Arch, at: &KeyPath) -> Result<Vec<JointLine>, Fault> {
     let because = "for `shape = \"joints\"`";
     let remedy = "lines = [[[0.0, 0.0], [0.0, 0.2]], [[0.5, 0.0], [0.5, 0.2]]]";
     let lines = needed(arch.lines.clone(), at, "lines", because, remedy)?;
@@ -114,14 +114,20 @@ impl Size {
     }
 
     /// Joints towards a centre, at equal angles from the vertical.
-    fn fan(&self, [x, y]: [f64; 2], radius: f64, [from, to]: [f64; 2], count: u32) -> Vec<Line> {
+    fn fan(
+        &self,
+        [x, y]: [f64; 2],
+        radius: f64,
+        [from, to]: [f64; 2],
+        count: u32,
+    ) -> Vec<JointLine> {
         let at = |radius: f64, angle: f64| [x + radius * angle.sin(), y + radius * angle.cos()];
         let angle = |k: u32| from + (to - from) * f64::from(k) / f64::from(count);
         (0..=count).map(|k| [radius, radius + self.thickness].map(|r| at(r, angle(k)))).collect()
     }
 
     /// Two arcs about centres at the height of the springings, and a vertical joint at the crown.
-    fn pointed(&self, arch: &Arch, at: &KeyPath) -> Result<Vec<Line>, Fault> {
+    fn pointed(&self, arch: &Arch, at: &KeyPath) -> Result<Vec<JointLine>, Fault> {
         let rise = needed(arch.rise, at, "rise", "for a pointed arch", "rise = 2.0")?;
         positive(at.key("rise"), rise)?;
         let (half, count) = (0.5 * self.span, self.count);
@@ -142,14 +148,14 @@ impl Size {
             self.fan(self.place([radius, 0.0]), radius, [-RIGHT_ANGLE, angle], count / 2);
         lines.pop();
         let mirrored = |[x, y]: [f64; 2]| [2.0 * self.origin[0] + self.span - x, y];
-        let right: Vec<Line> = lines.iter().rev().map(|line| line.map(mirrored)).collect();
+        let right: Vec<JointLine> = lines.iter().rev().map(|line| line.map(mirrored)).collect();
         lines.push(crown);
         lines.extend(right);
         Ok(lines)
     }
 
     /// Joints at equal distances along the intrados, towards one point below its middle.
-    fn flat(&self, arch: &Arch, at: &KeyPath) -> Result<Vec<Line>, Fault> {
+    fn flat(&self, arch: &Arch, at: &KeyPath) -> Result<Vec<JointLine>, Fault> {
         let because = "for a flat arch";
         let skew = needed(arch.skew_deg, at, "skew_deg", because, "skew_deg = 20.0")?;
         let wanted = "the springings of a flat arch lean by at least 0 and at most 80 degrees";

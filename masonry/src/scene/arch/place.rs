@@ -1,7 +1,7 @@
 //! The blocks and supports of an arch.
 
 use super::lines::MOST;
-use super::{Arch, Line, Piers, lines};
+use super::{Arch, JointLine, Piers, lines};
 use crate::geometry::SAME_PLACE;
 use crate::rounding::rounded;
 use crate::scene::rules::{positive, value};
@@ -52,7 +52,7 @@ pub(crate) fn blocks(arch: &Arch, at: &KeyPath) -> Result<Vec<NamedBlock>, Fault
 }
 
 /// The place at a fraction of a joint, from the intrados; exactly its ends at 0 and 1.
-fn on([[x, y], [to_x, to_y]]: Line, at: f64) -> [f64; 2] {
+fn on([[x, y], [to_x, to_y]]: JointLine, at: f64) -> [f64; 2] {
     if at >= 1.0 { [to_x, to_y] } else { [x + (to_x - x) * at, y + (to_y - y) * at] }
 }
 
@@ -60,7 +60,7 @@ fn on([[x, y], [to_x, to_y]]: Line, at: f64) -> [f64; 2] {
 pub(crate) fn supports(arch: &Arch, at: &KeyPath) -> Result<Vec<Support>, Fault> {
     let Some(class) = &arch.springing else { return Ok(Vec::new()) };
     let lines = lines(arch, at)?;
-    let support = |(side, sign, [inner, outer]): (&str, f64, Line)| {
+    let support = |(side, sign, [inner, outer]): (&str, f64, JointLine)| {
         let (from, to) = match arch.piers {
             Some(Piers { width, height, .. }) => {
                 let y = inner[1] - height;
@@ -95,7 +95,7 @@ impl Scene {
 }
 
 /// Both springings, each with the direction in which its pier lies.
-fn ends(lines: &[Line]) -> [(&'static str, f64, Line); 2] {
+fn ends(lines: &[JointLine]) -> [(&'static str, f64, JointLine); 2] {
     [("left", -1.0, lines[0]), ("right", 1.0, lines[lines.len() - 1])]
 }
 
@@ -105,7 +105,7 @@ fn pier(
     at: &KeyPath,
     side: &'static str,
     sign: f64,
-    [inner, outer]: Line,
+    [inner, outer]: JointLine,
 ) -> Result<Vec<[[f64; 2]; 4]>, Fault> {
     let Piers { width, height, courses } = *piers;
     positive(at.key("width"), width)?;

@@ -1,8 +1,10 @@
 //! A hard problem, and what every method gives for it.
 
 use lcp::{Error, HorizontalLcp, LemkeSettings, Solution, Status};
-use lcp_problems::exact::{Enumeration, EnumerationSettings, Feasibility, enumerate, feasibility};
-use lcp_problems::families::{Instance, Known};
+use lcp_problems::exact::{
+    EnumerationSettings, ExactEnumeration, Feasibility, enumerate, feasibility,
+};
+use lcp_problems::families::{Instance, KnownAnswer};
 
 use super::data::Point;
 use super::measure::{Measure, is_proof, largest, of_general};
@@ -15,7 +17,7 @@ pub enum Truth {
     /// This is one of them, exactly.
     Planted { t: Vec<f64>, y: Vec<f64> },
     /// All of them, in rational numbers.
-    All(Enumeration),
+    All(ExactEnumeration),
     /// There is one.
     Solvable,
     /// There is none.
@@ -86,16 +88,16 @@ impl Case {
             _ => (t, y),
         };
         match instance.known {
-            Known::Unique { t, y } => {
+            KnownAnswer::Unique { t, y } => {
                 let point = pairs(t, y);
                 case.unique(point, condition)
             }
-            Known::Solution { t, y } => {
+            KnownAnswer::Solution { t, y } => {
                 let point = pairs(t, y);
                 case.planted(point)
             }
-            Known::Infeasible { .. } => case.unsolvable("no solution, with a planted proof"),
-            Known::Solvable => case,
+            KnownAnswer::Infeasible { .. } => case.unsolvable("no solution, with a planted proof"),
+            KnownAnswer::Solvable => case,
         }
     }
 

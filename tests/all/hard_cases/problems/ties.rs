@@ -101,7 +101,9 @@ fn planted(name: &str, why: &'static str, n: usize, tenths: usize) -> Case {
 /// A membrane that touches its obstacle everywhere around a bubble, without pressing on it.
 fn touching(why: &'static str) -> Case {
     let planted = families::obstacle(12);
-    let families::Known::Unique { t, .. } = planted.known else { unreachable!("one solution") };
+    let families::KnownAnswer::Unique { t, .. } = planted.known else {
+        unreachable!("one solution")
+    };
     let m = planted.problem.m().clone();
     let q: Vec<f64> =
         (0..t.len()).map(|i| -m.column(i).map(|(j, v)| v * t[j]).sum::<f64>()).collect();

@@ -2,8 +2,8 @@
 
 use std::fmt::Write as _;
 
-use masonry_drawing::{Drawing, Format};
-use masonry_import::{Imported, Options, import};
+use masonry_drawing::{Drawing, DrawingFormat};
+use masonry_import::{ImportOptions, Imported, import};
 
 pub type Polygon = Vec<[f64; 2]>;
 
@@ -117,16 +117,16 @@ impl Dxf {
     }
 
     pub fn read(&self) -> Drawing {
-        Drawing::read(self.text().as_bytes(), Format::Dxf).unwrap()
+        Drawing::read(self.text().as_bytes(), DrawingFormat::Dxf).unwrap()
     }
 
     #[track_caller]
     pub fn import(&self) -> Imported {
-        self.import_with(&Options::default())
+        self.import_with(&ImportOptions::default())
     }
 
     #[track_caller]
-    pub fn import_with(&self, options: &Options) -> Imported {
+    pub fn import_with(&self, options: &ImportOptions) -> Imported {
         import(&self.read(), options).unwrap_or_else(|error| panic!("{error}"))
     }
 }

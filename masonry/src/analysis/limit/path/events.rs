@@ -23,7 +23,7 @@ const STEPS_BY_POINTS: usize = 5000;
 /// A change of a joint.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize)]
 #[serde(rename_all = "lowercase")]
-pub enum Change {
+pub enum JointChange {
     /// One of its points opens: the joint is a hinge.
     Hinges,
     /// All of its points are open.
@@ -32,7 +32,7 @@ pub enum Change {
     Slides,
 }
 
-impl Change {
+impl JointChange {
     /// Whether a joint does more than before. One that was open and meets at one end has no hinge there.
     fn is_after(self, before: Option<Self>) -> bool {
         before != Some(self) && (self, before) != (Self::Hinges, Some(Self::Opens))
@@ -45,7 +45,7 @@ pub struct JointEvent {
     /// The joint.
     pub joint: JointId,
     /// The change.
-    pub change: Change,
+    pub change: JointChange,
     /// The load factor \[-\] of the last state at rest before the change.
     pub after: f64,
     /// The load factor \[-\] of the first state at rest after it.
@@ -75,12 +75,12 @@ impl EventSearch<'_> {
         let at_zero = rests.first().map(|(_, rest)| rest.u.clone()).unwrap_or_default();
         // The next state comes last.
         rests.reverse();
-        let mut last: Option<(f64, AtRest, Vec<Option<Change>>)> = None;
+        let mut last: Option<(f64, AtRest, Vec<Option<JointChange>>)> = None;
         while let Some((factor, rest)) = rests.pop() {
             let statuses = statuses(self.system, self.steps.sparse, &rest);
             let changes = self.changes(&statuses);
             if let Some((after, before, earlier)) = &last {
-                let new: Vec<(usize, Change)> = (0..changes.len())
+                let new: Vec<(usize, JointChange)> = (0..changes.len())
                     .filter_map(|k| Some((k, changes[k].filter(|it| it.is_after(earlier[k]))?)))
                     .filter(|(k, change)| !known[*k].contains(change))
                     .collect();
@@ -105,7 +105,7 @@ impl EventSearch<'_> {
         Ok((events, curve))
     }
 
-    fn changes(&self, statuses: &[PointStatus]) -> Vec<Option<Change>> {
+    fn changes(&self, statuses: &[PointStatus]) -> Vec<Option<JointChange>> {
         (0..self.model.joints.len()).map(|joint| change(self.model, joint, statuses)).collect()
     }
 
@@ -127,7 +127,7 @@ impl EventSearch<'_> {
     }
 }
 
-fn change(model: &Model, joint: usize, statuses: &[PointStatus]) -> Option<Change> {
+fn change(model: &Model, joint: usize, statuses: &[PointStatus]) -> Option<JointChange> {
     let of_joint = model.contacts.iter().zip(statuses);
     let of_joint = of_joint.filter(|(contact, _)| contact.joint.index() == joint);
     let (mut open, mut slides, mut all) = (0, 0, 0);
@@ -137,9 +137,9 @@ fn change(model: &Model, joint: usize, statuses: &[PointStatus]) -> Option<Chang
         slides += usize::from(*status == PointStatus::Slip);
     }
     match (open, slides) {
-        _ if all > 0 && open == all => Some(Change::Opens),
-        (open, slides) if slides > 0 && open + slides == all => Some(Change::Slides),
-        (1.., _) => Some(Change::Hinges),
+        _ if all > 0 && open == all => Some(JointChange::Opens),
+        (open, slides) if slides > 0 && open + slides == all => Some(JointChange::Slides),
+        (1.., _) => Some(JointChange::Hinges),
         _ => None,
     }
 }
