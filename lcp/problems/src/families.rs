@@ -21,7 +21,7 @@
 //!
 //! let instance = families::positive_definite(10, 1);
 //! let solution = Lemke::default().solve(&instance.problem)?;
-//! let Known::Unique { t, .. } = instance.known else { panic!("positive definite") };
+//! let KnownAnswer::Unique { t, .. } = instance.known else { panic!("positive definite") };
 //! assert!(t.iter().zip(&solution.t).all(|(z, found)| (z - found).abs() < 1e-12));
 //! # Ok::<(), lcp::Error>(())
 //! ```

@@ -109,7 +109,7 @@ pub fn read_file(path: &Path, format: Option<ProblemFormat>) -> Result<ProblemFi
 /// ```
 /// use lcp_problems::io::{ProblemFormat, read};
 /// let file = read(b"2   2 1  1 2   -5 -6  # n, M by rows, q", None)?;
-/// assert_eq!(file.format, Format::Text);
+/// assert_eq!(file.format, ProblemFormat::Text);
 /// assert_eq!(file.problem.order(), 2);
 /// # Ok::<(), lcp_problems::io::ReadError>(())
 /// ```

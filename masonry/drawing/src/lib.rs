@@ -5,7 +5,7 @@
 //! ```
 //! use masonry_drawing::{Drawing, DrawingFormat};
 //! let text = r#"[{ "material": "stone", "corners": [[0, 0], [2, 0], [2, 1], [0, 1]] }]"#;
-//! let drawing = Drawing::read(text.as_bytes(), Format::List)?;
+//! let drawing = Drawing::read(text.as_bytes(), DrawingFormat::List)?;
 //! assert_eq!(drawing.outlines[0].layer, "stone");
 //! # Ok::<(), masonry_drawing::DrawingError>(())
 //! ```

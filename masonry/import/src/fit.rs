@@ -6,7 +6,7 @@ use super::gaps::{self, Grown};
 use super::report::metres;
 use super::sheet::Sheet;
 use super::stones::{Stone, near_pairs};
-use super::{ImportError, ImportErrorKind, ImportOptions, supports};
+use super::{ImportError, ImportErrorKind, ImportOptions};
 use masonry::geometry;
 use masonry::model::heal::heal;
 use masonry::model::{Movement, PlacedBlock, PlacedSupport};
@@ -26,7 +26,6 @@ impl Fitted {
     /// # Errors
     /// What cannot meet or still overlaps.
     pub(crate) fn of(sheet: &mut Sheet, options: &ImportOptions) -> Result<Self, ImportError> {
-        supports::without_overlaps(sheet);
         let grown = gaps::grow(sheet, options.joints)?;
         move_together(sheet)?;
         check_overlaps(sheet)?;

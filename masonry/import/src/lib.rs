@@ -6,7 +6,7 @@
 //! // Two stones, the upper one a millimetre too low.
 //! let text = r#"[{ "material": "stone", "corners": [[0, 0], [2, 0], [2, 1], [0, 1]] },
 //!                { "material": "stone", "corners": [[0, 0.999], [2, 0.999], [2, 2], [0, 2]] }]"#;
-//! let drawing = Drawing::read(text.as_bytes(), Format::List)?;
+//! let drawing = Drawing::read(text.as_bytes(), DrawingFormat::List)?;
 //! let imported = import(&drawing, &ImportOptions::default())?;
 //! assert_eq!(imported.scene.blocks[1].corners[0], [0.0, 0.9995]);
 //! assert!(imported.report().contains("corners were moved"));
@@ -49,6 +49,7 @@ pub fn import(drawing: &Drawing, options: &ImportOptions) -> Result<Imported, Im
     let attempt = |tolerance| -> Result<Imported, ImportError> {
         let mut sheet = Sheet::of(drawing, options, tolerance)?;
         let floor = floor::add(&mut sheet)?;
+        supports::without_overlaps(&mut sheet);
         let fitted = Fitted::of(&mut sheet, options)?;
         let mut imported = build::scene(sheet, &fitted, options)?;
         imported.assumed.extend(floor);

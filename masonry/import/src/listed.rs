@@ -26,6 +26,9 @@ fn drawn(path: &Path, bytes: &[u8], scene: &Scene) -> Result<Drawn, String> {
         .ok_or("drawings end in .dxf, .svg, .obj or .json: save it as one of these")?;
     let drawing = Drawing::read(bytes, format).map_err(|error| error.to_string())?;
     let imported = imported(&drawing, scene).map_err(|error| {
+        // The remedy of an overlap is an option of `import`.
+        let error = error.to_string();
+        let error = error.trim_end_matches([':', ' ']);
         format!(
             "{error}; in a scene the tolerance is `contact.tolerance`; other options need `masonry import`"
         )

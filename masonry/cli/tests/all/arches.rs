@@ -108,7 +108,7 @@ fn friction_below_two_fifths_makes_arches_thicker() {
 #[test]
 fn a_thinner_arch_that_does_not_fit_ends_the_search() {
     let load =
-        "[[loads]]\nname = \"weight\"\nblock = \"arch/5\"\nat = [0.9, 0.95]\nforce = [0.0, -1.0]";
+        "[[loads]]\nname = \"weight\"\nblock = \"arch/5\"\nat = [0.9, 1.05]\nforce = [0.0, -1.0]";
     let found = limit("unfit", &scene(1.0, &semicircular(0.2, 9), load), &["--thickness", "arch"]);
     assert!(found["proved"] == false && found["stands"] == 0.2, "{found}");
     let sentence = found["sentence"].as_str().unwrap();

@@ -239,7 +239,10 @@ fn mistakes_in_a_drawing_have_the_entity() {
         overlap.contains("LWPOLYLINE 1 (line ") && overlap.contains("overlap by 0.1 m"),
         "{overlap}"
     );
-    assert!(overlap.contains("--tolerance is contact.tolerance"), "{overlap}");
+    assert!(
+        overlap.contains("closes; in a scene the tolerance is `contact.tolerance`"),
+        "{overlap}"
+    );
     let bad = drawn("ending", &DRAWING, SMOOTH);
     let text = fs::read_to_string(&bad).unwrap().replace("portal.dxf", "portal.dwg");
     fs::write(&bad, text).unwrap();

@@ -107,8 +107,7 @@ fn supports_and_loads_in_a_wrong_place() {
     let twice =
         hook.replace("hook", "again").replace("[7, 1]", "[3, 0]").replace("[8, 1]", "[0.5, 0]");
     let error = error_of("[[supports]]", &twice);
-    let words =
-        "\"again\" and \"floor\" lie on each other along block \"wall/0/2\" for a length of ";
+    let words = "\"again\" and \"floor\" lie on each other along block \"wall/1/";
     assert!(error.to_string().contains(words), "{error}");
     assert!(error.to_string().contains("remove one of them"), "{error}");
     assert_eq!(error.key(), "supports[1]");
