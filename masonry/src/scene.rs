@@ -57,7 +57,7 @@ use serde::{Deserialize, Serialize};
 
 pub use self::arch::{Arch, JointLine, Piers, Shape};
 pub use self::arch_error::ArchError;
-pub use self::combinations::{Combination, Combined};
+pub use self::combinations::{Combination, Combined, OPPOSITE};
 pub use self::contact::{Contact, Films, PointRule};
 pub use self::drawn::{Drawings, Drawn};
 pub(crate) use self::error::Fault;

@@ -14,7 +14,7 @@ use masonry::analysis::limit::{
     Bracket, Directions, Laws, Limit, growing, least_thickness_observed, limit_observed,
     ranges_observed, train_observed,
 };
-use masonry::scene::{Combined, Scene};
+use masonry::scene::{Combined, OPPOSITE, Scene};
 use masonry_import::read_scene;
 use masonry_report::cases::Cases;
 use masonry_report::{self as report, limit as output};
@@ -97,13 +97,13 @@ pub(super) fn run(args: &LimitArgs) -> Result<u8, Failure> {
     };
     let limit = found.limit();
     let written = match &out {
-        Some(out) => output::write_of(limit, found.cases(), out.path()),
+        Some(out) => output::write(limit, found.cases(), out.path()),
         None => Ok(Vec::new()),
     };
     // What was computed is printed even when a file could not be written.
     let in_out = written.as_deref().unwrap_or_default();
     let mut files = in_out.to_vec();
-    let page = || report::page::limit_of(limit, found.cases());
+    let page = || report::page::limit(limit, found.cases());
     let page = page::write(args.report.as_deref(), page, &mut files);
     let names = names(&files);
     let text = match (&found, args.json) {
@@ -172,7 +172,7 @@ fn combined(scene: &Scene, args: &LimitArgs) -> Result<Search, Failure> {
     let is_one_way = scene.reversed(&group) == *scene;
     if args.both && !is_one_way && !scene.is_earthquake(&group) {
         let both = |it: Combined<Scene>| {
-            let (name, of) = (format!("{}, opposite", it.name), it.of.reversed(&group));
+            let (name, of) = (format!("{}{OPPOSITE}", it.name), it.of.reversed(&group));
             [it, Combined { name, of }]
         };
         scenes = scenes.into_iter().flat_map(both).collect();

@@ -73,7 +73,7 @@ pub(super) fn run(args: &SolveArgs) -> Result<u8, Failure> {
     in_out.extend_from_slice(written.as_deref().unwrap_or_default());
     let mut files = in_out.clone();
     let (reference, lines) = (options.reference.as_ref(), lines.as_ref());
-    let page = || report::page::solved_of(&outcome, &frames, reference, lines);
+    let page = || report::page::solved(&outcome, &frames, reference, lines);
     let page = page::write(args.report.as_deref(), page, &mut files);
     let names = names(&files);
     print(&match (lines, args.json) {

@@ -25,12 +25,12 @@ impl Found {
 
     pub(crate) fn limit(limit: &masonry::Limit) -> PyResult<Self> {
         let json = report::limit::json(limit, &[]).map_err(failed)?;
-        Ok(Self { text: report::limit::table(limit), json, page: Some(page::limit(limit)) })
+        Ok(Self { text: report::limit::table(limit), json, page: Some(page::limit(limit, None)) })
     }
 
     pub(crate) fn directions(both: &Directions) -> PyResult<Self> {
         let json = report::limit::json_both(both, &[]).map_err(failed)?;
-        let page = Some(page::limit(both.governing()));
+        let page = Some(page::limit(both.governing(), None));
         Ok(Self { text: report::limit::table_both(both), json, page })
     }
 
@@ -39,7 +39,7 @@ impl Found {
         let object = report::limit::json(limit, &[]).map_err(failed)?;
         let json = cases.json("limit", &object).map_err(failed)?;
         let text = cases.head() + &report::limit::table(limit);
-        Ok(Self { text, json, page: Some(page::limit_of(limit, Some(&cases))) })
+        Ok(Self { text, json, page: Some(page::limit(limit, Some(&cases))) })
     }
 
     pub(crate) fn range(range: &Range) -> PyResult<Self> {

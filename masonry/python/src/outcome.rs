@@ -42,7 +42,7 @@ impl Outcome {
     }
 
     fn page(&self) -> String {
-        page::solved(&self.outcome, &[], None)
+        page::solved(&self.outcome, &[], None, None)
     }
 
     /// The contact points as CSV; `None` without a state.

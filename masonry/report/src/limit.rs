@@ -19,19 +19,11 @@ use masonry::data::state::{PointState, Reaction};
 use masonry::model::Model;
 
 /// Writes `forces.svg` and `mechanism.svg`, if there are forces and a mechanism, the same of the path with its curve, and
-/// `limit.json`, which lists them, into `dir`, which is created.
+/// `limit.json`, which lists them, into `dir`, which is created; and `train.svg` if the cases are the positions of a train.
 ///
 /// # Errors
 /// [`OutputError`] for a directory that cannot be made, and for files that cannot be written.
-pub fn write(limit: &Limit, dir: &Folder) -> Result<Vec<PathBuf>, OutputError> {
-    write_of(limit, None, dir)
-}
-
-/// Writes pictures and JSON of a limit load, and `train.svg` for a train.
-///
-/// # Errors
-/// As [`write()`].
-pub fn write_of(
+pub fn write(
     limit: &Limit,
     cases: Option<&Cases>,
     dir: &Folder,

@@ -10,8 +10,8 @@ mod limit;
 mod solved;
 mod tables;
 
-pub use limit::{limit, limit_of, thickness};
-pub use solved::{is_framed, solved, solved_of};
+pub use limit::{limit, thickness};
+pub use solved::{is_framed, solved};
 
 use super::figures::Said;
 use super::format::significant;

@@ -59,7 +59,7 @@ pub struct Combined<T> {
 }
 
 /// The end of the name of a combination whose earthquake comes from the other side.
-pub(super) const OPPOSITE: &str = ", opposite";
+pub const OPPOSITE: &str = ", opposite";
 
 impl Scene {
     /// A scene for every combination, in their order, and none without combinations. A combination in which accelerations act

@@ -182,7 +182,7 @@ impl Solved {
     pub(super) fn file(&self, format: Format) -> Result<String, Fault> {
         let outcome = &self.outcome;
         Ok(match format {
-            Format::Page => page::solved(outcome, &self.frames, self.reference.as_ref()),
+            Format::Page => page::solved(outcome, &self.frames, self.reference.as_ref(), None),
             Format::Json => json::result(outcome, &[])?,
             Format::Text => table::report(outcome),
             Format::Dxf => dxf::drawing(outcome),

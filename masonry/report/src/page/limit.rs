@@ -9,13 +9,8 @@ use crate::limit::{ByLaw, by_law, pictures, pictures_of_thickness, table, thickn
 use crate::svg::{self, pictures::Pictures};
 use masonry::analysis::limit::{Answer, Associative, Limit, Path, Thickness};
 
-/// The page of a limit load.
-pub fn limit(limit: &Limit) -> String {
-    limit_of(limit, None)
-}
-
 /// The page of a limit load, with a table of the cases of which it governs, if there are several.
-pub fn limit_of(limit: &Limit, cases: Option<&Cases>) -> String {
+pub fn limit(limit: &Limit, cases: Option<&Cases>) -> String {
     let mut pictures = pictures(limit, true);
     pictures.push(Pictures::one("scene.svg", svg::scene(&limit.title, &limit.model)));
     pictures.extend(

@@ -23,14 +23,9 @@ pub fn is_framed(position: usize, steps: usize) -> bool {
     (position + 1).is_multiple_of(every) || position == 0 || position + 1 == steps
 }
 
-/// The page of an outcome. Of a load history, `frames` are the steps that have pictures; the last one that was solved
-/// has them always.
-pub fn solved(outcome: &Outcome, frames: &[Frame], reference: Option<&ReferenceLines>) -> String {
-    solved_of(outcome, frames, reference, None)
-}
-
-/// The page of an outcome, with a table of the cases of which it governs, if there are several.
-pub fn solved_of(
+/// The page of an outcome, with a table of the cases of which it governs, if there are several. `frames` are the steps of a load
+/// history that have pictures; the last one that was solved has them always.
+pub fn solved(
     outcome: &Outcome,
     frames: &[Frame],
     reference: Option<&ReferenceLines>,

@@ -212,7 +212,7 @@ fn a_history_has_curves_of_the_movement_and_of_the_reactions() {
     let levels = levels.unwrap();
     assert!((levels[1] - levels[3]).abs() < 0.02, "{levels:?}");
 
-    let page = masonry_report::page::solved(&outcome, &frames, None);
+    let page = masonry_report::page::solved(&outcome, &frames, None, None);
     assert_eq!(page.matches("data-name=\"draw 3/3\"").count(), 3, "forces, cracks, deformed");
 }
 

@@ -1,9 +1,8 @@
 //! Checks of the load history, and of combinations.
 
 use super::{Check, at_least_one, at_most, finite, not_negative, unwanted, value};
-use crate::scene::combinations::OPPOSITE;
 use crate::scene::rules::unknown;
-use crate::scene::{Combination, Fault, KeyPath, LoadError, Scene, Stage};
+use crate::scene::{Combination, Fault, KeyPath, LoadError, OPPOSITE, Scene, Stage};
 
 /// Rotation of a support \[rad\] at which its joints' normals are off by a tenth.
 const LARGEST_TURN: f64 = 0.1;

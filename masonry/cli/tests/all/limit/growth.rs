@@ -99,7 +99,7 @@ fn the_weight_alone_may_grow() {
             "{sentence}"
         );
         let limit = limit(&Scene::read(&path).unwrap()).unwrap();
-        let page = masonry_report::page::limit(&limit);
+        let page = masonry_report::page::limit(&limit, None);
         assert_eq!(page.contains("<header class=\"falls\">"), !stands, "{name}");
     }
 }
