@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use masonry::analysis::limit::{Laws, LimitError, limit_by, train, train_observed};
 use masonry::analysis::outcome::Outcome;
-use masonry::model::Model;
+use masonry::model::{Model, PlacedBlock};
 use masonry::scene::{
     Arch, Axle, Block, Brick, Joint, Load, Material, Opening, Plane, Scene, Support, Train, Wall,
 };
@@ -32,6 +32,8 @@ fn slope() -> Block {
 /// The force \[kN\] of what presses down beside the weight, and the place of its resultant along x \[m\].
 fn pressed(scene: &Scene) -> [f64; 2] {
     let model = Model::from_scene(scene).unwrap();
+    let on_edges = model.blocks.iter().flat_map(PlacedBlock::edge_loads);
+    assert!(on_edges.flat_map(|it| it.traction).all(|it| it.y <= 0.0), "a load lifts");
     let loads = model.blocks.iter().flat_map(|block| {
         block.loads.iter().map(|load| load.resultant(&block.corners, model.thickness))
     });
@@ -108,17 +110,27 @@ fn an_axle_above_two_blocks() {
     assert_pressed(&right, [25.0, 2.125]);
 }
 
-/// A million rays, of which each meets the slope somewhere.
+/// A million rays, of which each meets the slope somewhere. Nothing lifts, on a steep slope either.
 #[test]
 fn rays_on_a_slope() {
     const RAYS: u32 = 1_000_000;
-    for (x, angle) in [(1.0, 26.565_051_177_077_99), (0.4, 40.0), (1.9, 5.0)] {
-        let axle = Axle { angle_deg: angle, ..Axle::new("slope", x, 100.0).level(3.0) };
-        let found = pressed(&on_ground([slope()]).load(Load::axle("axle", axle)));
+    let cases = [
+        (0.5, 3.0, 1.0, 26.565_051_177_077_99),
+        (0.5, 3.0, 0.4, 40.0),
+        (0.5, 3.0, 1.9, 5.0),
+        (2.0, 5.5, 1.2, 15.0),
+        (2.0, 5.5, 1.0, 24.0),
+    ];
+    for (rise, level, x, angle) in cases {
+        let block = [[0.0, 0.0], [2.0, 0.0], [2.0, 1.0 + 2.0 * rise], [0.0, 1.0]];
+        let axle = Axle { angle_deg: angle, ..Axle::new("slope", x, 100.0).level(level) };
+        let found = pressed(
+            &on_ground([Block::new("slope", "stone", block)]).load(Load::axle("axle", axle)),
+        );
         let slope = angle.to_radians().tan();
-        // From (x, 3) by u sideways for 1 m downwards to y = 1 + x / 2.
+        // From (x, level) by u sideways for 1 m downwards to y = 1 + rise x.
         let rays = (0..RAYS).map(|k| slope * (2.0 * (f64::from(k) + 0.5) / f64::from(RAYS) - 1.0));
-        let met = rays.map(|u| x + u * (2.0 - 0.5 * x) / (1.0 + 0.5 * u));
+        let met = rays.map(|u| x + u * (level - 1.0 - rise * x) / (1.0 + rise * u));
         let met: Vec<f64> = met.filter(|x| (0.0..=2.0).contains(x)).collect();
         let expected = [
             100.0 * met.len() as f64 / f64::from(RAYS),

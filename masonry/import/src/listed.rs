@@ -7,7 +7,7 @@ use nalgebra::Point2;
 use super::fit::Fitted;
 use super::sheet::Sheet;
 use super::stones::Piece;
-use super::{ImportError, ImportOptions, Imported, Joints, build};
+use super::{ImportError, ImportOptions, Imported, Joints, build, supports};
 use masonry::scene::{Block, Drawn, Scene, SceneError, Support};
 use masonry_drawing::{Drawing, DrawingFormat, Place};
 
@@ -55,6 +55,7 @@ fn imported(drawing: &Drawing, scene: &Scene) -> Result<Imported, ImportError> {
         place: Place::new(format!("support \"{}\" of the scene", it.name), None),
         is_of_scene: true,
     }));
+    supports::without_overlaps(&mut sheet);
     let fitted = Fitted::of(&mut sheet, &options)?;
     build::scene(sheet, &fitted, &options)
 }

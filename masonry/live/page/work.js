@@ -15,7 +15,7 @@ export class Work {
     this.arch = label?.replace("thickness of ", "");
     one("[data-task=thickness]").hidden = this.arch === undefined;
     const factors = controls.filter(({ label, value }) => label.startsWith("factor of ") && value !== 1);
-    this.factors = factors.map(({ label, value }) => `${label} ${Number(value.toPrecision(6))}`);
+    this.factors = factors.map(({ label, value }) => ({ group: label.replace("factor of ", ""), value: Number(value.toPrecision(6)) }));
   }
 
   // What was found belongs to an earlier text.
@@ -29,15 +29,18 @@ export class Work {
     const tell = (news) => {
       if (this.running === mine) one("#news").textContent = news;
     };
-    // A limit is a multiple of the loads of the text, which have factors of their own.
-    const multiplied = task === "limit" && this.factors.length > 0 ? ` It multiplies ${this.factors.join(", ")}.` : "";
+    // A limit is a multiple of the load of the text, which has a factor of its own.
+    const multiplied = (sentence) => {
+      const own = task === "limit" && this.factors.find(({ group }) => sentence.includes(`"${group}"`));
+      return own ? ` The limit multiplies the load with its factor of ${own.value}.` : "";
+    };
     const question = { task, text: this.editor.text, law: one("#law").value, arch: this.arch };
     one("#stop").hidden = false;
     tell(`${title}: begun`);
     try {
       const onNews = (news) => tell(`${title}: ${news}`);
       const found = await this.engine.ask(question, { signal: mine.signal, onNews });
-      tell(found.error?.message ?? `${title}: ${found.sentence}${multiplied} The pictures are below.`);
+      tell(found.error?.message ?? `${title}: ${found.sentence}${multiplied(found.sentence)} The pictures are below.`);
       if (!found.error) show(title, found);
     } catch (error) {
       tell(error.name === "AbortError" ? `${one("#news").textContent} (stopped)` : error.message);

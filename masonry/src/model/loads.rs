@@ -162,14 +162,22 @@ impl EdgeLoad {
         first + (last - first) * ((at - self.from) / (self.to - self.from))
     }
 
-    /// The mean traction in the middle of the loaded part, and the moment of its change along this part.
+    /// The mean traction in the centroid of the loaded part if the traction has one direction; else in its middle, with the moment
+    /// of its change along this part.
     fn resultant(&self, corners: &[Point2<f64>], thickness: f64) -> PlacedForce {
         let [start, end] = [self.from, self.to].map(|at| geometry::on_edge(corners, self.edge, at));
         let (along, [first, last]) = (end - start, self.traction);
         let area = along.norm() * thickness;
+        let force = (first + last) * (0.5 * area);
+        // The lengths add up only in one direction.
+        let (length, sum) = ((first + last).norm(), first.norm() + last.norm());
+        if first != last && length >= sum * (1.0 - f64::EPSILON) {
+            let at = start + along * ((first.norm() + 2.0 * last.norm()) / (3.0 * sum));
+            return PlacedForce { at, force, moment: 0.0 };
+        }
         PlacedForce {
             at: nalgebra::center(&start, &end),
-            force: (first + last) * (0.5 * area),
+            force,
             moment: geometry::cross(along, last - first) * (area / 12.0),
         }
     }

@@ -1,9 +1,9 @@
-//! Fill over blocks, and axles on it, as forces on the edges that face upwards.
+//! Fill over blocks, and axles on it, as loads on the edges that face upwards.
 //!
-//! The weight of the column of fill above an edge varies linearly along the edge. The force of an axle spreads along straight rays, as many for every unit of `u`, the horizontal
-//! distance over the depth, up to `u = tan angle`: on a horizontal plane the pressure is uniform. An edge takes the rays that
-//! meet it first, `(u_2 - u_1) / (2 tan angle)` of the force. An edge below another one of the same body, such as the sill of
-//! a window, carries no fill.
+//! The weight of the column of fill above an edge varies linearly along the edge. The force of an axle spreads along straight
+//! rays, as many for every unit of `u`, the horizontal distance over the depth, up to `u = tan angle`: on a horizontal plane the
+//! pressure is uniform. An edge takes the rays that meet it first, `(u_2 - u_1) / (2 tan angle)` of the force. An edge below
+//! another one of the structure, such as the sill of a window, carries no fill.
 
 use nalgebra::{Point2, Vector2};
 
@@ -199,7 +199,7 @@ impl PlacedAxle {
             let behind: Vec<_> =
                 reached.iter().filter_map(|other| self.behind(it, other)).collect();
             let parts = geometry::without(it.rays, &behind).into_iter();
-            parts.map(|rays| self.share(it, rays)).collect::<Vec<_>>()
+            parts.flat_map(|rays| self.linear(it, rays)).collect::<Vec<_>>()
         };
         reached.iter().flat_map(shares).collect()
     }
@@ -225,15 +225,22 @@ impl PlacedAxle {
         (self.x + ray * depth - a.x) / (b.x - a.x - ray * (other - depth))
     }
 
-    /// The part of some rays, linear along the edge with the resultant of these rays.
-    fn share(&self, it: &Reached, rays: [f64; 2]) -> Share {
+    /// The part of some rays, linear along pieces of the edge, each with the resultant of its rays.
+    fn linear(&self, it: &Reached, rays: [f64; 2]) -> Vec<Share> {
         let [first, last] = it.rays_to_ends;
         let start = if first >= rays[0] { 0.0 } else { self.met(it, rays[0]) };
         let end = if last <= rays[1] { 1.0 } else { self.met(it, rays[1]) };
         let middle = mean_of_rays(it.depth(end) / it.depth(start) - 1.0);
+        // Outside of the middle third a linear density would lift at one end.
+        if !(1.0 / 3.0..=2.0 / 3.0).contains(&middle) {
+            let half = f64::midpoint(rays[0], rays[1]);
+            let halves = [[rays[0], half], [half, rays[1]]];
+            return halves.into_iter().flat_map(|rays| self.linear(it, rays)).collect();
+        }
         let on = it.top.part([start, end]);
         let mean = (rays[1] - rays[0]) / (2.0 * self.slope * on.length());
-        Share::Strip { on, density: [4.0 - 6.0 * middle, 6.0 * middle - 2.0].map(|it| it * mean) }
+        let density = [4.0 - 6.0 * middle, 6.0 * middle - 2.0].map(|it| it * mean);
+        vec![Share::Strip { on, density }]
     }
 }
 

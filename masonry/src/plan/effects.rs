@@ -246,25 +246,20 @@ impl Called<'_> {
     fn edge_loads(&self) -> Effect {
         let edges = self.model.blocks.iter().map(|block| block.edge_loads().count()).sum();
         let place = format!("on {}", count(edges, "edge"));
-        let is_kind = |kind: LoadKind<'_>| matches!(kind, LoadKind::Edge { .. });
+        let is_kind = |kind: LoadKind<'_>| {
+            matches!(kind, LoadKind::Edge { .. } | LoadKind::Fill(_) | LoadKind::Axle(_))
+        };
         self.loads("edge loads", is_kind, &place, "acts on an edge")
     }
 
     fn point_loads(&self) -> Effect {
-        let is_kind = |kind: LoadKind<'_>| {
-            matches!(
-                kind,
-                LoadKind::Force { .. }
-                    | LoadKind::Moment { .. }
-                    | LoadKind::Fill(_)
-                    | LoadKind::Axle(_)
-            )
-        };
+        let is_kind =
+            |kind: LoadKind<'_>| matches!(kind, LoadKind::Force { .. } | LoadKind::Moment { .. });
         self.loads(
             "point loads",
             is_kind,
             "at places of blocks",
-            "is a force or a moment on a block, a fill or an axle",
+            "is a force or a moment on a block",
         )
     }
 

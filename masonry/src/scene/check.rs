@@ -132,7 +132,6 @@ impl Scene {
             Courses::RunningBond(count) => check_running_bond(at, wall, *count, joints)?,
             Courses::List(courses) => check_courses(at, wall, courses)?,
         };
-        at_most(at.key("courses"), "bricks", count, MOST_BLOCKS)?;
         for (key, class) in [("bed", &wall.joints.bed), ("head", &wall.joints.head)] {
             let Some(class) = class else { continue };
             self.check_class(at.key("joints").key(key), class)?;
@@ -249,10 +248,12 @@ fn check_running_bond(
     let because = "because `courses` is a number";
     let width = needed(wall.width, at, "width", because, "width = 1.0")?;
     positive(at.key("width"), width)?;
-    openings::check(at, wall, joints, openings::WallSize { width, courses: count })?;
     // An English bond has two headers a brick, and an opening divides two bricks.
     let in_course = 2.0 * width / wall.brick.length + 3.0 + 2.0 * wall.openings.len() as f64;
-    Ok(f64::from(count) * in_course.floor())
+    let bricks = f64::from(count) * in_course.floor();
+    at_most(at.key("courses"), "bricks", bricks, MOST_BLOCKS)?;
+    openings::check(at, wall, joints, openings::WallSize { width, courses: count })?;
+    Ok(bricks)
 }
 
 /// Checks a list of courses; the number of its bricks.
@@ -282,7 +283,9 @@ fn check_courses(at: &KeyPath, wall: &Wall, courses: &[Vec<f64>]) -> Result<f64,
             at_most(at, "elements along an edge", elements, MOST_ELEMENTS)?;
         }
     }
-    Ok(courses.iter().map(Vec::len).sum::<usize>() as f64)
+    let bricks = courses.iter().map(Vec::len).sum::<usize>() as f64;
+    at_most(list, "bricks", bricks, MOST_BLOCKS)?;
+    Ok(bricks)
 }
 
 fn check_mesh(at: &KeyPath, mesh: Option<[u32; 2]>, material: &Material) -> Check {

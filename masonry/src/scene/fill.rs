@@ -1,8 +1,8 @@
-//! Fill over an arch, and axles on it.
+//! Fill over an arch, a wall or a block, and axles on it.
 
 use serde::{Deserialize, Serialize};
 
-/// Fill over an arch: vertical weight on the edges below it.
+/// Fill over an arch, a wall or a block: vertical weight on the edges below it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]

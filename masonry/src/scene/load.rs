@@ -60,7 +60,7 @@ pub struct Load {
     /// An acceleration that acts on mass like gravity \[m/s^2\]: to the right, it pushes to the right.
     #[serde(default, deserialize_with = "strict::read")]
     pub acceleration: Option<[f64; 2]>,
-    /// Fill over an arch.
+    /// Fill over an arch, a wall or a block.
     #[serde(default, deserialize_with = "strict::read")]
     pub fill: Option<Fill>,
     /// An axle on a fill or on blocks.
@@ -120,7 +120,7 @@ pub enum LoadKind<'a> {
     },
     /// An acceleration of all mass \[m/s^2\]: `acceleration`.
     Acceleration([f64; 2]),
-    /// Fill over an arch: `fill`.
+    /// Fill over an arch, a wall or a block: `fill`.
     Fill(&'a Fill),
     /// An axle: `axle`.
     Axle(&'a Axle),

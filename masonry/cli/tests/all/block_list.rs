@@ -215,6 +215,19 @@ fn a_list_may_be_a_drawing() {
     assert_eq!(scene.files().nth(1), Some(path.with_file_name("portal.dxf").as_path()));
 }
 
+/// A line that is drawn twice is one support, and so is one on the floor of the scene.
+#[test]
+fn supports_of_a_drawing_count_once() {
+    let mut shapes = DRAWING.to_vec();
+    shapes.push(("support_again", &[[1900, 0], [2700, 0]]));
+    shapes.push(("support_floor_again", &[[0, 0], [600, 0]]));
+    let output = masonry("solve", &drawn("supports_twice", &shapes, SMOOTH));
+    let result: Value =
+        serde_json::from_slice(&output.stdout).unwrap_or_else(|_| panic!("{output:?}"));
+    assert_eq!((&result["verdict"], &result["plan"]["joints"]), (&"stands".into(), &4.into()));
+    assert_eq!(result["reactions"].as_object().unwrap().len(), 2);
+}
+
 #[test]
 fn mistakes_in_a_drawing_have_the_entity() {
     let message = |path: &Path| {

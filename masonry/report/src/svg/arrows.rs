@@ -336,7 +336,7 @@ impl Arrows {
         }
         for Kind { class, pushes, .. } in self.0.iter().filter(|kind| !kind.pushes.is_empty()) {
             sheet.layer(&format!("{class} labels"), |canvas, frame| {
-                for it in pushes.iter().filter(|it| !it.on.is_empty() && !&it.label.is_empty()) {
+                for it in pushes.iter().filter(|it| !it.on.is_empty()) {
                     let (at, side) = (it.label_at(frame, displaced), it.outwards);
                     let name = displaced.name(frame, it, &it.on[0]);
                     labels.draw(
@@ -398,6 +398,10 @@ fn tractions(model: &Model, labelled: &dyn Fn(LoadId, String) -> String) -> Vec<
             };
             if let Some((_, same)) = list.iter_mut().find(is_same) {
                 same.value = Pushed { values: [same.value, on.largest()], ..on }.largest();
+                // Edges of several directions are pushed along the load.
+                if same.outwards.dot(&outwards) < 1.0 - 1e-9 {
+                    same.outwards = same.value.normalize() * same.outward_part().signum();
+                }
                 same.on.push(on);
                 continue;
             }
