@@ -157,7 +157,7 @@ pub fn polar_moment(polygon: &[Point2<f64>]) -> f64 {
     (0..polygon.len()).map(of_triangle).sum()
 }
 
-/// The parts of an interval outside of others; what is shorter than [`SAME_PLACE`] is left out.
+/// The parts of an interval outside of others; what is shorter than 1e-9 is left out.
 pub fn without(whole: [f64; 2], others: &[[f64; 2]]) -> Vec<[f64; 2]> {
     let mut left = vec![whole];
     for [from, to] in others {
