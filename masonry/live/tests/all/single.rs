@@ -10,7 +10,11 @@ use serde_json::{Value, json};
 use crate::common::say;
 use crate::driver::Page;
 
-/// All numbers of an answer with their places, without times, and without residuals, which are rounding errors alone.
+/// What rounding errors change: times, residuals, and the work, since a step more or less follows from the last digit.
+const ROUNDING: [&str; 7] =
+    ["time", "seconds", "residual", "balance", "pivots", "iterations", "factorisations"];
+
+/// All numbers of an answer with their places, except those that depend on rounding errors.
 fn numbers(path: &str, value: &Value, list: &mut Vec<(String, f64)>) {
     match value {
         Value::Number(number) => list.push((path.to_owned(), number.as_f64().unwrap())),
@@ -20,9 +24,7 @@ fn numbers(path: &str, value: &Value, list: &mut Vec<(String, f64)>) {
             }
         }
         Value::Object(members) => {
-            let is_kept = |key: &str| {
-                !["time", "seconds", "residual", "balance"].iter().any(|it| key.contains(it))
-            };
+            let is_kept = |key: &str| !ROUNDING.iter().any(|it| key.contains(it));
             let others = members.iter().filter(|(key, _)| is_kept(key));
             for (key, member) in others {
                 numbers(&format!("{path}.{key}"), member, list);
