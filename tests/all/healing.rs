@@ -5,9 +5,10 @@ use masonry::analysis::solve::solve;
 use masonry::data::verdict::Verdict;
 use masonry::geometry;
 use masonry::model::Model;
-use masonry::scene::{Block, Joint, Load, Material, Scene, Support};
+use masonry::scene::{Block, Brick, Joint, Load, Material, Scene, Support, Wall};
 
 use crate::common::M_KN;
+use crate::random_walls::Random;
 
 /// Corners with so many decimals.
 fn rounded(corners: &[[f64; 2]], decimals: i32) -> Vec<[f64; 2]> {
@@ -170,4 +171,132 @@ fn gaps_beyond_the_tolerance_stay() {
     assert_eq!(apart(1e-6, Some(1e-5)), (3, true));
     assert_eq!(apart(1e-4, Some(1e-5)), (2, false));
     assert_eq!(apart(-1e-6, None), (3, true));
+}
+
+/// Courses of stones of these lengths, again and again, shifted from course to course.
+fn bond(lengths: &[f64], shift: f64, courses: usize) -> Vec<Vec<[f64; 2]>> {
+    const WIDTH: f64 = 4.0;
+    let period: f64 = lengths.iter().sum();
+    let mut blocks = Vec::new();
+    for course in 0..courses {
+        let (low, high) = (0.25 * course as f64, 0.25 * (course + 1) as f64);
+        let start = -(shift * course as f64).rem_euclid(period);
+        let joints = lengths.iter().cycle().scan(start, |at, length| {
+            *at += length;
+            Some(*at)
+        });
+        let inside = |it: &f64| *it < WIDTH - 1e-9;
+        let mut ends: Vec<f64> = joints.take_while(inside).filter(|it| *it > 1e-9).collect();
+        ends.insert(0, 0.0);
+        ends.push(WIDTH);
+        blocks.extend(
+            ends.windows(2).map(|x| vec![[x[0], low], [x[1], low], [x[1], high], [x[0], high]]),
+        );
+    }
+    blocks
+}
+
+/// Drawings with their exact corners: bonds that are turned, and rubble.
+fn drawings() -> Vec<(&'static str, Scene)> {
+    let bonds: [(&str, &[f64], f64); 5] = [
+        ("half", &[0.5], 0.25),
+        ("third", &[0.6], 0.2),
+        ("stack", &[0.5], 0.0),
+        ("Flemish", &[0.5, 0.25], 0.375),
+        ("raked", &[0.5], 0.15),
+    ];
+    let floor = [[0.0, 0.0], [4.0, 0.0]].map(|end| turned(end, 5.0));
+    let of_bond = |(name, lengths, shift): (&'static str, &[f64], f64)| {
+        let mut blocks = bond(lengths, shift, 8);
+        blocks.iter_mut().flatten().for_each(|corner| *corner = turned(*corner, 5.0));
+        (name, scene(blocks, floor))
+    };
+    let mut drawings: Vec<(&str, Scene)> = bonds.into_iter().map(of_bond).collect();
+    let rubble = concat!(env!("CARGO_MANIFEST_DIR"), "/masonry/live/scenes/rubble.toml");
+    let mut rubble = Scene::read(rubble.as_ref()).unwrap();
+    rubble.loads.clear();
+    drawings.push(("rubble", rubble));
+    drawings
+}
+
+/// Corners that are off by at random, each coordinate by up to so much.
+fn shaken(scene: &Scene, by: f64, seed: u64) -> Scene {
+    let mut random = Random(seed);
+    let mut shaken = scene.clone();
+    for value in shaken.blocks.iter_mut().flat_map(|it| &mut it.corners).flatten() {
+        *value += by * (2.0 * random.part() - 1.0);
+    }
+    shaken
+}
+
+/// The factor of a push to the right, relative to the structure, at which a drawing fails.
+fn push(drawing: &Scene) -> f64 {
+    let push = Load::acceleration("push", turned([1.0, 0.0], 5.0));
+    let pushed = drawing.clone().gravity(turned([0.0, -9.81], 5.0)).load(push);
+    limit_by(&pushed, Laws::Associative).unwrap().associative.unwrap().bound.unwrap()
+}
+
+/// Corners move by 1.6 times the amplitude at most, of which the square root of two is that of both coordinates together.
+#[test]
+fn corners_move_by_little_more_than_they_are_off() {
+    for (name, exact) in drawings() {
+        let model = Model::from_scene(&exact).unwrap();
+        let limit = push(&exact);
+        let edges = model
+            .blocks
+            .iter()
+            .flat_map(|it| (0..it.corners.len()).map(|k| geometry::edge(&it.corners, k)));
+        let shortest = edges.map(|[a, b]| (b - a).norm()).fold(f64::INFINITY, f64::min);
+        for (by, seed) in [1e-3, 3e-3].into_iter().flat_map(|by| (0..4).map(move |it| (by, it))) {
+            // Two corners of one place are apart by up to the diagonal of twice the amplitude.
+            let drawn = shaken(&exact, by, seed).contact_tolerance(3.0 * by);
+            let healed = Model::from_scene(&drawn).unwrap();
+            assert_exact(&healed, &model, 2.0 * by);
+
+            let mut again = drawn.clone();
+            for (block, of_model) in again.blocks.iter_mut().zip(&healed.blocks) {
+                block.corners = of_model.corners.iter().map(|it| [it.x, it.y]).collect();
+            }
+            assert!(Model::from_scene(&again).unwrap().healed.is_none(), "{name}, {by}, {seed}");
+            if seed == 0 {
+                // To the amplitude relative to the shortest edge.
+                let off = (push(&again) / limit - 1.0).abs() * shortest / by;
+                assert!(off < 1.0, "{name}, {by}: {off}");
+            }
+        }
+    }
+}
+
+/// Stones on a wall of bricks, which stay, and on a support that is shorter than the lowest one.
+#[test]
+fn stones_move_onto_what_stays() {
+    let bricks = Brick { length: 0.25, height: 0.125 };
+    let wall = Wall::running_bond("wall", "stone", bricks, 2.0, 3).turn_deg(5.0);
+    let corner = |x: f64, y: f64| turned([x, 0.375 + y], 5.0);
+    let stone = |x: [f64; 2], y: [f64; 2]| {
+        vec![corner(x[0], y[0]), corner(x[1], y[0]), corner(x[1], y[1]), corner(x[0], y[1])]
+    };
+    let stones = vec![
+        stone([0.1, 1.2], [0.0, 0.3]),
+        stone([1.2, 1.9], [0.0, 0.3]),
+        stone([0.1, 1.9], [0.3, 0.5]),
+    ];
+    let ends = [0.4, 0.9].map(|x| corner(x, 0.5));
+    let exact = scene(stones, [[0.0, 0.0], turned([2.0, 0.0], 5.0)])
+        .wall(wall)
+        .support(Support::new("hold", ends[0], ends[1], "bed"));
+    let model = Model::from_scene(&exact).unwrap();
+    for seed in 0..8 {
+        let drawn = shaken(&exact, 1e-3, seed).contact_tolerance(3e-3);
+        let healed = Model::from_scene(&drawn).unwrap();
+        assert_exact(&healed, &model, 2e-3);
+        let corners = |it: &Model| -> Vec<_> {
+            it.blocks
+                .iter()
+                .filter(|it| it.name.starts_with("wall"))
+                .map(|it| it.corners.clone())
+                .collect()
+        };
+        assert_eq!(corners(&healed), corners(&model));
+    }
 }

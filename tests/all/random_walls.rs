@@ -15,7 +15,7 @@ const WALLS: usize = 10;
 const LARGEST_ORDER: usize = 3000;
 
 /// Numbers that are the same in every run, by the generator `SplitMix64` (Steele, Lea and Flood 2014).
-struct Random(u64);
+pub struct Random(pub u64);
 
 impl Random {
     fn next(&mut self) -> u64 {
@@ -27,7 +27,7 @@ impl Random {
     }
 
     /// Below one.
-    fn part(&mut self) -> f64 {
+    pub fn part(&mut self) -> f64 {
         (self.next() >> 11) as f64 / (1u64 << 53) as f64
     }
 

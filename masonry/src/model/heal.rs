@@ -1,5 +1,23 @@
 //! Corners of single blocks, put onto corners and edges of others that they miss by rounding: drawings are written with some
 //! decimals, and blocks that touch in them overlap or stand apart by the last one.
+//!
+//! # Equations
+//! Corners that are nearer to each other than the tolerance share one place `x`, of the weight of their number `w`. A place that is
+//! nearer than that to an edge is on the line through the ends of the edge. Places move by the least `sum w |dx|^2` for which all
+//! lines are straight, step by step of Gauss and Newton: `dx = -W^-1 A^T (A W^-1 A^T)^-1 r`.
+//!
+//! Every condition is stated once. Two that say the same of straight lines say something else of lines that are not straight yet:
+//! their difference is of the order of the error `e` on an edge of length `l`, and demands that places slide along the line by the
+//! error of second order, `e^2 / l`, divided by the difference of both directions, `e / l`: by as much as `e` for every pair of
+//! them. So corners at one place are one unknown. A corner is on one edge of another block; if it is near to two, it is near to
+//! their common corner once it is on the first. Lines with two places in common that are apart are one line, whatever edges and
+//! supports they come from: those of a bed joint are linked through the corners on both of its sides. A line through `n` places
+//! has `n - 2` conditions: the middle place is on the line between the first and the last one, and so on in both halves. These
+//! conditions are independent, as each has a place that those before it do not have. A line with two places that do not move has
+//! one for each place that does.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::ops::Range;
 
 use faer::sparse::{SparseColMat, Triplet};
 use lcp_linalg::{Gram, HALF_DIGITS};
@@ -12,12 +30,11 @@ use crate::model::joints::near_pairs;
 /// The tolerance of a scene that gives none, relative to the shortest edge of its single blocks. Theory: coordinates of a wall
 /// in metres with six decimals are off by 2e-6 of a brick.
 const OF_SHORTEST_EDGE: f64 = 1e-5;
-/// Steps of Gauss and Newton. Theory: each leaves the square of an error, and half of its digits are those of the regular matrix.
-const STEPS: usize = 5;
+/// Steps of Gauss and Newton. Theory: each leaves the square of an error, and half of its digits are those of the regular matrix;
+/// as many again for places that come near to others by the first ones.
+const STEPS: usize = 10;
 /// The tolerance, relative to the shortest edge, at most. Theory: the ends of an edge must not meet.
 const LARGEST: f64 = 0.25;
-/// Corners are moved by so many tolerances at most. Chosen: those of three blocks that meet move by less than two.
-const FARTHEST: f64 = 4.0;
 
 /// The corners that were moved, and what reading a drawing had changed before.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -39,7 +56,8 @@ pub type Unhealed = &'static str;
 /// corner or an edge of another block, or to a support, lies on it. `None` if nothing had to be moved.
 ///
 /// # Errors
-/// Blocks stay as they were if the tolerance is too large for them, or if not all that is near can meet.
+/// Blocks stay as they were if the tolerance is too large for them, or if not all that is near can meet by movements within the
+/// tolerance.
 pub fn heal(
     blocks: &mut [PlacedBlock],
     count: usize,
@@ -55,30 +73,31 @@ pub fn heal(
     if tolerance > LARGEST * shortest {
         return Err("corners are moved by less than a quarter of the shortest edge");
     }
-    let mut drawing = Drawing::of(blocks, first);
-    let meetings = drawing.meetings(blocks, supports, tolerance);
     let sizes = blocks[first..].iter().map(|it| geometry::size(&it.corners));
     let touching = SAME_PLACE * sizes.fold(f64::INFINITY, f64::min);
-    let is_met = |it: &Touch, drawing: &Drawing| {
-        let (distance, terms) = it.distance(&drawing.points);
-        distance.abs() <= touching || terms.iter().all(|(point, _)| *point < drawing.free)
-    };
-    if meetings.iter().all(|it| is_met(it, &drawing)) {
-        return Ok(None);
-    }
+    let mut drawing = Drawing::of(blocks, first, supports, [touching, tolerance]);
     let before = drawing.points.clone();
+    let moved = |drawing: &Drawing| -> Vec<f64> {
+        before.iter().zip(&drawing.points).map(|(from, to)| (to - from).norm()).collect()
+    };
     for _ in 0..STEPS {
-        drawing.step(&meetings).ok_or("the corners are too many for the memory")?;
+        let apart = drawing.step().ok_or("the corners are too many for the memory")?;
+        let moved = moved(&drawing);
+        let largest = moved.iter().copied().fold(0.0, f64::max);
+        if largest.is_nan() || largest > tolerance {
+            break;
+        }
+        // The step from what touches leaves rounding errors.
+        if apart <= touching {
+            let corners = moved.into_iter().filter(|it| *it > touching).count();
+            if corners == 0 {
+                return Ok(None);
+            }
+            drawing.write(blocks);
+            return Ok(Some(Healed { corners, largest, tolerance, drawing: Vec::new() }));
+        }
     }
-    let moved = before.iter().zip(&drawing.points).map(|(from, to)| (to - from).norm());
-    let moved: Vec<f64> = moved.filter(|it| *it > 0.0).collect();
-    let largest = moved.iter().copied().fold(0.0, f64::max);
-    let is_far = largest.is_nan() || largest > FARTHEST * tolerance;
-    if is_far || !meetings.iter().all(|it| is_met(it, &drawing)) {
-        return Err("not all corners that are so near to others can be put onto them");
-    }
-    drawing.write(blocks);
-    Ok(Some(Healed { corners: moved.len(), largest, tolerance, drawing: Vec::new() }))
+    Err("not all corners that are so near to others can be put onto them")
 }
 
 fn shortest_edge(blocks: &[PlacedBlock]) -> f64 {
@@ -91,160 +110,251 @@ fn shortest_edge(blocks: &[PlacedBlock]) -> f64 {
     edges.fold(f64::INFINITY, f64::min)
 }
 
-/// The corners of all blocks, those of bricks and voussoirs fixed.
+/// The corners of all blocks, and the ends of supports.
 struct Drawing {
     points: Vec<Point2<f64>>,
-    /// The first corner of every block, and one past the last.
-    starts: Vec<usize>,
-    /// The first corner that may move.
-    free: usize,
+    /// The points of every block, then of every support, which has an edge in both directions.
+    bodies: Vec<Range<usize>>,
+    /// The points that may move: bricks, voussoirs and supports stay.
+    free: Range<usize>,
+    /// Bodies that are near each other.
+    pairs: Vec<[usize; 2]>,
+    /// What is nearer meets, if nothing of it may move, and if something may.
+    reach: [f64; 2],
 }
 
-/// Corners and lines that have to meet.
-#[derive(Debug, Clone, Copy)]
-enum Touch {
-    /// Two corners, along an axis.
-    Corners { corners: [usize; 2], axis: Vector2<f64> },
-    /// A corner and the edge between two others.
-    Edge { corner: usize, ends: [usize; 2] },
-    /// A corner and a line that does not move.
-    Line { corner: usize, through: Point2<f64>, normal: Vector2<f64> },
-}
-
-impl Touch {
-    /// The distance that has to vanish, and its derivatives by the points.
-    fn distance(&self, points: &[Point2<f64>]) -> (f64, Vec<(usize, Vector2<f64>)>) {
-        match *self {
-            Self::Corners { corners: [a, b], axis } => {
-                (axis.dot(&(points[a] - points[b])), vec![(a, axis), (b, -axis)])
-            }
-            Self::Edge { corner, ends: [from, to] } => {
-                let (place, normal) = beside(points[corner], [from, to].map(|end| points[end]));
-                let apart = normal.dot(&(points[corner] - points[from]));
-                (
-                    apart,
-                    vec![(corner, normal), (from, normal * (place - 1.0)), (to, normal * -place)],
-                )
-            }
-            Self::Line { corner, through, normal } => {
-                (normal.dot(&(points[corner] - through)), vec![(corner, normal)])
-            }
-        }
-    }
-}
-
-/// Where a point is along a segment, as a fraction of it, and the normal of the segment.
-fn beside(point: Point2<f64>, [from, to]: [Point2<f64>; 2]) -> (f64, Vector2<f64>) {
-    let along = to - from;
-    ((point - from).dot(&along) / along.norm_squared(), geometry::turn_right(along) / along.norm())
-}
-
-/// Whether a point is beside a segment, or beyond its end by no more than the tolerance, and nearer than that to its line.
-fn is_near(point: Point2<f64>, ends: [Point2<f64>; 2], tolerance: f64) -> bool {
-    let (place, normal) = beside(point, ends);
-    let beyond = tolerance / (ends[1] - ends[0]).norm();
-    (-beyond..=1.0 + beyond).contains(&place) && normal.dot(&(point - ends[0])).abs() <= tolerance
+/// A place has to be on the line through two others.
+struct Row {
+    place: usize,
+    ends: [usize; 2],
 }
 
 impl Drawing {
-    fn of(blocks: &[PlacedBlock], first: usize) -> Self {
-        let mut starts = vec![0];
-        starts.extend(blocks.iter().scan(0, |sum, block| {
-            *sum += block.corners.len();
-            Some(*sum)
-        }));
-        let points = blocks.iter().flat_map(|block| block.corners.iter().copied()).collect();
-        Self { points, free: starts[first], starts }
-    }
-
-    fn meetings(
-        &self,
+    fn of(
         blocks: &[PlacedBlock],
+        first: usize,
         supports: &[PlacedSupport],
-        tolerance: f64,
-    ) -> Vec<Touch> {
-        let mut list = Vec::new();
-        for [a, b] in near_pairs(blocks, tolerance) {
-            if self.starts[a.index().max(b.index())] < self.free {
-                continue;
-            }
-            for (a, b) in [(a.index(), b.index()), (b.index(), a.index())] {
-                for corner in self.starts[a]..self.starts[a + 1] {
-                    self.meet(corner, b, a < b, tolerance, &mut list);
+        reach: [f64; 2],
+    ) -> Self {
+        let supports = supports.iter().map(|it| [it.from, it.to].to_vec());
+        let shapes: Vec<Vec<_>> =
+            blocks.iter().map(|it| it.corners.clone()).chain(supports).collect();
+        let bodies: Vec<Range<usize>> = shapes
+            .iter()
+            .scan(0, |sum, shape| {
+                let start = *sum;
+                *sum += shape.len();
+                Some(start..*sum)
+            })
+            .collect();
+        let free = bodies[first].start..bodies[blocks.len() - 1].end;
+        // Corners move by the tolerance at most.
+        let pairs = near_pairs(shapes.iter().map(|it| &it[..]), 2.0 * reach[1]);
+        Self { points: shapes.concat(), bodies, free, pairs, reach }
+    }
+
+    /// Moves all that is near each other together, to first order; how far it was apart \[m\]. `None` if memory does not suffice.
+    fn step(&mut self) -> Option<f64> {
+        let Meetings { mut joined, beside } = self.meetings();
+        let places: Vec<usize> = (0..self.points.len()).map(|it| joined.root(it)).collect();
+        let (weights, gathered) = self.gather(&places);
+        let on_lines = beside.into_iter().map(|it| it.into_iter().map(|it| places[it]).collect());
+        let on_lines = on_lines.filter(|it: &BTreeSet<usize>| it.len() > 2).collect();
+        let lines = self.one_line_each(on_lines);
+        let rows: Vec<Row> = lines.into_iter().flat_map(|line| self.rows(line)).collect();
+        let apart = self.straighten(&rows, &weights)?;
+        for k in self.free.clone() {
+            self.points[k] = self.points[places[k]];
+        }
+        Some(apart.max(gathered))
+    }
+
+    /// All corners that meet others, and for every edge its ends and the points on it.
+    fn meetings(&self) -> Meetings {
+        let mut joined = Joined((0..self.points.len()).collect());
+        let mut beside = vec![BTreeSet::new(); self.points.len()];
+        for [a, b] in self.pairs.iter().flat_map(|[a, b]| [[*a, *b], [*b, *a]]) {
+            let body = &self.bodies[b];
+            let is_free = [a, b].iter().any(|it| self.free.contains(&self.bodies[*it].start));
+            let reach = self.reach[usize::from(is_free)];
+            let ends =
+                |from: usize| [from, if from + 1 < body.end { from + 1 } else { body.start }];
+            for point in self.bodies[a].clone() {
+                let here = self.points[point];
+                let distance = |at: Point2<f64>| (at - here).norm();
+                let to_corner = |corner: usize| distance(self.points[corner]);
+                let to_edge = |from: usize| {
+                    let ends = ends(from).map(|it| self.points[it]);
+                    distance(geometry::nearest_on_segment(ends, here))
+                };
+                if let Some(corner) = nearest(body, to_corner, reach)
+                    && corner < self.free.end
+                {
+                    // A block may end beside the end of a support.
+                    if point < self.free.end {
+                        joined.join(point, corner);
+                    }
+                } else if let Some(from) = nearest(body, to_edge, reach) {
+                    beside[from].extend(ends(from).into_iter().chain([point]));
                 }
             }
         }
-        for (corner, point) in self.points.iter().enumerate().skip(self.free) {
-            for support in supports {
-                let ends = [support.from, support.to];
-                if is_near(*point, ends, tolerance) {
-                    let (_, normal) = beside(*point, ends);
-                    list.push(Touch::Line { corner, through: support.from, normal });
+        Meetings { joined, beside }
+    }
+
+    /// Moves the first corner of every place to the middle of all, if it moves; the number of corners of each place, and how far they
+    /// are apart \[m\].
+    fn gather(&mut self, places: &[usize]) -> (Vec<f64>, f64) {
+        let before = self.points.clone();
+        let mut weights = vec![0.0; self.points.len()];
+        let mut sums = vec![Vector2::zeros(); self.points.len()];
+        for (point, place) in self.points.iter().zip(places) {
+            weights[*place] += 1.0;
+            sums[*place] += point - self.points[*place];
+        }
+        for place in self.free.clone() {
+            if places[place] == place {
+                self.points[place] += sums[place] / weights[place];
+            }
+        }
+        let apart = places.iter().zip(&before).map(|(place, it)| (self.points[*place] - it).norm());
+        (weights, apart.fold(0.0, f64::max))
+    }
+
+    /// Joins lines that have two places in common, apart from each other, until no two have.
+    fn one_line_each(&self, mut lines: Vec<BTreeSet<usize>>) -> Vec<BTreeSet<usize>> {
+        let mut through: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
+        for (k, line) in lines.iter().enumerate() {
+            for place in line {
+                through.entry(*place).or_default().push(k);
+            }
+        }
+        let mut whole = Vec::new();
+        for k in 0..lines.len() {
+            let mut line = std::mem::take(&mut lines[k]);
+            let mut new: Vec<usize> = line.iter().copied().collect();
+            // The first place that another line has in common.
+            let mut common: BTreeMap<usize, usize> = BTreeMap::new();
+            while let Some(place) = new.pop() {
+                for other in &through[&place] {
+                    let first = *common.entry(*other).or_insert(place);
+                    if (self.points[first] - self.points[place]).norm() > self.reach[1] {
+                        let more = std::mem::take(&mut lines[*other]);
+                        new.extend(more.into_iter().filter(|it| line.insert(*it)));
+                    }
+                }
+            }
+            whole.push(line);
+        }
+        whole
+    }
+
+    /// The conditions that put the places of a line onto one.
+    fn rows(&self, line: BTreeSet<usize>) -> Vec<Row> {
+        let (free, fixed): (Vec<_>, Vec<_>) =
+            line.iter().copied().partition(|it| self.free.contains(it));
+        if let [from, .., to] = self.along(fixed)[..] {
+            return free.into_iter().map(|place| Row { place, ends: [from, to] }).collect();
+        }
+        let mut rows = Vec::new();
+        halve(&self.along(line.into_iter().collect()), &mut rows);
+        rows
+    }
+
+    /// Places of a line from one of its ends to the other.
+    fn along(&self, mut places: Vec<usize>) -> Vec<usize> {
+        let Some(any) = places.first().copied() else { return places };
+        let distance = |a: usize, b: usize| (self.points[a] - self.points[b]).norm();
+        let farther = |a: &usize, b: &usize| distance(any, *a).total_cmp(&distance(any, *b));
+        let end = places.iter().copied().max_by(farther).unwrap_or(any);
+        places.sort_by(|a, b| distance(end, *a).total_cmp(&distance(end, *b)));
+        places
+    }
+
+    /// The least movements of places for which all conditions hold, to first order; how far they were from that \[m\].
+    fn straighten(&mut self, rows: &[Row], weights: &[f64]) -> Option<f64> {
+        let (mut entries, mut apart) = (Vec::new(), Vec::with_capacity(rows.len()));
+        let mut columns = BTreeMap::new();
+        for (row, Row { place, ends: [from, to] }) in rows.iter().enumerate() {
+            let [point, start, end] = [place, from, to].map(|it| self.points[*it]);
+            let along = end - start;
+            let normal = geometry::turn_right(along) / along.norm();
+            let at = (point - start).dot(&along) / along.norm_squared();
+            apart.push(normal.dot(&(point - start)));
+            for (place, by) in [(place, 1.0), (from, at - 1.0), (to, -at)] {
+                if self.free.contains(place) {
+                    let count = columns.len();
+                    let column = 2 * *columns.entry(*place).or_insert(count);
+                    let entry = |axis| Triplet::new(row, column + axis, by * normal[axis]);
+                    entries.extend([0, 1].map(entry));
                 }
             }
         }
-        list
-    }
-
-    /// The meeting of a corner with another block, if it is near: two of its corners meet once.
-    fn meet(
-        &self,
-        corner: usize,
-        block: usize,
-        is_first: bool,
-        tolerance: f64,
-        list: &mut Vec<Touch>,
-    ) {
-        let (begin, end) = (self.starts[block], self.starts[block + 1]);
-        let point = self.points[corner];
-        let distance = |it: &usize| (self.points[*it] - point).norm();
-        let nearest = (begin..end).min_by(|a, b| distance(a).total_cmp(&distance(b)));
-        if let Some(other) = nearest.filter(|it| distance(it) <= tolerance) {
-            if is_first {
-                let along = |axis| Touch::Corners { corners: [corner, other], axis };
-                list.extend([Vector2::x(), Vector2::y()].map(along));
-            }
-            return;
+        let largest = apart.iter().map(|it: &f64| it.abs()).fold(0.0, f64::max);
+        let mut ease = vec![0.0; 2 * columns.len()];
+        let mut places = vec![0; columns.len()];
+        for (place, column) in columns {
+            places[column] = place;
+            ease[2 * column..2 * column + 2].fill(1.0 / weights[place]);
         }
-        for from in begin..end {
-            let to = if from + 1 < end { from + 1 } else { begin };
-            if is_near(point, [self.points[from], self.points[to]], tolerance) {
-                list.push(Touch::Edge { corner, ends: [from, to] });
-            }
-        }
-    }
-
-    /// The least changes of the corners that may move for which all meetings hold, to first order; `None` if memory does not
-    /// suffice.
-    fn step(&mut self, meetings: &[Touch]) -> Option<()> {
-        let (mut entries, mut apart) = (Vec::new(), Vec::with_capacity(meetings.len()));
-        for (row, meeting) in meetings.iter().enumerate() {
-            let (distance, terms) = meeting.distance(&self.points);
-            apart.push(distance);
-            for (point, by) in terms.into_iter().filter(|(point, _)| *point >= self.free) {
-                let column = 2 * (point - self.free);
-                entries
-                    .extend([Triplet::new(row, column, by.x), Triplet::new(row, column + 1, by.y)]);
-            }
-        }
-        let columns = 2 * (self.points.len() - self.free);
         let matrix =
-            SparseColMat::<usize, f64>::try_new_from_triplets(meetings.len(), columns, &entries);
+            SparseColMat::<usize, f64>::try_new_from_triplets(rows.len(), ease.len(), &entries);
         let matrix = matrix.ok()?;
         let mut gram = Gram::new(None, matrix.symbolic()).ok()?;
-        gram.factorise(None, matrix.as_ref(), &vec![1.0; columns], HALF_DIGITS).ok()?;
+        gram.factorise(None, matrix.as_ref(), &ease, HALF_DIGITS).ok()?;
         gram.solve(&mut apart);
         for entry in matrix.triplet_iter() {
-            let by = entry.val * apart[entry.row];
-            self.points[self.free + entry.col / 2][entry.col % 2] -= by;
+            let by = entry.val * apart[entry.row] * ease[entry.col];
+            self.points[places[entry.col / 2]][entry.col % 2] -= by;
         }
-        Some(())
+        Some(largest)
     }
 
     fn write(&self, blocks: &mut [PlacedBlock]) {
-        for (block, start) in blocks.iter_mut().zip(&self.starts) {
-            let count = block.corners.len();
-            block.corners.copy_from_slice(&self.points[*start..*start + count]);
+        for (block, points) in blocks.iter_mut().zip(&self.bodies) {
+            block.corners.copy_from_slice(&self.points[points.clone()]);
         }
+    }
+}
+
+/// What is near each other.
+struct Meetings {
+    joined: Joined,
+    beside: Vec<BTreeSet<usize>>,
+}
+
+/// Sets of points, each as a tree with its least point as the root.
+struct Joined(Vec<usize>);
+
+impl Joined {
+    fn root(&mut self, point: usize) -> usize {
+        let mut root = point;
+        while self.0[root] != root {
+            self.0[root] = self.0[self.0[root]];
+            root = self.0[root];
+        }
+        root
+    }
+
+    fn join(&mut self, a: usize, b: usize) {
+        let [a, b] = [a, b].map(|it| self.root(it));
+        self.0[a.max(b)] = a.min(b);
+    }
+}
+
+/// The one of a body that is nearest, if it is within reach.
+fn nearest(body: &Range<usize>, distance: impl Fn(usize) -> f64, reach: f64) -> Option<usize> {
+    let distances = body.clone().map(|it| (it, distance(it)));
+    let nearest = distances.min_by(|(_, a), (_, b)| a.total_cmp(b));
+    nearest.filter(|(_, distance)| *distance <= reach).map(|(it, _)| it)
+}
+
+/// The middle place is on the line between the first and the last one, and so on in both halves.
+fn halve(places: &[usize], rows: &mut Vec<Row>) {
+    if let [from, _, .., to] = *places {
+        let middle = places.len() / 2;
+        rows.push(Row { place: places[middle], ends: [from, to] });
+        halve(&places[..=middle], rows);
+        halve(&places[middle..], rows);
     }
 }

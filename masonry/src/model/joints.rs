@@ -100,7 +100,8 @@ pub fn find(
     };
     let thickest = classes.iter().filter_map(|class| class.mortar).map(|it| it.thickness);
     let reach = options.gap_limit + thickest.fold(0.0, f64::max);
-    for [first, second] in near_pairs(blocks, reach) {
+    for pair in near_pairs(blocks.iter().map(|it| &it.corners[..]), reach) {
+        let [first, second] = pair.map(BlockId::new);
         between_blocks(blocks, first, second).iter().try_for_each(&mut add)?;
     }
     for (k, support) in supports.iter().enumerate() {

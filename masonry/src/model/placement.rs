@@ -27,8 +27,8 @@ pub(super) fn check_overlaps(
     keys: &[KeyPath],
     units: Units,
 ) -> Result<(), Fault> {
-    for [i, j] in near_pairs(blocks, 0.0) {
-        let (first, second) = (&blocks[i.index()], &blocks[j.index()]);
+    for [i, j] in near_pairs(blocks.iter().map(|it| &it.corners[..]), 0.0) {
+        let (first, second) = (&blocks[i], &blocks[j]);
         let area = geometry::overlap_area(&first.corners, &second.corners);
         let size = geometry::size(&first.corners).min(geometry::size(&second.corners));
         if area > SAME_PLACE * size * size {
@@ -38,7 +38,7 @@ pub(super) fn check_overlaps(
                 area: rounded(area / (units.length_to_si() * units.length_to_si())),
                 unit: units.length_name(),
             };
-            return Err(Fault::new(keys[j.index()].clone(), kind));
+            return Err(Fault::new(keys[j].clone(), kind));
         }
     }
     Ok(())

@@ -1,23 +1,21 @@
-//! Pairs of blocks close enough to touch.
+//! Pairs of shapes close enough to touch.
+
+use nalgebra::Point2;
 
 use crate::geometry::{self, Extent, SAME_PLACE};
-use crate::ids::BlockId;
-use crate::model::PlacedBlock;
 
-/// Pairs of blocks whose bounding boxes come within `reach` \[m\], in increasing order.
+/// Pairs of shapes whose bounding boxes come within `reach` \[m\], in increasing order.
 ///
 /// Boxes are swept along the longer side of the whole structure, so that only neighbours in that direction are compared.
-pub(crate) fn near_pairs(blocks: &[PlacedBlock], reach: f64) -> Vec<[BlockId; 2]> {
-    let boxes: Vec<Extent> = blocks
-        .iter()
-        .map(|b| {
-            let margin = reach + SAME_PLACE * geometry::size(&b.corners);
-            Extent::of(&b.corners).grown(margin)
-        })
-        .collect();
+pub(crate) fn near_pairs<'a>(
+    shapes: impl IntoIterator<Item = &'a [Point2<f64>]>,
+    reach: f64,
+) -> Vec<[usize; 2]> {
+    let grown = |it: &[Point2<f64>]| Extent::of(it).grown(reach + SAME_PLACE * geometry::size(it));
+    let boxes: Vec<Extent> = shapes.into_iter().map(grown).collect();
     let Some(whole) = boxes.iter().copied().reduce(Extent::union) else { return Vec::new() };
     let axis = usize::from(whole.high.y - whole.low.y > whole.high.x - whole.low.x);
-    let mut order: Vec<usize> = (0..blocks.len()).collect();
+    let mut order: Vec<usize> = (0..boxes.len()).collect();
     order.sort_by(|i, j| boxes[*i].low[axis].total_cmp(&boxes[*j].low[axis]));
 
     let mut active: Vec<usize> = Vec::new();
@@ -29,5 +27,5 @@ pub(crate) fn near_pairs(blocks: &[PlacedBlock], reach: f64) -> Vec<[BlockId; 2]
         active.push(new);
     }
     pairs.sort_unstable();
-    pairs.into_iter().map(|pair| pair.map(BlockId::new)).collect()
+    pairs
 }
