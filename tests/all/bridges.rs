@@ -318,6 +318,29 @@ fn a_symmetric_bridge() {
     assert!(gains.len() >= 4 && gains.iter().all(|gain| *gain > 1.5), "{gains:?}");
 }
 
+/// By both laws the path is followed at the worst position by associated flow alone, and carries there what it carries if it
+/// is followed everywhere. Associated flow is an upper bound at every position.
+#[test]
+fn the_path_at_every_position() {
+    let train = Train::new("arch", [[0.0, 100.0]], [0.5, 2.5]).positions(9);
+    let slippery = bridge(20).joint("bed", Joint::mu(0.35)).train(train);
+    let by = |laws| {
+        train_observed(&slippery, laws, &mut |_| std::ops::ControlFlow::Continue(())).unwrap()
+    };
+    let [by_path, both] = [Laws::Path, Laws::Both].map(by);
+    assert!(by_path.by_path && !both.by_path);
+    for (flow, path) in both.positions.iter().zip(&by_path.positions) {
+        assert!(path.load_factor.unwrap() <= flow.bound.unwrap(), "{path:?} and {flow:?}");
+    }
+    let carried = by_path.positions.iter().map(|it| it.load_factor.unwrap());
+    assert_close(by_path.limit.carried(), carried.fold(f64::INFINITY, f64::min), 1e-12);
+    let there = by_path.positions[both.critical].load_factor.unwrap();
+    assert_close(both.limit.carried(), there, 1e-12);
+    let tells = |it: &String| it.contains("Coulomb's friction may carry less at another");
+    assert!(both.limit.warnings.iter().any(tells));
+    assert!(!by_path.limit.warnings.iter().any(tells));
+}
+
 /// Mistakes are told.
 #[test]
 fn trains_that_never_are_on_the_bridge() {

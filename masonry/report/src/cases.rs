@@ -15,8 +15,7 @@ use masonry::scene::Combined;
 /// What was found of all cases, a line for each.
 #[derive(Debug, Clone)]
 pub struct Cases {
-    /// The list in JSON, and its title.
-    names: [&'static str; 2],
+    kind: Kind,
     governs: usize,
     /// What governs.
     name: String,
@@ -24,6 +23,25 @@ pub struct Cases {
     /// The factor against the position of a train.
     curve: Option<String>,
 }
+
+/// A kind of cases.
+#[derive(Debug, Clone, Copy)]
+struct Kind {
+    /// The list in JSON.
+    key: &'static str,
+    title: &'static str,
+    /// What the case is that the rest of a report is of.
+    governs: &'static str,
+}
+
+const COMBINATIONS: Kind = Kind { key: "combinations", title: "Combinations", governs: "governs" };
+const POSITIONS: Kind = Kind {
+    key: "positions",
+    title: "Positions of the train, associative flow",
+    governs: "is the worst by associative flow",
+};
+const POSITIONS_BY_PATH: Kind =
+    Kind { key: "positions", title: "Positions of the train, path", governs: "governs" };
 
 /// What becomes of a train at a position.
 fn answer(it: Option<Answer>) -> &'static str {
@@ -35,9 +53,6 @@ fn answer(it: Option<Answer>) -> &'static str {
         None => "no axle on it",
     }
 }
-
-const COMBINATIONS: [&str; 2] = ["combinations", "Combinations"];
-const POSITIONS: [&str; 2] = ["positions", "Positions of the train, associative flow"];
 
 /// The worst verdict; if verdicts are equal, the outcome that uses most of the friction of a joint.
 fn worst(list: &[Combined<Outcome>]) -> Option<usize> {
@@ -77,7 +92,7 @@ impl Cases {
             .named("friction used")
             .table(InUnits(list[governs].of.model.units), list);
         let name = list[governs].name.clone();
-        Some(Self { names: COMBINATIONS, governs, name, rows, curve: None })
+        Some(Self { kind: COMBINATIONS, governs, name, rows, curve: None })
     }
 
     /// The limit loads of all combinations. The smallest factor governs. `None` of no combinations.
@@ -105,12 +120,12 @@ impl Cases {
         }
         let rows = columns.table(InUnits(list[governs].of.model.units), list);
         let name = list[governs].name.clone();
-        Some(Self { names: COMBINATIONS, governs, name, rows, curve: None })
+        Some(Self { kind: COMBINATIONS, governs, name, rows, curve: None })
     }
 
     /// The limit loads of a train at its positions.
     pub fn of_train(crossing: &CrossingTrain) -> Self {
-        let CrossingTrain { positions, critical, limit, .. } = crossing;
+        let CrossingTrain { positions, by_path, critical, limit, .. } = crossing;
         let units = InUnits(limit.model.units);
         let rows = Columns::<&TrainPosition>::new()
             .number("position", Length, Significant(5), |it| it.at)
@@ -120,8 +135,10 @@ impl Cases {
             .words("answer", |it| answer(it.answer))
             .table(units, positions);
         let name = format!("position {}", units.length_text(positions[*critical].at));
-        let curve = svg::train(&limit.title, &rows, *critical);
-        Self { names: POSITIONS, governs: *critical, name, rows, curve }
+        let law = if *by_path { "path" } else { "associative flow" };
+        let curve = svg::train(&limit.title, law, &rows, *critical);
+        let kind = if *by_path { POSITIONS_BY_PATH } else { POSITIONS };
+        Self { kind, governs: *critical, name, rows, curve }
     }
 
     /// The picture of the factor against the position of a train, if there is one.
@@ -139,7 +156,7 @@ impl Cases {
         let name = self.quoted();
         section(self.title()).trim_start().to_owned()
             + &table(&self.shown())
-            + &format!("\n{name} governs:\n\n")
+            + &format!("\n{name} {}:\n\n", self.kind.governs)
     }
 
     /// The object of `--json` of several cases, pretty-printed: which one `governs`; the `combinations`, of `masonry solve` with
@@ -152,23 +169,27 @@ impl Cases {
     pub fn json(&self, key: &str, object: &str) -> Result<String, serde_json::Error> {
         let rows = self.rows.objects().into_iter().map(Value::Object).collect();
         let mut members = members! { "governs": &self.name };
-        members.push((self.names[0].to_owned(), Value::List(rows)));
+        members.push((self.kind.key.to_owned(), Value::List(rows)));
         members.push((key.to_owned(), Value::Json(object.trim_end().to_owned())));
         Value::Object(members).file()
     }
 
     pub(super) fn title(&self) -> &'static str {
-        self.names[1]
+        self.kind.title
     }
 
     /// What governs: the name of a combination is in quotes.
     fn quoted(&self) -> String {
-        if self.names == COMBINATIONS { format!("\"{}\"", self.name) } else { self.name.clone() }
+        if self.kind.key == COMBINATIONS.key {
+            format!("\"{}\"", self.name)
+        } else {
+            self.name.clone()
+        }
     }
 
     /// What a page says of its table.
     pub(super) fn note(&self) -> String {
-        format!("{} governs; this page shows it.", self.quoted())
+        format!("{} {}; this page shows it.", self.quoted(), self.kind.governs)
     }
 
     /// The lines for readers.

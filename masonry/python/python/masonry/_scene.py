@@ -209,7 +209,7 @@ class Scene:
         Parameters
         ----------
         law : str
-            The law at the position that governs, as of :meth:`limit`; positions are compared by associative flow.
+            The law, as of :meth:`limit`. With ``"both"`` the path is followed at the worst position by associative flow only.
         callback : callable, optional
             As of :meth:`limit`.
         progress : bool

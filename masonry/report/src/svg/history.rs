@@ -182,12 +182,12 @@ pub fn path(title: &str, group: &str, path: &Path) -> Option<String> {
     picture(&format!("{title}: load factor along the path"), &[diagram], &[])
 }
 
-/// Factors of a train beyond this multiple of the least are not drawn. Chosen: curves show where the train governs.
+/// Factors of a train beyond this multiple of the least are not drawn. Chosen: curves show where the train is worst.
 const SHOWN: f64 = 10.0;
 
-/// The load factor of a train against its position, from the table of its positions, and the position that governs. `None` for
-/// less than two factors.
-pub(crate) fn train(title: &str, positions: &Table, critical: usize) -> Option<String> {
+/// The load factor of a train by a law against its position, from the table of its positions, and the worst position. `None`
+/// for less than two factors.
+pub(crate) fn train(title: &str, law: &str, positions: &Table, critical: usize) -> Option<String> {
     let places = positions.numbers("position");
     let factor = |row: &Vec<Value>| match row[1] {
         Value::Number(factor) => Some(factor),
@@ -205,13 +205,13 @@ pub(crate) fn train(title: &str, positions: &Table, critical: usize) -> Option<S
     if runs.concat().len() < 2 {
         return None;
     }
-    let mut names = ["associative flow"].into_iter();
+    let mut names = [law].into_iter();
     let mut series: Vec<Series> = Vec::new();
     for points in runs {
         let name = names.next().unwrap_or_default().to_owned();
         series.push(Series { name, style: 0, look: Look::Full, points });
     }
-    let name = "governs".to_owned();
+    let name = "worst position".to_owned();
     series.push(Series { name, style: 1, look: Look::Full, points: vec![governs] });
     let length = positions.units.0.length_name();
     let axes = [&format!("position of the train [{length}]"), "factor of the train [-]"];

@@ -64,6 +64,16 @@ pub struct Path {
 }
 
 impl Path {
+    /// The outcome.
+    pub fn answer(&self) -> Answer {
+        match (self.decided, self.load_factor, self.falls) {
+            (false, ..) => Answer::Undecided,
+            (true, None, _) => Answer::Falls,
+            (true, Some(_), Some(_)) => Answer::Fails,
+            (true, Some(_), None) => Answer::Unlimited,
+        }
+    }
+
     /// Warnings: what limits the meaning of the answer.
     pub(super) fn warning(&self) -> String {
         let way = "With friction other paths may end at other factors.";

@@ -1,11 +1,16 @@
-//! A train that crosses a bridge: the limit load at every position, and at the one that governs.
+//! A train that crosses a bridge: the limit load at every position, and at the worst of them.
 
 use std::ops::ControlFlow;
 
-use super::{Answer, Laws, Limit, LimitError, LimitObserver, limit_observed};
+use super::{Answer, Laws, Limit, LimitError, LimitObserver, Path, limit_observed};
 use crate::scene::Scene;
 
-/// The limit load of a train at one position, by associated flow.
+/// What the worst position means if the path was followed there alone.
+const OF_ONE_POSITION: &str = "The position is the one at which associated flow carries least; Coulomb's friction may \
+                               carry less at another. `--law path` follows the load at every position, which takes \
+                               longer.";
+
+/// The limit load of a train at one position, by the law of [`CrossingTrain::by_path`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct TrainPosition {
@@ -13,10 +18,26 @@ pub struct TrainPosition {
     pub at: f64,
     /// The outcome; `None` if no axle stands on the bridge.
     pub answer: Option<Answer>,
-    /// The largest factor \[-\] for which forces were found.
+    /// The largest factor \[-\] that is carried; `None` if none is known.
     pub load_factor: Option<f64>,
-    /// The smallest factor \[-\] for which it is proved that there are none.
+    /// The smallest factor \[-\] that is known not to be carried.
     pub bound: Option<f64>,
+}
+
+impl TrainPosition {
+    fn of(at: f64, limit: &Limit) -> Self {
+        if let Some(path) = &limit.path {
+            let Path { load_factor, falls, .. } = *path;
+            return Self { at, answer: Some(path.answer()), load_factor, bound: falls };
+        }
+        let found = limit.associative.as_ref();
+        Self {
+            at,
+            answer: found.map(|it| it.answer),
+            load_factor: found.and_then(|it| it.load_factor),
+            bound: found.and_then(|it| it.bound),
+        }
+    }
 }
 
 /// A train that crosses a bridge.
@@ -25,13 +46,15 @@ pub struct TrainPosition {
 pub struct CrossingTrain {
     /// Its positions, in their order; after an interruption those that were reached.
     pub positions: Vec<TrainPosition>,
+    /// Whether the limits of all positions are those of Coulomb's friction along paths, and not of associated flow.
+    pub by_path: bool,
     /// The position with the smallest factor; if there is no limit, the first with an axle on the bridge.
     pub critical: usize,
     /// The limit load there, by the chosen laws.
     pub limit: Limit,
 }
 
-/// The limit loads of the train of the scene by associated flow, and by both laws at the position that governs.
+/// The limit loads of the train of the scene by associated flow, and by both laws at the position where these are least.
 ///
 /// ```
 /// use masonry::analysis::limit::train;
@@ -46,7 +69,7 @@ pub struct CrossingTrain {
 ///     .arch(Arch::segmental("arch", "stone", 4.0, 1.0, 0.4, 11).joint("joint").springing("joint"))
 ///     .train(Train::new("arch", [[0.0, 1e4]], [0.0, 4.0]).positions(5));
 /// let crossing = train(&scene)?;
-/// // A quarter of the span governs, from either side.
+/// // The worst place is a quarter of the span, from either side.
 /// let at = crossing.positions[crossing.critical].at;
 /// assert!(at == 1.0 || at == 3.0);
 /// # Ok::<(), masonry::analysis::limit::LimitError>(())
@@ -58,8 +81,10 @@ pub fn train(scene: &Scene) -> Result<CrossingTrain, LimitError> {
     train_observed(scene, Laws::Both, &mut |_| ControlFlow::Continue(()))
 }
 
-/// The limit loads of the train with an observer that may end the search by `Break`: by associated flow at every position, and by
-/// the chosen laws at the one that governs.
+/// The limit loads of the train with an observer that may end the search by `Break`.
+///
+/// The law of all positions is that of paths if it alone is chosen, and else associated flow, which is far quicker. The
+/// second law of [`Laws::Both`] is asked at the worst position only, which a warning tells.
 ///
 /// # Errors
 /// [`LimitError`] when the scene is wrong, has no train, or has a train that is never on the bridge.
@@ -71,35 +96,38 @@ pub fn train_observed(
     scene.check()?;
     let train = scene.limit.train.as_ref().ok_or(LimitError::NoTrain)?;
     let unit = scene.units.length_to_si();
+    let of_all = if laws == Laws::Both { Laws::Associative } else { laws };
     let mut positions = Vec::new();
-    let mut least: Option<(usize, f64)> = None;
+    let mut least: Option<(usize, Limit)> = None;
     for place in train.places() {
-        let position =
-            TrainPosition { at: place * unit, answer: None, load_factor: None, bound: None };
-        let there = scene.with_train(train, place);
-        let limit = match limit_observed(&there, Laws::Associative, &mut |at| observer(at)) {
+        let at = place * unit;
+        let limit = match limit_observed(&scene.with_train(train, place), of_all, &mut |it| {
+            observer(it)
+        }) {
             // No axle is on the bridge.
             Err(LimitError::NoForce { .. }) => {
-                positions.push(position);
+                positions.push(TrainPosition { at, answer: None, load_factor: None, bound: None });
                 continue;
             }
             limit => limit?,
         };
-        if least.is_none_or(|(_, carried)| limit.carried() < carried) {
-            least = Some((positions.len(), limit.carried()));
+        let number = positions.len();
+        positions.push(TrainPosition::of(at, &limit));
+        let is_interrupted = limit.is_interrupted;
+        if least.as_ref().is_none_or(|(_, least)| limit.carried() < least.carried()) {
+            least = Some((number, limit));
         }
-        positions.push(limit.associative.as_ref().map_or(position, |found| TrainPosition {
-            answer: Some(found.answer),
-            load_factor: found.load_factor,
-            bound: found.bound,
-            ..position
-        }));
-        if limit.is_interrupted {
+        if is_interrupted {
             break;
         }
     }
-    let (critical, _) = least.ok_or_else(|| LimitError::NoAxle { over: train.over.clone() })?;
-    let there = scene.with_train(train, positions[critical].at / unit);
-    let limit = limit_observed(&there, laws, &mut |at| observer(at))?;
-    Ok(CrossingTrain { positions, critical, limit })
+    let (critical, mut limit) =
+        least.ok_or_else(|| LimitError::NoAxle { over: train.over.clone() })?;
+    if laws != of_all {
+        let there = scene.with_train(train, positions[critical].at / unit);
+        limit = limit_observed(&there, laws, &mut |at| observer(at))?;
+        limit.warnings.push(OF_ONE_POSITION.to_owned());
+    }
+    let by_path = of_all == Laws::Path;
+    Ok(CrossingTrain { positions, by_path, critical, limit })
 }
