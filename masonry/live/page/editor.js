@@ -10,12 +10,13 @@ const PIECE = 1000;
 const DOUBLE_CLICK = 400;
 
 export class Editor {
-  // `onChange(event)` hears of every change by hand, `onLine(line)` of the line of the cursor.
-  constructor({ onChange, onLine }) {
+  // `onChange(event)` hears of every change by hand, `onLine(line)` of the line of the cursor, and `onNumber(number)` of the number
+  // that was dragged or is at the cursor.
+  constructor({ onChange, onLine, onNumber }) {
     this.area = document.getElementById("scene");
     this.layer = document.getElementById("colours");
     this.lines = document.getElementById("lines");
-    this.onChange = onChange;
+    [this.onChange, this.onNumber] = [onChange, onNumber];
     this.rules = new Map();
     this.past = [];
     this.future = [];
@@ -26,7 +27,9 @@ export class Editor {
     this.area.addEventListener("keydown", (event) => this.turnByKey(event));
     addEventListener("keydown", (event) => this.undoByKey(event));
     document.addEventListener("selectionchange", () => {
-      if (document.activeElement === this.area) onLine(this.lineAt(this.area.selectionStart));
+      if (document.activeElement !== this.area) return;
+      onLine(this.lineAt(this.area.selectionStart));
+      onNumber(this.numberAt(this.area.selectionStart));
     });
     this.area.addEventListener("blur", () => onLine(0));
     this.layer.addEventListener("pointerdown", (event) => this.hold(event));
@@ -157,7 +160,11 @@ export class Editor {
     // What is known of another number, before this text is answered, counts for nothing.
     const known = this.rules.get(from);
     const { whole, least } = known?.value === value ? known : { whole: /^[+-]?\d+$/.test(written), least: null };
-    return { from, to: from + written.length, written, value, whole, least };
+    // The last key before it is that of the number, or of the list in which it is.
+    const line = this.lineAt(from);
+    const before = this.text.slice(0, from).split("\n").at(-1);
+    const key = [...before.matchAll(/([\w-]+)\s*=/g)].at(-1)?.[1] ?? "number";
+    return { from, to: from + written.length, written, value, whole, least, label: `${key} in line ${line}` };
   }
 
   // Holds a number with the pointer. Without a movement it was a click, which sets the cursor, or the second of two, which select it.
@@ -183,6 +190,7 @@ export class Editor {
       removeEventListener("pointercancel", release);
       this.held = null;
       this.draw();
+      this.onNumber(this.numberAt(number.from));
       if (isMoved) return;
       const isDouble = this.clicked.from === number.from && event.timeStamp - this.clicked.at < DOUBLE_CLICK;
       this.clicked = { from: number.from, at: event.timeStamp };

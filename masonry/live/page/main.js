@@ -26,24 +26,26 @@ const editor = new Editor({
     const place = picture.mark(line);
     editor.mark(place?.first ?? 0, place?.last ?? -1);
   },
+  onNumber: (number) => work.choose(number),
 });
 const picture = new Picture((place) => {
   editor.mark(place.first, place.last);
   editor.show(place.first, 1);
 });
 const handles = new Handles(one("#picture"), editor);
-const sliders = new Sliders(editor);
 const work = new Work(engine, editor);
+const sliders = new Sliders(editor, ({ most, ...control }) => work.ask({ ...control, range: [0, most] }));
 const files = new Files(engine, editor, picture);
 const answers = new Answers({
   engine,
   editor,
   picture,
   handles,
-  show({ numbers, controls, places }, text) {
+  show({ numbers, controls, places, shown }, text) {
     editor.setRules(numbers);
     sliders.show(controls, text);
     work.offer(controls);
+    if (shown) work.setVerdict(shown.verdict);
     picture.places = places;
   },
 });

@@ -18,6 +18,12 @@ export function stepOf(value, whole, written = "") {
   return 10 ** -Math.max(decimals(written), 1);
 }
 
+// Where a number may go when values of it are tried: from none of it to twice as much, or a hundred steps to both sides of zero.
+export function rangeOf({ value, whole, least, written }) {
+  const size = value === 0 ? 100 * stepOf(value, whole, written) : Math.abs(value);
+  return [Math.max(value - size, least ?? -Infinity), value + size];
+}
+
 // A value in the manner in which a number was written: its decimals, or more if the step needs them, and its exponent.
 export function writtenAs(value, written, step, whole) {
   if (whole) return String(Math.round(value));

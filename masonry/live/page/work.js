@@ -1,11 +1,22 @@
 import { all, button, made, one } from "./elements.js";
+import { rangeOf } from "./numbers.js";
 
-// Questions that take longer than a solve: limits, ranges, thicknesses and studies, one at a time, and each can be stopped.
+// Questions that take longer than a solve: limits, ranges, thicknesses, studies, and values at which the verdict changes; one at a
+// time, and each can be stopped.
+
+// What is asked for a number, by the verdict that there is.
+const ASKED = { stands: "falls at?", falls: "stands at?", undecided: "changes at?" };
 
 export class Work {
   constructor(engine, editor) {
-    Object.assign(this, { engine, editor, running: null, arch: undefined, factors: [] });
+    Object.assign(this, { engine, editor, running: null, arch: undefined, factors: [], asked: ASKED.undecided });
+    this.choose(null);
     for (const it of all("#work [data-task]")) it.addEventListener("click", () => this.begin(it.dataset.task, it.textContent));
+    one("#change").addEventListener("click", () => {
+      const number = this.number;
+      const edit = { from: number.from, to: number.to, before: "", part: 1 };
+      this.ask({ ...number, edits: [edit], range: rangeOf(number) });
+    });
     one("#stop").addEventListener("click", () => this.running?.abort());
   }
 
@@ -18,12 +29,41 @@ export class Work {
     this.factors = factors.map(({ label, value }) => ({ group: label.replace("factor of ", ""), value: Number(value.toPrecision(6)) }));
   }
 
-  // What was found belongs to an earlier text.
+  // The number that is asked for when none of the sliders is.
+  choose(number) {
+    this.number = number;
+    const button = one("#change");
+    button.disabled = number === null;
+    button.dataset.asks = number?.label ?? "number at the cursor";
+    this.name(button);
+  }
+
+  // The buttons of numbers say what is asked for, and for which number if it does not stand beside them.
+  setVerdict(verdict) {
+    this.asked = ASKED[verdict] ?? ASKED.undecided;
+    for (const it of all("[data-asks]")) this.name(it);
+  }
+
+  name(button) {
+    const full = `${button.dataset.asks}: ${this.asked}`;
+    button.textContent = button.id === "change" ? full : this.asked;
+    button.setAttribute("aria-label", full);
+    button.title = "Finds values of this number between which the verdict changes";
+  }
+
+  // Asks at which values of a number the verdict changes.
+  ask({ label, edits, value, range, whole = false }) {
+    this.begin("change", "Values tried", { label, edits, value, range, whole });
+  }
+
+  // What was found belongs to an earlier text, and numbers may be in other places.
   changed() {
+    const now = this.number && this.editor.numberAt(this.number.from);
+    this.choose(now?.label === this.number?.label ? now : null);
     for (const section of all("#found section")) section.classList.add("old");
   }
 
-  async begin(task, title) {
+  async begin(task, title, more = {}) {
     this.running?.abort();
     const mine = (this.running = new AbortController());
     const tell = (news) => {
@@ -34,13 +74,13 @@ export class Work {
       const own = task === "limit" && this.factors.find(({ group }) => sentence.includes(`"${group}"`));
       return own ? ` The limit multiplies the load with its factor of ${own.value}.` : "";
     };
-    const question = { task, text: this.editor.text, law: one("#law").value, arch: this.arch };
+    const question = { task, text: this.editor.text, law: one("#law").value, arch: this.arch, ...more };
     one("#stop").hidden = false;
     tell(`${title}: begun`);
     try {
       const onNews = (news) => tell(`${title}: ${news}`);
       const found = await this.engine.ask(question, { signal: mine.signal, onNews });
-      tell(found.error?.message ?? `${title}: ${found.sentence}${multiplied(found.sentence)} The pictures are below.`);
+      tell(found.error?.message ?? `${title}: ${found.sentence}${multiplied(found.sentence)} ${found.pictures.length > 0 ? "The pictures are" : "The report is"} below.`);
       if (!found.error) show(title, found);
     } catch (error) {
       tell(error.name === "AbortError" ? `${one("#news").textContent} (stopped)` : error.message);

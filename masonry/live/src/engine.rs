@@ -8,6 +8,7 @@
 //! | `limit` | `law`: `associative`, `path` or `both` | limit load |
 //! | `range` | | least and largest reactions |
 //! | `thickness` | `arch`: its name | least thickness of an arch |
+//! | `change` | `label`, `edits`, `value`, `range` and `whole` of a number | values of the number between which the verdict changes |
 //! | `study` | | errors and times of routes |
 //! | `export` | `format`: `page`, `json`, `text` or `dxf` | the text of a file |
 //! | `complete` | `at`: the place of the cursor | keys, words and names that fit there |
@@ -16,6 +17,7 @@
 //! An answer is an object. It has `error`, with a message and, if the mistake has a place, `line` and `column` from 1, when there
 //! is nothing else to say. All other places in the text are in units of UTF-16, in which scripts count.
 
+mod change;
 mod complete;
 mod controls;
 mod fault;
@@ -34,6 +36,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::beginnings::BEGINNINGS;
 
+use change::Tried;
 use fault::Fault;
 use solved::{Format, Show, Solved};
 use text::Text;
@@ -51,13 +54,38 @@ pub struct Engine {
 #[derive(Debug, Deserialize)]
 #[serde(tag = "task", rename_all = "lowercase")]
 enum Task {
-    Solve { text: String, show: Show, step: Option<usize> },
-    Limit { text: String, law: Laws },
-    Range { text: String },
-    Thickness { text: String, arch: String },
-    Study { text: String },
-    Export { text: String, format: Format },
-    Complete { text: String, at: usize },
+    Solve {
+        text: String,
+        show: Show,
+        step: Option<usize>,
+    },
+    Limit {
+        text: String,
+        law: Laws,
+    },
+    Range {
+        text: String,
+    },
+    Thickness {
+        text: String,
+        arch: String,
+    },
+    Study {
+        text: String,
+    },
+    Change {
+        text: String,
+        #[serde(flatten)]
+        tried: Tried,
+    },
+    Export {
+        text: String,
+        format: Format,
+    },
+    Complete {
+        text: String,
+        at: usize,
+    },
     Begin,
 }
 
@@ -82,6 +110,12 @@ impl Engine {
                 json(&work::thickness(&scene(&text)?, &arch, watch)?)?
             }
             Task::Study { text } => json(&work::study(&scene(&text)?, watch)?)?,
+            Task::Change { text, tried } => {
+                let solve = |text: &str, watch: &mut Watch<'_>| {
+                    Ok(Solved::new(text, &scene(text)?, watch)?)
+                };
+                json(&change::change(&text, &tried, &solve, watch)?)?
+            }
             Task::Export { text, format } => {
                 let file = self.solved(&text, watch)?.file(format)?;
                 json(&serde_json::json!({ "file": file }))?

@@ -12,9 +12,9 @@ const MODULES: [&str; 12] = [
     include_str!("../page/editor.js"),
     include_str!("../page/picture.js"),
     include_str!("../page/handles.js"),
+    include_str!("../page/work.js"),
     include_str!("../page/sliders.js"),
     include_str!("../page/answers.js"),
-    include_str!("../page/work.js"),
     include_str!("../page/files.js"),
     include_str!("../page/main.js"),
 ];

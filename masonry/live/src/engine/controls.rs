@@ -1,6 +1,6 @@
 //! The sliders of a scene: friction of joint classes, factors of load groups, thicknesses of arches.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::schema::Entry;
 use super::text::{Number, Text, Value, text_of};
@@ -17,7 +17,7 @@ pub(super) struct Control {
 }
 
 /// A place of the text that gets a new number. Places are in units of UTF-16.
-#[derive(Debug, Serialize)]
+#[derive(Debug, Serialize, Deserialize)]
 pub(super) struct Edit {
     pub(super) from: usize,
     pub(super) to: usize,

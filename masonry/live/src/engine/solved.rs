@@ -105,22 +105,11 @@ impl Solved {
     pub(super) fn shown(&self, show: Show, step: Option<usize>) -> Shown {
         let outcome = &self.outcome;
         let choices = self.choices();
-        let usual = if outcome.mechanism.is_some() {
-            Show::Mechanism
-        } else if outcome.state.is_some() {
-            Show::Forces
-        } else {
-            Show::Scene
-        };
-        let seen = if choices.contains(&show) && show != Show::Answer { show } else { usual };
+        let seen = if choices.contains(&show) { self.seen(show) } else { self.seen(Show::Answer) };
         let is_report = seen == Show::Report;
         let name = |it: &Frame| format!("{} {}/{}", it.step.stage, it.step.number, it.step.of);
         Shown {
-            verdict: match outcome.judgement.verdict {
-                Verdict::Stands => "stands",
-                Verdict::Falls => "falls",
-                Verdict::Undecided => "undecided",
-            },
+            verdict: self.verdict(),
             sentence: outcome.judgement.sentence.clone(),
             warnings: outcome.judgement.warnings.clone(),
             seconds: outcome.times.iter().map(|it| it.seconds).sum(),
@@ -129,6 +118,24 @@ impl Solved {
             picture: if is_report { None } else { self.picture(seen, step) },
             report: is_report.then(|| table::report(outcome)),
             steps: self.frames.iter().map(name).collect(),
+        }
+    }
+
+    pub(super) fn verdict(&self) -> &'static str {
+        match self.outcome.judgement.verdict {
+            Verdict::Stands => "stands",
+            Verdict::Falls => "falls",
+            Verdict::Undecided => "undecided",
+        }
+    }
+
+    /// What an answer shows.
+    fn seen(&self, show: Show) -> Show {
+        match show {
+            Show::Answer if self.outcome.mechanism.is_some() => Show::Mechanism,
+            Show::Answer if self.outcome.state.is_some() => Show::Forces,
+            Show::Answer => Show::Scene,
+            other => other,
         }
     }
 
@@ -157,7 +164,9 @@ impl Solved {
         }
     }
 
-    fn picture(&self, show: Show, step: Option<usize>) -> Option<String> {
+    /// A picture of the state after a step, the last one without a number.
+    pub(super) fn picture(&self, show: Show, step: Option<usize>) -> Option<String> {
+        let show = self.seen(show);
         let (outcome, title) = (&self.outcome, self.outcome.title.as_str());
         if show == Show::Mechanism {
             let rates = outcome.mechanism.as_ref()?;

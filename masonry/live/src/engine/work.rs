@@ -24,16 +24,22 @@ pub(super) struct Found {
 
 #[derive(Debug, Serialize)]
 struct Picture {
-    name: &'static str,
+    name: String,
     picture: String,
 }
 
 impl Found {
     /// A result with its pictures, of which some may not exist.
-    fn new(sentence: &str, pictures: Vec<(&'static str, Option<String>)>, text: String) -> Self {
+    pub(super) fn new(
+        sentence: &str,
+        pictures: Vec<(impl Into<String>, Option<String>)>,
+        text: String,
+    ) -> Self {
         let sentence = sentence.to_owned();
-        let drawn =
-            |(name, picture): (_, Option<String>)| Some(Picture { name, picture: picture? });
+        let drawn = |(name, picture)| {
+            let name: String = Into::into(name);
+            Some(Picture { name, picture: picture? })
+        };
         Self { sentence, pictures: pictures.into_iter().filter_map(drawn).collect(), text }
     }
 }
@@ -65,7 +71,7 @@ pub(super) fn limit(scene: &Scene, law: Laws, watch: &mut Watch<'_>) -> Result<F
 pub(super) fn range(scene: &Scene, watch: &mut Watch<'_>) -> Result<Found, LimitError> {
     let range =
         ranges_observed(scene, &mut |at| watch(&format_args!("iteration {}", at.iteration)))?;
-    Ok(Found::new(&range.sentence, Vec::new(), output::range_table(&range)))
+    Ok(Found::new(&range.sentence, Vec::<(String, _)>::new(), output::range_table(&range)))
 }
 
 pub(super) fn thickness(

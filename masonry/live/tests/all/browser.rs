@@ -199,6 +199,28 @@ fn a_limit_is_found_and_another_one_is_stopped() {
 }
 
 #[test]
+fn a_number_is_asked_at_which_value_the_wall_falls() {
+    let Some(page) = opened("change", DOOR) else { return };
+    assert_eq!(page.run("return document.getElementById('change').disabled"), true);
+    name_number(&page, "[joints.bed]\nmu = ", "mu");
+    page.click("#mu");
+    page.wait("document.getElementById('change').textContent === 'mu in line 10: falls at?'");
+    page.click("#change");
+    let found = "document.querySelector('#found h2').textContent";
+    page.wait(&format!("document.querySelector('#found h2') && {found}.includes('changes with mu in line 10: falls at 0.0')"));
+    page.wait("document.querySelector('#found figure svg')");
+    // The scene has stayed, and a slider asks as well.
+    assert_eq!(text(&page), DOOR);
+    page.click("[data-asks='μ of head']");
+    page.wait(&format!("{found}.includes('μ of head')"));
+    // A wall that falls is asked at which value it stands; what was chosen is still the same number.
+    name_number(&page, "[joints.bed]\nmu = ", "mu");
+    page.drag("#mu", [-120.0, 0.0], 5);
+    page.wait("document.getElementById('change').textContent === 'mu in line 10: stands at?'");
+    page.picture(&directory("change_pictures").join("change.png"));
+}
+
+#[test]
 fn a_scene_is_saved_and_changes_on_the_disk_are_loaded() {
     let (address, path) = serve_scene("save", DOOR);
     let Some(page) = Page::open(&address, 1280) else { return };

@@ -162,6 +162,126 @@ fn a_limit_is_found_told_on_the_way_and_stopped() {
     assert!(asked < all);
 }
 
+/// A block on the ground, pushed to the side by half its weight.
+const PUSHED: &str = r#"title = "Block"
+thickness = 1.0
+gravity = [0.0, -10.0]
+units = { length = "m", force = "kN" }
+materials.stone = { density = 2000.0 }
+joints.bed = { mu = 0.8 }
+
+[[blocks]]
+name = "block"
+material = "stone"
+corners = [[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [0.0, 1.0]]
+
+[[supports]]
+name = "ground"
+from = [0.0, 0.0]
+to = [2.0, 0.0]
+joint = "bed"
+
+[[loads]]
+name = "push"
+acceleration = [5.0, 0.0]
+"#;
+
+/// The question for values of the number after some words, in a range.
+fn change(words: &str, range: [f64; 2]) -> Value {
+    let from = PUSHED.find(words).unwrap() + words.len();
+    let to = from + PUSHED[from..].find([',', ' ']).unwrap();
+    let value: f64 = PUSHED[from..to].parse().unwrap();
+    let edits = [json!({ "from": from, "to": to, "before": "", "part": 1.0 })];
+    json!({ "task": "change", "text": PUSHED, "label": "it", "edits": edits, "value": value, "range": range,
+        "whole": false })
+}
+
+/// Values that were tried with what they come to.
+fn tried(found: &Value) -> Vec<(f64, String)> {
+    let lines = found["text"].as_str().unwrap().lines().skip(1);
+    let line = |it: &str| {
+        let (value, answer) = it.trim().split_once("  ").unwrap();
+        (value.parse().unwrap(), answer.to_owned())
+    };
+    lines.map(line).collect()
+}
+
+#[test]
+fn a_change_of_the_verdict_lies_between_values_that_were_tried() {
+    // The block slides at friction below the push over the weight.
+    let found = ask(&change("mu = ", [0.0, 1.2]));
+    let list = tried(&found);
+    let falls = list.iter().rfind(|(_, it)| it == "falls").unwrap().0;
+    let stands = list.iter().find(|(_, it)| it == "stands").unwrap().0;
+    assert!(falls < 0.5 && stands >= 0.5 && stands - falls < 0.0011, "{found}");
+    assert!(list.iter().any(|(value, _)| *value == 0.8), "its own value is tried: {found}");
+    let sentence = found["sentence"].as_str().unwrap();
+    let expected = format!("The verdict changes with it: falls at {falls}, stands at {stands}. ");
+    assert!(sentence.starts_with(&expected), "{sentence}");
+    assert!(sentence.ends_with("other changes between them are possible."), "{sentence}");
+    let names: Vec<&str> = found["pictures"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|it| it["name"].as_str().unwrap())
+        .collect();
+    assert_eq!(names, [format!("Falls at {falls}"), format!("Stands at {stands}")]);
+}
+
+#[test]
+fn all_changes_that_were_seen_are_told_and_none_is_claimed() {
+    let push = "acceleration = [";
+    // The block slides to both sides from 8 m/s2 on.
+    let both = ask(&change(push, [-20.0, 20.0]));
+    let sentence = both["sentence"].as_str().unwrap();
+    assert!(sentence.starts_with("The verdict changes 2 times with it: falls at -8"), "{sentence}");
+    assert!(sentence.contains("; stands at 8, falls at 8.01."), "{sentence}");
+    let none = ask(&change(push, [-4.0, 6.0]));
+    let sentence = none["sentence"].as_str().unwrap();
+    assert!(
+        sentence.starts_with("The scene stands at all values of it that were tried."),
+        "{sentence}"
+    );
+    assert!(sentence.ends_with("; changes between them are possible."), "{sentence}");
+}
+
+#[test]
+fn values_that_fit_into_no_scene_are_mistakes_with_their_reason() {
+    let found = ask(&change("density = ", [-2000.0, 2000.0]));
+    let list = tried(&found);
+    let (_, answer) = &list[0];
+    assert!(answer.starts_with("has a mistake: "), "{found}");
+    assert!(
+        found["sentence"].as_str().unwrap().contains("has a mistake at 0, stands at 1."),
+        "{found}"
+    );
+    for range in [[1.0, 1.0], [1.0, 0.0], [0.0, 1e-320], [1e16, 1.0000000000000002e16]] {
+        assert!(ask(&change("mu = ", range))["error"]["message"].is_string(), "{range:?}");
+    }
+    let mut outside = change("mu = ", [0.0, 1.0]);
+    outside["edits"][0]["to"] = json!(1_u64 << 40);
+    assert!(ask(&outside)["error"]["message"].as_str().unwrap().contains("has no places"));
+}
+
+#[test]
+fn a_search_for_a_change_says_how_far_it_was_when_it_is_stopped() {
+    let question = change("mu = ", [0.0, 1.2]).to_string();
+    let mut news = Vec::new();
+    let mut stop = |it: &dyn Display| {
+        news.push(it.to_string());
+        if news.last().unwrap().contains("stands at") {
+            ControlFlow::Break(())
+        } else {
+            ControlFlow::Continue(())
+        }
+    };
+    let found: Value =
+        serde_json::from_str(&Engine::default().answer(&question, &mut stop)).unwrap();
+    let sentence = found["sentence"].as_str().unwrap();
+    assert!(sentence.starts_with("Stopped. The verdict changes with it: falls at "), "{sentence}");
+    assert_eq!(found["pictures"].as_array().unwrap().len(), 0);
+}
+
 #[test]
 fn ranges_and_thicknesses_have_a_sentence_and_a_report() {
     let text = BEGINNINGS.into_iter().find(|it| it.name == "arch").unwrap().text;
