@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::schema::Entry;
-use super::text::{Number, Text, Value, text_of};
+use super::text::{Number, Text, Value, text_of, value_of};
 
 /// A slider.
 #[derive(Debug, Serialize)]
@@ -17,7 +17,7 @@ pub(super) struct Control {
 }
 
 /// A place of the text that gets a new number. Places are in units of UTF-16.
-#[derive(Debug, Serialize, Deserialize)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
 pub(super) struct Edit {
     pub(super) from: usize,
     pub(super) to: usize,
@@ -47,20 +47,35 @@ pub(super) fn controls(text: &Text<'_>) -> Vec<Control> {
 
 fn friction(text: &Text<'_>) -> Vec<Control> {
     let mut list = Vec::new();
-    for (class, table) in text.named("joints") {
-        for (key, sign, most) in [("mu", "μ", MOST_FRICTION), ("phi_deg", "φ [°]", MOST_ANGLE)] {
-            let value = table.get_ref().as_table().and_then(|it| it.get(key));
+    for (key, sign, most) in [("mu", "μ", MOST_FRICTION), ("phi_deg", "φ [°]", MOST_ANGLE)] {
+        let of_class = |(class, table): (&str, &Value<'_>)| {
             let path = [Entry::Key("joints"), Entry::Key(class), Entry::Key(key)];
-            let number = value.and_then(|it| text.number(it, &path));
-            list.extend(number.map(|it| Control {
+            let number = text.number(value_of(table, key)?, &path)?;
+            Some(Control {
                 label: format!("{sign} of {class}"),
-                value: it.value,
-                most: at_least(most, it.value),
-                edits: vec![Edit::of(it)],
-            }));
-        }
+                value: number.value,
+                most: at_least(most, number.value),
+                edits: vec![Edit::of(number)],
+            })
+        };
+        let classes: Vec<Control> = text.named("joints").into_iter().filter_map(of_class).collect();
+        let all = together(&classes, sign);
+        list.extend(classes.into_iter().chain(all));
     }
     list
+}
+
+/// A slider for the friction of all classes, if there are several: it is the largest, and their ratios stay.
+fn together(classes: &[Control], sign: &str) -> Option<Control> {
+    let largest = classes.iter().max_by(|a, b| a.value.total_cmp(&b.value))?;
+    let (value, most) = (largest.value, largest.most);
+    let part = |it: &Control| if value == 0.0 { 1.0 } else { it.value / value };
+    let edit = |it: &Control| {
+        it.edits.iter().map(|edit| Edit { part: part(it), ..edit.clone() }).collect()
+    };
+    let edits: Vec<Vec<Edit>> = classes.iter().map(edit).collect();
+    let label = format!("{sign} of all joints");
+    (classes.len() > 1).then(|| Control { label, value, most, edits: edits.concat() })
 }
 
 /// A slider for every group of loads, which keeps the ratios of the factors within it.

@@ -127,6 +127,22 @@ fn sliders_that_are_moved_at_once_count_both() {
 }
 
 #[test]
+fn one_slider_moves_the_friction_of_all_joints_and_finds_where_the_wall_falls() {
+    let Some(page) = opened("all", &DOOR.replace("mu = 0.65   #", "mu = 0.325 #")) else { return };
+    page.run(
+        "const it = document.querySelectorAll('#controls input')[2]; it.value = 0.4; \
+         it.dispatchEvent(new Event('input')); it.dispatchEvent(new Event('change'))",
+    );
+    page.wait(&format!("{TEXT}.includes('mu = 0.40\\n') && {TEXT}.includes('mu = 0.200 #')"));
+    page.wait(SETTLED);
+    page.click("[data-asks='μ of all joints']");
+    let found = "document.querySelector('#found h2')";
+    page.wait(&format!(
+        "{found}?.textContent.includes('changes with μ of all joints: falls at 0.')"
+    ));
+}
+
+#[test]
 fn a_number_is_selected_by_two_clicks_where_it_is() {
     let Some(page) = opened("clicks", DOOR) else { return };
     name_number(&page, "[joints.bed]\nmu = ", "mu");
