@@ -192,28 +192,13 @@ fn combined(scene: &Scene, args: &LimitArgs) -> Result<Search, Failure> {
             break;
         }
     }
-    match (Cases::of_limits(&list), failed) {
-        (Some(lines), failed) => {
-            compare_checks(&mut list, lines.governs());
-            Ok(Search { found: Found::Combined(All { list, lines }), failed })
-        }
+    match (Cases::of_limits(&mut list), failed) {
+        (Some(lines), failed) => Ok(Search { found: Found::Combined(All { list, lines }), failed }),
         (None, Some(failed)) => Err(failed),
         (None, None) => Err(format!(
             "\"{group}\" acts in no combination: name it in one, or choose another --group"
         )
         .into()),
-    }
-}
-
-/// Warns of the combination with the worst seismic check, if another one governs.
-fn compare_checks(list: &mut [Combined<Limit>], governs: usize) {
-    let worse = |worst: usize, k: usize| {
-        if list[k].of.has_worse_check(&list[worst].of) { k } else { worst }
-    };
-    let worst = (0..list.len()).fold(governs, worse);
-    if worst != governs {
-        let Combined { name, of } = list[worst].clone();
-        list[governs].of.compare_check(&format!("\"{name}\""), &of);
     }
 }
 

@@ -36,7 +36,7 @@ mod text;
 pub use self::error::{ImportError, ImportErrorKind};
 use self::fit::Fitted;
 pub use self::imported::Imported;
-pub use self::listed::read_scene;
+pub use self::listed::{read_scene, scene_from_toml};
 pub use self::options::{ImportOptions, Joints};
 use self::sheet::Sheet;
 use masonry_drawing::Drawing;

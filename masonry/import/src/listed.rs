@@ -19,6 +19,14 @@ pub fn read_scene(path: &Path) -> Result<Scene, SceneError> {
     Scene::read_with(path, &drawn)
 }
 
+/// Reads a scene from text as [`read_scene`] does from a file of this path, which need not exist.
+///
+/// # Errors
+/// As [`read_scene`].
+pub fn scene_from_toml(text: &str, path: &Path) -> Result<Scene, SceneError> {
+    Scene::from_toml_with(text, path, &drawn)
+}
+
 /// The blocks, supports and marked joints of a drawing, in the units of a scene.
 fn drawn(path: &Path, bytes: &[u8], scene: &Scene) -> Result<Drawn, String> {
     let ending = path.extension().map_or_else(String::new, |it| it.to_string_lossy().into_owned());

@@ -73,6 +73,18 @@ fn smallest(list: &[Combined<Limit>]) -> Option<usize> {
     (0..list.len()).min_by(|a, b| carried(a).total_cmp(&carried(b)))
 }
 
+/// Warns of the combination with the worst seismic check, if another one governs.
+fn compare_checks(list: &mut [Combined<Limit>], governs: usize) {
+    let worse = |worst: usize, k: usize| {
+        if list[k].of.has_worse_check(&list[worst].of) { k } else { worst }
+    };
+    let worst = (0..list.len()).fold(governs, worse);
+    if worst != governs {
+        let Combined { name, of } = list[worst].clone();
+        list[governs].of.compare_check(&format!("\"{name}\""), &of);
+    }
+}
+
 /// The largest part of its friction that a joint uses \[-\], if there is a state.
 fn friction_used(outcome: &Outcome) -> Option<f64> {
     let state = outcome.state.as_ref()?;
@@ -95,9 +107,11 @@ impl Cases {
         Some(Self { kind: COMBINATIONS, governs, name, rows, curve: None })
     }
 
-    /// The limit loads of all combinations. The smallest factor governs. `None` of no combinations.
-    pub fn of_limits(list: &[Combined<Limit>]) -> Option<Self> {
+    /// The limit loads of all combinations. The smallest factor governs; it is warned of the worst seismic check, if that is of
+    /// another combination. `None` of no combinations.
+    pub fn of_limits(list: &mut [Combined<Limit>]) -> Option<Self> {
         let governs = smallest(list)?;
+        compare_checks(list, governs);
         let finite = |factor: f64| Some(factor).filter(|it| it.is_finite());
         let mut columns = Columns::<&Combined<Limit>>::new()
             .words("combination", |it| &it.name)
@@ -118,7 +132,7 @@ impl Cases {
                     it.of.seismic.as_ref().and_then(SeismicCheck::is_satisfied)
                 });
         }
-        let rows = columns.table(InUnits(list[governs].of.model.units), list);
+        let rows = columns.table(InUnits(list[governs].of.model.units), &*list);
         let name = list[governs].name.clone();
         Some(Self { kind: COMBINATIONS, governs, name, rows, curve: None })
     }
@@ -153,10 +167,9 @@ impl Cases {
 
     /// The head of a report: the lines, and which one the rest of the report is of.
     pub fn head(&self) -> String {
-        let name = self.quoted();
         section(self.title()).trim_start().to_owned()
             + &table(&self.shown())
-            + &format!("\n{name} {}:\n\n", self.kind.governs)
+            + &format!("\n{}:\n\n", self.governing())
     }
 
     /// The object of `--json` of several cases, pretty-printed: which one `governs`; the `combinations`, of `masonry solve` with
@@ -187,9 +200,14 @@ impl Cases {
         }
     }
 
+    /// Which case governs, as the beginning of a sentence.
+    pub fn governing(&self) -> String {
+        format!("{} {}", self.quoted(), self.kind.governs)
+    }
+
     /// What a page says of its table.
     pub(super) fn note(&self) -> String {
-        format!("{} {}; this page shows it.", self.quoted(), self.kind.governs)
+        format!("{}; this page shows it.", self.governing())
     }
 
     /// The lines for readers.

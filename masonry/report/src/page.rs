@@ -10,8 +10,8 @@ mod limit;
 mod solved;
 mod tables;
 
-pub use limit::{limit, thickness};
-pub use solved::{is_framed, solved};
+pub use limit::{limit, tables as limit_tables, thickness, thickness_tables};
+pub use solved::{is_framed, solved, tables};
 
 use super::figures::Said;
 use super::format::significant;

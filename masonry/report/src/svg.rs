@@ -19,7 +19,7 @@ mod legend;
 mod mechanism;
 mod motion;
 mod names;
-pub(super) mod pictures;
+pub mod pictures;
 mod scene;
 mod sheet;
 mod stresses;

@@ -4,6 +4,7 @@ use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
+use super::source::Source;
 use super::{Between, Block, Scene, SceneError, Support};
 
 /// What a drawing adds to a scene, in the units of the scene.
@@ -34,5 +35,14 @@ impl Scene {
     /// As [`Scene::read`], and what is wrong with the drawing.
     pub fn read_with(path: &Path, drawings: Drawings) -> Result<Self, SceneError> {
         Self::read_by(path, Some(drawings))
+    }
+
+    /// Reads a scene from text as [`Scene::read_with`] does from a file of this path, which need not exist: the `block_list` is
+    /// beside it.
+    ///
+    /// # Errors
+    /// As [`Scene::read_with`].
+    pub fn from_toml_with(text: &str, path: &Path, drawings: Drawings) -> Result<Self, SceneError> {
+        Self::parse(&Source::new(text, Some(path)), Some(drawings))
     }
 }

@@ -63,7 +63,7 @@ impl Scene {
         Self { source: Source::default(), ..self.clone() }
     }
 
-    fn parse(source: &Source, drawings: Option<Drawings>) -> Result<Self, SceneError> {
+    pub(super) fn parse(source: &Source, drawings: Option<Drawings>) -> Result<Self, SceneError> {
         let mut scene = Self { source: source.clone(), ..Self::of(source)? };
         if let Some(list) = &scene.block_list {
             let read = more_blocks(source.beside(list), &scene, drawings).map_err(|message| {

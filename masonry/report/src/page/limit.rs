@@ -24,12 +24,17 @@ pub fn limit(limit: &Limit, cases: Option<&Cases>) -> String {
         figures: figures(limit),
         pictures,
         steps: Vec::new(),
-        // The headline is about the path, if there is one.
-        tables: cases.map_or_else(String::new, tables::cases)
-            + &by_law(limit).rev().map(|it| tables_of(&it)).collect::<String>(),
+        tables: tables(limit, cases),
         text: table(limit),
     }
     .finish()
+}
+
+/// The tables of the page, as pieces of HTML one below the other.
+pub fn tables(limit: &Limit, cases: Option<&Cases>) -> String {
+    let cases = cases.map_or_else(String::new, tables::cases);
+    // The headline is about the path, if there is one.
+    cases + &by_law(limit).rev().map(|it| tables_of(&it)).collect::<String>()
 }
 
 fn tables_of(ByLaw { of, model, forces, mechanism, reactions, path, .. }: &ByLaw<'_>) -> String {
@@ -49,14 +54,6 @@ pub fn thickness(thickness: &Thickness) -> String {
     let (title, model) = (&thickness.title, &thickness.model);
     let mut pictures = pictures_of_thickness(thickness, true);
     pictures.push(Pictures::one("scene.svg", svg::scene(title, model)));
-    let mut tables = String::new();
-    if let Some(forces) = &thickness.forces {
-        tables += &tables::joints("Joints", model, forces);
-    }
-    if let Some(rates) = &thickness.mechanism {
-        let of = "Joints of the mechanism, of the thicker that falls";
-        tables += &tables::hinges(of, model, rates);
-    }
     Page {
         title: title.clone(),
         verdict: verdict_of(thickness),
@@ -65,10 +62,20 @@ pub fn thickness(thickness: &Thickness) -> String {
         figures: on_page(&figures::limit::thickness(thickness)),
         pictures,
         steps: Vec::new(),
-        tables,
+        tables: thickness_tables(thickness),
         text: thickness_table(thickness),
     }
     .finish()
+}
+
+/// The tables of the page of a thickness, as pieces of HTML one below the other.
+pub fn thickness_tables(thickness: &Thickness) -> String {
+    let model = &thickness.model;
+    let forces = thickness.forces.as_ref();
+    let joints = forces.map_or_else(String::new, |it| tables::joints("Joints", model, it));
+    let of = "Joints of the mechanism, of the thicker that falls";
+    let rates = thickness.mechanism.as_ref();
+    joints + &rates.map_or_else(String::new, |it| tables::hinges(of, model, it))
 }
 
 /// Whether the arch stands at the thickness of the scene.

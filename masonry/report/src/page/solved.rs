@@ -41,7 +41,7 @@ pub fn solved(
         figures: figures(outcome),
         pictures: pictures(outcome, frames, &steps, reference),
         steps,
-        tables: cases.map_or_else(String::new, tables::cases) + &tables_of(outcome),
+        tables: tables(outcome, cases),
         text: table::report(outcome),
     }
     .finish()
@@ -119,9 +119,11 @@ fn figures(outcome: &Outcome) -> Vec<Said> {
     list
 }
 
-fn tables_of(outcome: &Outcome) -> String {
+/// The tables of the page, as pieces of HTML one below the other.
+pub fn tables(outcome: &Outcome, cases: Option<&Cases>) -> String {
     let model = &outcome.model;
-    let mut list = tables::reactions("Reactions", model, &outcome.reactions);
+    let mut list = cases.map_or_else(String::new, tables::cases);
+    list += &tables::reactions("Reactions", model, &outcome.reactions);
     if let Some(history) = &outcome.history {
         let note = "Work and dissipated energy are those of the step.";
         list += &section("Steps", note, &figures::history::on_page(model, history).with_digits(4));

@@ -7,7 +7,7 @@ use super::canvas::{Pixel, fixed, open};
 use super::labels::{Label, Labels};
 use super::legend;
 use super::names;
-use super::sheet::{Bounds, Sheet, Shown, Sides};
+use super::sheet::{Bounds, Sheet, Shown, Sides, brick_size};
 use super::structure::{self, counted};
 use super::style::{LARGEST_BRICK, PLACE};
 use crate::format::InUnits;
@@ -38,6 +38,8 @@ const ENDS: f64 = 0.5 + 1e-6;
 pub(crate) struct Shared {
     /// The largest resultant \[N\].
     largest: f64,
+    /// Side of a middling brick \[m\], whose length the largest resultant nearly has.
+    brick: f64,
     bounds: Bounds,
     /// Room for the arrows and labels of all.
     margins: Sides,
@@ -46,15 +48,16 @@ pub(crate) struct Shared {
 impl Shared {
     /// The scale of structures and their contact forces.
     pub(crate) fn of(states: &[Loaded<'_>]) -> Self {
-        let (mut largest, mut margins) = (0.0_f64, Sides::HATCH);
+        let (mut largest, mut brick, mut margins) = (0.0_f64, 0.0_f64, Sides::HATCH);
         for Loaded { model, contacts, .. } in states {
             let all = joints::forces(model, contacts);
             largest = all.iter().map(|it| it.force.norm()).fold(largest, f64::max);
+            brick = brick.max(brick_size(model));
             let arrows = Arrows::of_loads(model, None).and_reactions(model, &all);
             margins = margins.and(arrows.margins());
         }
         let all = states.iter().flat_map(|it| structure::bounds(it.model).ends());
-        Self { largest, bounds: Bounds::of(all), margins }
+        Self { largest, brick, bounds: Bounds::of(all), margins }
     }
 }
 
@@ -89,6 +92,7 @@ pub(crate) fn compared(loaded: &Loaded<'_>, by: &Shared) -> String {
     let all = joints::forces(model, contacts);
     let arrows = Arrows::of_loads(model, None).and_reactions(model, &all);
     let mut sheet = Sheet::new(format!("{title}: forces"), model, by.bounds, by.margins);
+    sheet.brick = by.brick * sheet.frame.scale;
     structure::draw(&mut sheet, model);
     let least = if all.len() > MANY { LEAST_OF_MANY } else { LEAST };
     let is_large = |it: &&JointForce| it.force.norm() > least * by.largest;
@@ -114,6 +118,10 @@ pub(crate) fn compared(loaded: &Loaded<'_>, by: &Shared) -> String {
     if beside > 0 {
         let count = counted(beside, "joint");
         sheet.legend.note(&format!("left out: {count} whose resultant passes beside them"));
+    }
+    if by.largest > 0.0 && all.iter().all(|it| it.force.norm() < by.largest) {
+        let largest = InUnits(model.units).force_text(by.largest);
+        sheet.legend.note(&format!("drawn to one scale with others, up to {largest}"));
     }
     sheet.legend.note("one of many sets of forces if they are not unique");
     sheet.finish()

@@ -7,7 +7,7 @@ use super::forces::{self, Loaded, Shared};
 use super::history::curves;
 use super::mechanism::{Collapse, collapse};
 use super::scene::scene;
-pub(crate) use super::sheet::Shown;
+pub use super::sheet::Shown;
 use super::stresses::{self, StressScale};
 use crate::joints;
 use masonry::analysis::outcome::Outcome;
@@ -48,34 +48,82 @@ pub(crate) fn of_outcome(
     list
 }
 
+/// A picture of a state.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum StatePicture {
+    /// [`principal_stresses`](super::principal_stresses()).
+    Stresses,
+    /// [`deformed`](super::deformed()).
+    Deformed,
+    /// [`forces`](super::forces()).
+    Forces,
+    /// [`cracks`](super::cracks()).
+    Cracks,
+}
+
+impl StatePicture {
+    const ALL: [Self; 4] = [Self::Stresses, Self::Deformed, Self::Forces, Self::Cracks];
+
+    fn file(self) -> &'static str {
+        match self {
+            Self::Stresses => "principal_stresses.svg",
+            Self::Deformed => "deformed.svg",
+            Self::Forces => "forces.svg",
+            Self::Cracks => "cracks.svg",
+        }
+    }
+}
+
+/// Pictures of one kind of several states, with one scale of forces, stresses, displacements or widths; none if no state has
+/// anything to show.
+pub fn compared(
+    kind: StatePicture,
+    shown: &[Shown<'_>],
+    reference: Option<&ReferenceLines>,
+) -> Option<Vec<String>> {
+    drawn(kind, shown, reference, false)
+}
+
+fn drawn(
+    kind: StatePicture,
+    shown: &[Shown<'_>],
+    reference: Option<&ReferenceLines>,
+    for_page: bool,
+) -> Option<Vec<String>> {
+    let all = |draw: &dyn Fn(&Shown<'_>) -> String| shown.iter().map(draw).collect();
+    let loaded: Vec<Loaded<'_>> = shown.iter().map(Loaded::from).collect();
+    match kind {
+        StatePicture::Stresses => {
+            let scale = StressScale::of(shown);
+            let has_some = shown.iter().any(|it| !it.state.stresses.is_empty());
+            has_some.then(|| all(&|it| stresses::compared(it, reference, scale)))
+        }
+        StatePicture::Deformed => {
+            let by = Magnified::of(shown, for_page);
+            (!shown.is_empty()).then(|| all(&|it| deformed::compared(it, &by)))
+        }
+        StatePicture::Forces => {
+            let by = Shared::of(&loaded);
+            (!shown.is_empty()).then(|| all(&|it| forces::compared(&it.into(), &by)))
+        }
+        StatePicture::Cracks => {
+            let openings = loaded.iter().map(|it| joints::openings(it.model, it.contacts));
+            let openings: Vec<_> = openings.flatten().collect();
+            let by = cracks::widest(&openings);
+            (!openings.is_empty()).then(|| all(&|it| cracks::compared(&it.into(), by)))
+        }
+    }
+}
+
 /// The pictures of states, which have the same scales. Kinds of which no state has anything to show are left out.
 fn of_states(
     shown: &[Shown<'_>],
     reference: Option<&ReferenceLines>,
     for_page: bool,
 ) -> Vec<Pictures> {
-    let mut list = Vec::new();
-    if shown.is_empty() {
-        return list;
-    }
-    let mut add = |file, draw: &dyn Fn(&Shown<'_>) -> String| {
-        list.push(Pictures { file, pictures: shown.iter().map(draw).collect() });
+    let of_kind = |kind: StatePicture| {
+        let pictures = drawn(kind, shown, reference, for_page)?;
+        Some(Pictures { file: kind.file(), pictures })
     };
-    if shown.iter().any(|it| !it.state.stresses.is_empty()) {
-        let scales = shown.iter().map(|it| StressScale::of(&it.state.stresses));
-        let scale = scales.fold(StressScale::default(), StressScale::and);
-        add("principal_stresses.svg", &|it| stresses::compared(it, reference, scale));
-    }
-    let by = Magnified::of(shown, for_page);
-    add("deformed.svg", &|it| deformed::compared(it, &by));
-    let loaded: Vec<Loaded<'_>> = shown.iter().map(Loaded::from).collect();
-    let by = Shared::of(&loaded);
-    add("forces.svg", &|it| forces::compared(&it.into(), &by));
-    let openings = loaded.iter().map(|it| joints::openings(it.model, it.contacts));
-    let openings: Vec<_> = openings.flatten().collect();
-    if !openings.is_empty() {
-        let by = cracks::widest(&openings);
-        add("cracks.svg", &|it| cracks::compared(&it.into(), by));
-    }
-    list
+    StatePicture::ALL.into_iter().filter_map(of_kind).collect()
 }

@@ -86,10 +86,13 @@ impl Frame {
 
 /// A structure in a state, and the title of its pictures.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Shown<'a> {
-    pub(crate) title: &'a str,
-    pub(crate) model: &'a Model,
-    pub(crate) state: &'a State,
+pub struct Shown<'a> {
+    /// The title.
+    pub title: &'a str,
+    /// The structure.
+    pub model: &'a Model,
+    /// Its state.
+    pub state: &'a State,
 }
 
 /// A picture under construction.
@@ -138,7 +141,7 @@ impl Sheet {
                 bottom: bottom + margins.bottom,
             },
             canvas: Canvas::default(),
-            brick: scale * middling(model.blocks.iter().map(|it| geometry::area(&it.corners))),
+            brick: scale * brick_size(model),
             units: InUnits(model.units),
             title,
             titles,
@@ -210,6 +213,11 @@ impl Sheet {
             self.legend.add(&text, "bar", legend::bar(half));
         }
     }
+}
+
+/// Side of a square as large as a middling brick \[m\].
+pub(super) fn brick_size(model: &Model) -> f64 {
+    middling(model.blocks.iter().map(|it| geometry::area(&it.corners)))
 }
 
 /// Side of a square as large as a middling one of these areas.

@@ -6,7 +6,7 @@ use super::bond_lines::ReferenceLines;
 use super::canvas::open;
 use super::legend;
 use super::motion::Motion;
-use super::sheet::{LONGEST_BAR, Sheet, Shown, Sides, middling};
+use super::sheet::{Bounds, LONGEST_BAR, Sheet, Shown, Sides, middling};
 use super::structure;
 use crate::format::{InUnits, round_down, stress_text};
 use crate::summary::extreme_stresses;
@@ -22,27 +22,41 @@ const LARGEST: f64 = 33.0;
 /// Longest stroke in lengths of an element.
 const LONGEST: f64 = 2.2;
 
-/// Sizes of stresses that are compared \[Pa\], from which the length of strokes follows.
-#[derive(Debug, Clone, Copy, Default)]
+/// Scale and room that pictures of stresses share, so that their strokes can be compared.
+#[derive(Debug, Clone, Copy)]
 pub(crate) struct StressScale {
-    /// Size that a twentieth of all stresses exceed.
+    /// Size that a twentieth of all stresses exceed \[Pa\].
     large: f64,
     largest: f64,
+    /// Side of a middling element \[m\].
+    element: f64,
+    bounds: Bounds,
 }
 
 impl StressScale {
-    /// The scale of the stresses of a state.
-    pub(crate) fn of(stresses: &[ElementStress]) -> Self {
+    /// The scale of the stresses of some states.
+    pub(crate) fn of(states: &[Shown<'_>]) -> Self {
+        let ends = states.iter().flat_map(|it| structure::bounds(it.model).ends());
+        let none = Self { large: 0.0, largest: 0.0, element: 0.0, bounds: Bounds::of(ends) };
+        states.iter().fold(none, |all, it| {
+            let [large, largest] = Self::sizes(&it.state.stresses);
+            Self {
+                large: all.large.max(large),
+                largest: all.largest.max(largest),
+                element: all.element.max(element_size(it.model, it.state)),
+                ..all
+            }
+        })
+    }
+
+    /// The size that a twentieth of some stresses exceed, and the largest.
+    fn sizes(stresses: &[ElementStress]) -> [f64; 2] {
         let size = |it: &ElementStress| it.principal.sigma_1.abs().max(it.principal.sigma_2.abs());
         let mut sizes: Vec<f64> = stresses.iter().map(size).collect();
         sizes.retain(|size| *size > 0.0 && size.is_finite());
         sizes.sort_by(f64::total_cmp);
         let large = sizes.get(sizes.len() * 19 / 20).copied().unwrap_or(0.0);
-        Self { large, largest: sizes.last().copied().unwrap_or(0.0) }
-    }
-
-    pub(crate) fn and(self, other: Self) -> Self {
-        Self { large: self.large.max(other.large), largest: self.largest.max(other.largest) }
+        [large, sizes.last().copied().unwrap_or(0.0)]
     }
 
     /// Pixels per pascal: large stresses fill an element, and the largest overlap the next one or two
@@ -67,7 +81,8 @@ pub fn principal_stresses(
     state: &State,
     reference: Option<&ReferenceLines>,
 ) -> String {
-    compared(&Shown { title, model, state }, reference, StressScale::of(&state.stresses))
+    let shown = Shown { title, model, state };
+    compared(&shown, reference, StressScale::of(&[shown]))
 }
 
 /// The same with strokes as long as those of others.
@@ -78,7 +93,7 @@ pub(crate) fn compared(
 ) -> String {
     let Shown { title, model, state } = *shown;
     let title = format!("{title}: principal stresses");
-    let mut sheet = Sheet::new(title, model, structure::bounds(model), Sides::HATCH);
+    let mut sheet = Sheet::new(title, model, scale.bounds, Sides::HATCH);
     structure::outlines(&mut sheet, "bricks", &model.blocks);
     draw_strokes(&mut sheet, model, state, scale);
     structure::supports(&mut sheet, model, Motion::NONE);
@@ -96,7 +111,7 @@ pub(crate) fn compared(
 }
 
 fn draw_strokes(sheet: &mut Sheet, model: &Model, state: &State, scale: StressScale) {
-    let element = element_size(model, state) * sheet.frame.scale;
+    let element = scale.element * sheet.frame.scale;
     let pixels_per_pascal = scale.of_strokes(element);
     let (compression, tension) = extreme_stresses(state);
     for (name, extreme, compressed) in
