@@ -1,4 +1,6 @@
 import { all, button, made, one } from "./elements.js";
+import { put } from "./picture.js";
+import { Tables } from "./tables.js";
 
 // Solves the text, always the newest and one at a time, and shows the answer.
 
@@ -7,10 +9,12 @@ const AT_ONCE = 100;
 // A younger solve is finished although the text has changed since, so that pictures follow a hand that goes on. An older one is
 // stopped: a reader who waits for longer than a second loses the thread [ms].
 const PATIENCE = 1000;
+// So many scenes are kept for comparison, as the engine has it too; of more, the oldest goes.
+const MOST_KEPT = 3;
 
 const NAMES = {
   answer: "Answer", forces: "Forces", stresses: "Stresses", cracks: "Cracks",
-  deformed: "Deformed", mechanism: "Mechanism", scene: "Scene", report: "Report",
+  deformed: "Deformed", mechanism: "Mechanism", scene: "Scene", tables: "Tables", report: "Report",
 };
 
 export class Answers {
@@ -20,6 +24,9 @@ export class Answers {
     // What is seen, and the answer to the last text that could be solved.
     this.seen = { show: "answer", step: null };
     this.last = null;
+    // Scenes for comparison, the newest first.
+    this.kept = [];
+    this.tables = new Tables(one("#tables"));
     // Why the picture is that of an earlier text, if it is so after a solve.
     this.reason = null;
     // The solve that runs, and the event that the next one answers.
@@ -49,7 +56,8 @@ export class Answers {
       try {
         const { signal } = this.running.controller;
         const onNews = (news) => (this.running.news = news);
-        const answer = await this.engine.ask({ task: "solve", text, ...this.seen }, { signal, onNews });
+        const beside = this.kept.map((it) => it.text);
+        const answer = await this.engine.ask({ task: "solve", text, beside, ...this.seen }, { signal, onNews });
         this.show(answer, text);
         painted(event, answer.shown?.seconds ?? 0);
       } catch (error) {
@@ -83,16 +91,19 @@ export class Answers {
     // What was dragged too far can be dragged back.
     if (answer.error) return this.handles.show(answer.handles ?? [], this.picture.svg, text);
     this.last = { ...answer, text };
-    const { verdict, sentence, warnings, seconds, picture, report } = answer.shown;
+    const { verdict, sentence, warnings, seconds, picture, tables, report } = answer.shown;
     setVerdict(verdict, sentence);
     const time = (1000 * seconds).toFixed(seconds < 0.01 ? 1 : 0);
     one("#warnings").textContent = [...warnings, `Solved in ${time} ms.`].join(" ");
     this.showTabs(answer.shown);
     one("#report").hidden = report === null;
-    one("#picture").hidden = report !== null;
+    one("#tables").hidden = tables === null;
+    one("#shown").classList.toggle("words", picture === null);
     if (report !== null) one("#report").textContent = report;
-    else this.picture.show(picture);
-    this.handles.show(answer.handles, report === null ? this.picture.svg : null, text);
+    if (tables !== null) this.tables.show(tables);
+    if (picture !== null) this.picture.show(picture);
+    this.handles.show(answer.handles, picture === null ? null : this.picture.svg, text);
+    this.showKept(answer.shown);
   }
 
   showFault(error, isCurrent) {
@@ -128,21 +139,38 @@ export class Answers {
     one("#steps output").textContent = steps[slider.value] ?? "";
   }
 
-  // Puts a copy of what is seen beside it.
-  keep() {
+  // Puts what is seen beside what will be seen.
+  keep(event) {
     if (this.last === null) return;
     const { text, shown, controls } = this.last;
     const values = controls.map(({ label, value }) => `${label} ${Number(value.toPrecision(6))}`).join(", ");
-    const section = made("section", {}, made("h2", { textContent: `Kept: ${shown.sentence}` }));
-    const copy = made("figure");
-    if (this.picture.svg) copy.append(this.picture.svg.cloneNode(true));
-    section.append(
-      button("Back to this", (event) => this.editor.set(text, event)),
-      button("Drop", () => section.remove()),
+    const kept = { text };
+    const drop = (now) => {
+      this.kept = this.kept.filter((it) => it !== kept);
+      kept.section.remove();
+      this.changed(now);
+    };
+    kept.figure = made("figure");
+    kept.section = made("section", {}, made("h2", { textContent: `Kept: ${shown.sentence}` }),
+      button("Back to this", (now) => this.editor.set(text, now)),
+      button("Drop", drop),
       made("p", { textContent: values }),
-      copy,
+      kept.figure,
     );
-    one("#kept").prepend(section);
+    this.kept.unshift(kept);
+    one("#kept").prepend(kept.section);
+    for (const { section } of this.kept.splice(MOST_KEPT)) section.remove();
+    this.changed(event);
+  }
+
+  // Pictures of what was kept, and how far they can be compared. What was kept or dropped since is seen in the next answer.
+  showKept({ beside, scale }) {
+    one("#scale").hidden = scale === null;
+    one("#scale").textContent = scale ?? "";
+    beside.forEach(({ picture }, index) => {
+      const kept = this.kept[index];
+      if (kept && picture !== null && beside.length === this.kept.length) put(kept.figure, picture);
+    });
   }
 }
 

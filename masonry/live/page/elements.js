@@ -1,5 +1,8 @@
 // Elements of the page, in short words.
 
+// The namespace of pictures.
+export const SVG = "http://www.w3.org/2000/svg";
+
 export const one = (query, within = document) => within.querySelector(query);
 
 export const all = (query, within = document) => [...within.querySelectorAll(query)];

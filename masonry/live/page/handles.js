@@ -1,8 +1,8 @@
+import { SVG } from "./elements.js";
 import { writtenAs } from "./numbers.js";
 
 // What can be dragged in the picture: openings, and ends of supports. Lengths are in units of the scene.
 
-const SVG = "http://www.w3.org/2000/svg";
 // Radius of the end of a support, and breadth of a side, in units of the picture.
 const NEAR = 7;
 

@@ -31,7 +31,7 @@ const editor = new Editor({
 const picture = new Picture((place) => {
   editor.mark(place.first, place.last);
   editor.show(place.first, 1);
-});
+}, () => answers.changed());
 const handles = new Handles(one("#picture"), editor);
 const work = new Work(engine, editor);
 const sliders = new Sliders(editor, ({ most, ...control }) => work.ask({ ...control, range: [0, most] }));
@@ -41,10 +41,10 @@ const answers = new Answers({
   editor,
   picture,
   handles,
-  show({ numbers, controls, places, shown }, text) {
+  show({ numbers, controls, places, has_train, shown }, text) {
     editor.setRules(numbers);
     sliders.show(controls, text);
-    work.offer(controls);
+    work.offer(controls, has_train);
     if (shown) work.setVerdict(shown.verdict);
     picture.places = places;
   },
@@ -53,5 +53,5 @@ new Completion(editor, engine);
 
 one("#undo").addEventListener("click", (event) => editor.undo(event));
 one("#redo").addEventListener("click", (event) => editor.redo(event));
-one("#keep").addEventListener("click", () => answers.keep());
+one("#keep").addEventListener("click", (event) => answers.keep(event));
 files.begin().catch((error) => answers.fail(error));

@@ -1,3 +1,5 @@
+import { isNarrow, legendBelow } from "./legend.js";
+
 // The picture of the answer, which changes in place, and what of it the text describes.
 
 // The kinds of elements, and what of them the text has as a name: of a joint that is its class.
@@ -5,8 +7,9 @@ const KINDS = { block: "block", joint: "class", support: "support", load: "name"
 const SELECTOR = Object.keys(KINDS).map((kind) => `[data-${kind}]`).join(",");
 
 export class Picture {
-  // `onPlace(place)` hears which place of the text describes what was clicked.
-  constructor(onPlace) {
+  // `onPlace(place)` hears which place of the text describes what was clicked, `onWidth()` that the picture has room for a legend or
+  // has no more.
+  constructor(onPlace, onWidth) {
     this.figure = document.getElementById("picture");
     this.places = [];
     this.figure.addEventListener("click", (event) => {
@@ -14,20 +17,20 @@ export class Picture {
       const place = element && this.placeOf(this.named(element));
       if (place) onPlace(place);
     });
+    let wasNarrow = isNarrow(this.figure);
+    new ResizeObserver(() => {
+      if (isNarrow(this.figure) === wasNarrow) return;
+      wasNarrow = !wasNarrow;
+      onWidth();
+    }).observe(this.figure);
   }
 
   get svg() {
-    return this.figure.querySelector("svg:not(.handles)");
+    return pictureIn(this.figure);
   }
 
   show(markup) {
-    // Without the ends of lines there are half as many nodes.
-    const innerHTML = markup.replaceAll(">\n<", "><");
-    const { content } = Object.assign(document.createElement("template"), { innerHTML });
-    const [old, next] = [this.svg, content.firstElementChild];
-    if (old) become(old, next);
-    else this.figure.prepend(next);
-    this.svg.setAttribute("role", "img");
+    put(this.figure, markup);
     if (this.line) this.mark(this.line);
   }
 
@@ -61,9 +64,26 @@ export class Picture {
   }
 }
 
+const pictureIn = (figure) => figure.querySelector("svg:not(.handles)");
+
+// Shows a picture in a figure, where the one before changes into it. A narrow one has its legend below it.
+export function put(figure, markup) {
+  // Without the ends of lines there are half as many nodes.
+  const innerHTML = markup.replaceAll(">\n<", "><");
+  const { content } = Object.assign(document.createElement("template"), { innerHTML });
+  const [old, next] = [pictureIn(figure), content.firstElementChild];
+  if (old) become(old, next);
+  else figure.prepend(next);
+  const picture = pictureIn(figure);
+  picture.setAttribute("role", "img");
+  if (figure.nextElementSibling?.matches(".legend")) figure.nextElementSibling.remove();
+  const legend = isNarrow(figure) ? legendBelow(picture) : null;
+  if (legend) figure.after(legend);
+}
+
 // Gives an element the attributes and children of another one, and keeps what is of the same kind, so that it moves. What is
 // equal is passed over by the browser itself, which is faster than any script.
-function become(old, next) {
+export function become(old, next) {
   if (old.isEqualNode(next)) return;
   for (const { name, value } of next.attributes) {
     if (old.getAttribute(name) !== value) old.setAttribute(name, value);

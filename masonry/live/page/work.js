@@ -1,5 +1,7 @@
 import { all, button, made, one } from "./elements.js";
 import { rangeOf } from "./numbers.js";
+import { put } from "./picture.js";
+import { Tables } from "./tables.js";
 
 // Questions that take longer than a solve: limits, ranges, thicknesses, studies, and values at which the verdict changes; one at a
 // time, and each can be stopped.
@@ -21,7 +23,8 @@ export class Work {
   }
 
   // The arch of which the least thickness is asked for, the first that has one; and the factors that a limit multiplies.
-  offer(controls) {
+  offer(controls, hasTrain) {
+    one("[data-task=train]").hidden = !hasTrain;
     const label = controls.find((it) => it.label.startsWith("thickness of "))?.label;
     this.arch = label?.replace("thickness of ", "");
     one("[data-task=thickness]").hidden = this.arch === undefined;
@@ -91,18 +94,20 @@ export class Work {
   }
 }
 
-function show(title, { sentence, pictures, text }) {
+function show(title, { sentence, pictures, tables, text }) {
   const heading = made("h2", { textContent: `${title}: ${sentence}` });
   const place = made("figure");
   const choices = pictures.map(({ name, picture }) => {
     const choice = button(name, () => {
-      place.innerHTML = picture;
+      put(place, picture);
       for (const it of choices) it.setAttribute("aria-pressed", it === choice);
     });
     return choice;
   });
   const report = made("details", { open: pictures.length === 0 }, made("summary", { textContent: "Report" }));
   report.append(made("pre", { textContent: text }));
-  one("#found").replaceChildren(made("section", {}, heading, made("div", {}, ...choices), place, report));
+  const numbers = made("details", { hidden: tables === "" }, made("summary", { textContent: "Tables" }), made("div"));
+  new Tables(numbers.lastChild).show(tables);
+  one("#found").replaceChildren(made("section", {}, heading, made("div", {}, ...choices), made("div", {}, place), numbers, report));
   choices[0]?.click();
 }

@@ -4,8 +4,9 @@
 //!
 //! | task | further keys | answer |
 //! |---|---|---|
-//! | `solve` | `show`: `answer`, `forces`, `stresses`, `cracks`, `deformed`, `mechanism`, `scene` or `report`; `step`: position of a step of the load history from zero, or null for the last | verdict, picture or report, places in the text |
+//! | `solve` | `show`: `answer`, `forces`, `stresses`, `cracks`, `deformed`, `mechanism`, `scene`, `tables` or `report`; `step`: position of a step of the load history from zero, or null for the last; `beside`: texts of scenes whose pictures get the same scale | verdict, picture, tables or report, places in the text |
 //! | `limit` | `law`: `associative`, `path` or `both` | limit load |
+//! | `train` | `law` | limit load of a train where it governs |
 //! | `range` | | least and largest reactions |
 //! | `thickness` | `arch`: its name | least thickness of an arch |
 //! | `change` | `label`, `edits`, `value`, `range` and `whole` of a number | values of the number between which the verdict changes |
@@ -18,10 +19,12 @@
 //! is nothing else to say. All other places in the text are in units of UTF-16, in which scripts count.
 
 mod change;
+mod compare;
 mod complete;
 mod controls;
 mod fault;
 mod handles;
+mod listed;
 mod places;
 mod schema;
 mod solved;
@@ -38,17 +41,20 @@ use crate::beginnings::BEGINNINGS;
 
 use change::Tried;
 use fault::Fault;
-use solved::{Format, Show, Solved};
+pub use listed::{Files, LONGEST_TEXT, ReadScene};
+use solved::{Format, Seen, Show, Solved};
 use text::Text;
 pub use watch::Watch;
 
-/// The longest text of a scene \[bytes\]: that of a wall of 10 000 single blocks.
-pub const LONGEST_TEXT: usize = 4 << 20;
+/// So many scenes that were solved are remembered: that of the text, those beside it, and the one before.
+const RECENT: usize = 2 + compare::MOST_BESIDE;
 
-/// Answers questions about scenes. It remembers the scene that it solved last, so that another picture of it is drawn at once.
+/// Answers questions about scenes. It remembers those that it solved last, so that another picture of them is drawn at once.
 #[derive(Debug, Default)]
 pub struct Engine {
-    last: Mutex<Option<Arc<Solved>>>,
+    files: Option<Files>,
+    /// The newest last.
+    recent: Mutex<Vec<Arc<Solved>>>,
 }
 
 #[derive(Debug, Deserialize)]
@@ -58,8 +64,14 @@ enum Task {
         text: String,
         show: Show,
         step: Option<usize>,
+        #[serde(default)]
+        beside: Vec<String>,
     },
     Limit {
+        text: String,
+        law: Laws,
+    },
+    Train {
         text: String,
         law: Laws,
     },
@@ -90,6 +102,11 @@ enum Task {
 }
 
 impl Engine {
+    /// An engine whose scenes may name files of a directory.
+    pub fn with_files(files: Files) -> Self {
+        Self { files: Some(files), ..Self::default() }
+    }
+
     /// The answer to a question, both in JSON. A question that cannot be read is answered by an error too.
     pub fn answer(&self, question: &str, watch: &mut Watch<'_>) -> String {
         let answer = serde_json::from_str(question)
@@ -103,17 +120,20 @@ impl Engine {
 
     fn answer_to(&self, task: Task, watch: &mut Watch<'_>) -> Result<String, Fault> {
         Ok(match task {
-            Task::Solve { text, show, step } => self.solve(&text, show, step, watch)?,
-            Task::Limit { text, law } => json(&work::limit(&scene(&text)?, law, watch)?)?,
-            Task::Range { text } => json(&work::range(&scene(&text)?, watch)?)?,
-            Task::Thickness { text, arch } => {
-                json(&work::thickness(&scene(&text)?, &arch, watch)?)?
+            Task::Solve { text, show, step, beside } => {
+                let seen = Seen { show, step };
+                self.solve(&text, seen, &beside, watch)?
             }
-            Task::Study { text } => json(&work::study(&scene(&text)?, watch)?)?,
+            Task::Limit { text, law } => json(&work::limit(&self.scene(&text)?, law, watch)?)?,
+            Task::Train { text, law } => json(&work::train(&self.scene(&text)?, law, watch)?)?,
+            Task::Range { text } => json(&work::range(&self.scene(&text)?, watch)?)?,
+            Task::Thickness { text, arch } => {
+                json(&work::thickness(&self.scene(&text)?, &arch, watch)?)?
+            }
+            Task::Study { text } => json(&work::study(&self.scene(&text)?, watch)?)?,
             Task::Change { text, tried } => {
-                let solve = |text: &str, watch: &mut Watch<'_>| {
-                    Ok(Solved::new(text, &scene(text)?, watch)?)
-                };
+                let solve =
+                    |text: &str, watch: &mut Watch<'_>| Solved::new(self.scene(text)?, watch);
                 json(&change::change(&text, &tried, &solve, watch)?)?
             }
             Task::Export { text, format } => {
@@ -133,13 +153,17 @@ impl Engine {
     fn solve(
         &self,
         text: &str,
-        show: Show,
-        step: Option<usize>,
+        seen: Seen,
+        beside: &[String],
         watch: &mut Watch<'_>,
     ) -> Result<String, Fault> {
         let read = Text::read(text);
         let (shown, error) = match self.solved(text, watch) {
-            Ok(solved) => (Some(solved.shown(show, step)), None),
+            Ok(solved) => {
+                let kept = beside.iter().take(compare::MOST_BESIDE);
+                let kept = kept.map(|text| self.solved(text, watch)).collect();
+                (Some(compare::shown(&solved, kept, seen)), None)
+            }
             Err(fault) => (None, Some(fault)),
         };
         json(&Answer {
@@ -147,21 +171,33 @@ impl Engine {
             controls: controls::controls(&read),
             places: places::places(&read),
             handles: handles::handles(&read),
+            has_train: read.get("limit").is_some_and(|it| text::value_of(it, "train").is_some()),
             shown,
             error,
         })
     }
 
     fn solved(&self, text: &str, watch: &mut Watch<'_>) -> Result<Arc<Solved>, Fault> {
-        let last = self.last.lock().unwrap_or_else(PoisonError::into_inner).clone();
-        if let Some(last) = last.filter(|it| it.is_of(text)) {
-            return Ok(last);
-        }
-        let solved = Arc::new(Solved::new(text, &scene(text)?, watch)?);
+        let scene = self.scene(text)?;
+        let recent = || self.recent.lock().unwrap_or_else(PoisonError::into_inner);
+        // What another file has may have changed: scenes are compared, not texts.
+        let known = recent().iter().find(|it| it.is_of(&scene)).cloned();
+        let solved = match known {
+            Some(solved) => solved,
+            None => Arc::new(Solved::new(scene, watch)?),
+        };
         if solved.is_complete() {
-            *self.last.lock().unwrap_or_else(PoisonError::into_inner) = Some(solved.clone());
+            let mut list = recent();
+            list.retain(|it| !Arc::ptr_eq(it, &solved));
+            list.push(solved.clone());
+            let most = list.len().saturating_sub(RECENT);
+            list.drain(..most);
         }
         Ok(solved)
+    }
+
+    fn scene(&self, text: &str) -> Result<Scene, Fault> {
+        listed::scene(text, self.files.as_ref())
     }
 }
 
@@ -172,27 +208,10 @@ struct Answer {
     controls: Vec<controls::Control>,
     places: Vec<places::Place>,
     handles: Vec<handles::Handle>,
-    shown: Option<solved::Shown>,
+    /// Whether a train can be asked for.
+    has_train: bool,
+    shown: Option<compare::Compared>,
     error: Option<Fault>,
-}
-
-/// The scene of a text, which reads no other file.
-fn scene(text: &str) -> Result<Scene, Fault> {
-    if text.len() > LONGEST_TEXT {
-        let message = format!(
-            "the text has {} bytes, and the page treats at most {LONGEST_TEXT}: solve it with `masonry solve`",
-            text.len()
-        );
-        return Err(Fault::new(&message));
-    }
-    let read = Text::read(text);
-    if let Some(list) = read.get("block_list") {
-        let message =
-            "block_list: the page reads no other file: put the blocks into the scene as [[blocks]]";
-        let line = Some(read.line(list.span().start));
-        return Err(Fault { message: message.to_owned(), line, column: Some(1) });
-    }
-    Ok(Scene::from_toml(text)?)
 }
 
 fn json(answer: &impl Serialize) -> Result<String, Fault> {

@@ -4,13 +4,15 @@ const PAGE: &str = include_str!("../page/page.html");
 const STYLE: &str = include_str!("../page/page.css");
 const WORKER: &str = include_str!("../page/worker.js");
 /// The modules of the script; each imports only those before it.
-const MODULES: [&str; 12] = [
+const MODULES: [&str; 14] = [
     include_str!("../page/elements.js"),
     include_str!("../page/numbers.js"),
     include_str!("../page/engine.js"),
     include_str!("../page/completion.js"),
     include_str!("../page/editor.js"),
+    include_str!("../page/legend.js"),
     include_str!("../page/picture.js"),
+    include_str!("../page/tables.js"),
     include_str!("../page/handles.js"),
     include_str!("../page/work.js"),
     include_str!("../page/sliders.js"),

@@ -24,7 +24,7 @@ pub use desk::{Desk, DeskError};
 use guard::Guard;
 use http::{Reply, Request};
 
-use crate::engine::Engine;
+use crate::engine::{Engine, Files};
 use crate::page;
 
 /// Connections at once. A browser opens six to a host; more than a few tabs need are refused at once.
@@ -57,7 +57,8 @@ impl Server {
     pub fn new(desk: Desk) -> io::Result<Self> {
         let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, 0))?;
         let guard = Guard::new(listener.local_addr()?.port())?;
-        let shared = Arc::new(Shared { guard, desk, engine: Engine::default() });
+        let files = Files::new(desk.directory(), masonry_import::scene_from_toml);
+        let shared = Arc::new(Shared { guard, desk, engine: Engine::with_files(files) });
         Ok(Self { listener, shared })
     }
 

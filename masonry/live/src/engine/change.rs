@@ -10,7 +10,7 @@ use serde::Deserialize;
 
 use super::controls::Edit;
 use super::fault::Fault;
-use super::solved::{Show, Solved};
+use super::solved::{Seen, Show, Solved};
 use super::watch::Watch;
 use super::work::Found;
 
@@ -146,7 +146,10 @@ pub(super) fn change(
             let name =
                 format!("{} at {}", capital(&search.answers[&multiple]), digits.value(multiple));
             let solved = solve(&search.text_with(multiple)?, watch);
-            pictures.push((name, solved.ok().and_then(|it| it.picture(Show::Answer, None))));
+            pictures.push((
+                name,
+                solved.ok().and_then(|it| it.picture(Seen { show: Show::Answer, step: None })),
+            ));
         }
     }
     Ok(Found::new(&search.sentence(is_stopped), pictures, search.table()))

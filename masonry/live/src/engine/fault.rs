@@ -1,8 +1,13 @@
 //! Mistakes, with their places in the text of a scene.
 
+use std::path::Path;
+
 use masonry::scene::SceneError;
 use masonry::{LimitError, SolveError};
 use serde::Serialize;
+
+/// What the file of a text would be called; its mistakes have places in the text.
+pub(super) const SCENE: &str = "text of the page";
 
 /// Why there is no answer.
 #[derive(Debug, Serialize)]
@@ -21,6 +26,11 @@ impl Fault {
 
 impl From<SceneError> for Fault {
     fn from(error: SceneError) -> Self {
+        let file = error.file().and_then(Path::file_name);
+        if file.is_some_and(|it| it != SCENE) {
+            // In the file with its blocks.
+            return Self::new(&error);
+        }
         let (key, kind) = (error.key(), error.kind());
         let message = if key.is_empty() { kind.to_string() } else { format!("{key}: {kind}") };
         Self { message, line: error.line(), column: error.column() }

@@ -1,9 +1,13 @@
 //! A scene that was solved, and what is seen of it.
 
+use std::fmt::Display;
+
 use masonry::analysis::outcome::Frame;
 use masonry::analysis::solve::Event;
 use masonry::model::Model;
+use masonry::scene::Combined;
 use masonry::{Outcome, Run, Scene, SolveError, State, Verdict};
+use masonry_report::cases::Cases;
 use masonry_report::svg::{self, ReferenceLines};
 use masonry_report::{dxf, json, page, table};
 use serde::{Deserialize, Serialize};
@@ -23,6 +27,7 @@ pub(super) enum Show {
     Deformed,
     Mechanism,
     Scene,
+    Tables,
     /// The report as text.
     Report,
 }
@@ -37,40 +42,35 @@ pub(super) enum Format {
     Dxf,
 }
 
-/// A scene that was solved.
+/// What is wanted to be seen, and after which step of a load history: the last one without a number.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Seen {
+    pub(super) show: Show,
+    pub(super) step: Option<usize>,
+}
+
+/// A scene that was solved; of combinations the one that governs.
 #[derive(Debug)]
 pub(super) struct Solved {
-    text: String,
+    scene: Scene,
+    ran: Ran,
+    /// The lines of all combinations.
+    cases: Option<Cases>,
+    /// Whether nobody has ended the solve early.
+    is_complete: bool,
+    pub(super) reference: Option<ReferenceLines>,
+}
+
+/// What became of all steps.
+#[derive(Debug)]
+struct Ran {
     outcome: Outcome,
     /// The steps of a load history that have pictures.
     frames: Vec<Frame>,
-    reference: Option<ReferenceLines>,
 }
 
-/// What the page shows of it.
-#[derive(Debug, Serialize)]
-pub(super) struct Shown {
-    verdict: &'static str,
-    sentence: String,
-    warnings: Vec<String>,
-    /// Time of the solve \[s\].
-    seconds: f64,
-    /// What can be seen.
-    choices: Vec<Show>,
-    /// What is seen.
-    show: Show,
-    picture: Option<String>,
-    report: Option<String>,
-    /// Names of the steps that have pictures; empty without a load history.
-    steps: Vec<String>,
-}
-
-impl Solved {
-    pub(super) fn new(
-        text: &str,
-        scene: &Scene,
-        watch: &mut Watch<'_>,
-    ) -> Result<Self, SolveError> {
+impl Ran {
+    fn of(scene: &Scene, watch: &mut Watch<'_>) -> Result<Self, SolveError> {
         let mut observe = |event: Event| match event {
             Event::Step { number, of } => watch(&format_args!("step {number} of {of}")),
             Event::Phase(phase) => watch(&phase),
@@ -88,59 +88,139 @@ impl Solved {
             let is_shown = |it: &Frame| page::is_framed(it.position, run.steps());
             frames.extend(run.frame().filter(is_shown));
         }
-        let reference = ReferenceLines::of(scene);
-        Ok(Self { text: text.to_owned(), outcome: run.finish(), frames, reference })
+        Ok(Self { outcome: run.finish(), frames })
     }
 
-    pub(super) fn is_of(&self, text: &str) -> bool {
-        self.text == text
+    /// The combination that governs, with the lines of all. Without stages no step has pictures of its own.
+    fn governing(scene: &Scene, watch: &mut Watch<'_>) -> Result<(Self, Option<Cases>), Fault> {
+        let mut list: Vec<Combined<Outcome>> = Vec::new();
+        for Combined { name, of } in scene.combined() {
+            let mut inner = |it: &dyn Display| watch(&format_args!("combination \"{name}\": {it}"));
+            let ran = Self::of(&of, &mut inner).map_err(|error| {
+                let fault = Fault::from(error);
+                Fault { message: format!("combination \"{name}\": {}", fault.message), ..fault }
+            })?;
+            let is_cancelled = is_cancelled(&ran.outcome);
+            list.push(Combined { name, of: ran.outcome });
+            if is_cancelled {
+                break;
+            }
+        }
+        let cases = Cases::of_outcomes(&list);
+        let governs = cases.as_ref().map_or(0, Cases::governs);
+        let outcome = list.swap_remove(governs).of;
+        Ok((Self { outcome, frames: Vec::new() }, cases))
+    }
+}
+
+fn is_cancelled(outcome: &Outcome) -> bool {
+    outcome.solve.status == lcp::Status::Cancelled
+}
+
+/// What the page shows of it.
+#[derive(Debug, Serialize)]
+pub(super) struct Shown {
+    verdict: &'static str,
+    sentence: String,
+    warnings: Vec<String>,
+    /// Time of the solve \[s\].
+    seconds: f64,
+    /// What can be seen.
+    choices: Vec<Show>,
+    /// What is seen.
+    show: Show,
+    report: Option<String>,
+    /// In HTML.
+    tables: Option<String>,
+    /// Names of the steps that have pictures; empty without a load history.
+    steps: Vec<String>,
+}
+
+impl Solved {
+    pub(super) fn new(scene: Scene, watch: &mut Watch<'_>) -> Result<Self, Fault> {
+        let mut is_complete = true;
+        let mut inner = |it: &dyn Display| {
+            let flow = watch(it);
+            is_complete &= flow.is_continue();
+            flow
+        };
+        let (ran, cases) = if scene.combinations.is_empty() {
+            (Ran::of(&scene, &mut inner)?, None)
+        } else {
+            Ran::governing(&scene, &mut inner)?
+        };
+        is_complete &= !is_cancelled(&ran.outcome);
+        let reference = ReferenceLines::of(&scene);
+        Ok(Self { scene, ran, cases, is_complete, reference })
     }
 
-    /// Whether nobody has ended the solve early.
+    pub(super) fn is_of(&self, scene: &Scene) -> bool {
+        self.scene == *scene
+    }
+
     pub(super) fn is_complete(&self) -> bool {
-        self.outcome.solve.status != lcp::Status::Cancelled
+        self.is_complete
     }
 
-    /// What is seen of the state after a step, the last one without a number.
-    pub(super) fn shown(&self, show: Show, step: Option<usize>) -> Shown {
-        let outcome = &self.outcome;
-        let choices = self.choices();
-        let seen = if choices.contains(&show) { self.seen(show) } else { self.seen(Show::Answer) };
-        let is_report = seen == Show::Report;
+    pub(super) fn title(&self) -> &str {
+        &self.ran.outcome.title
+    }
+
+    /// What is seen of it.
+    pub(super) fn shown(&self, show: Show) -> Shown {
+        let outcome = &self.ran.outcome;
+        let seen = self.seen(show);
         let name = |it: &Frame| format!("{} {}/{}", it.step.stage, it.step.number, it.step.of);
         Shown {
             verdict: self.verdict(),
-            sentence: outcome.judgement.sentence.clone(),
+            sentence: self.sentence(),
             warnings: outcome.judgement.warnings.clone(),
             seconds: outcome.times.iter().map(|it| it.seconds).sum(),
-            choices,
+            choices: self.choices(),
             show: seen,
-            picture: if is_report { None } else { self.picture(seen, step) },
-            report: is_report.then(|| table::report(outcome)),
-            steps: self.frames.iter().map(name).collect(),
+            report: (seen == Show::Report).then(|| self.report()),
+            tables: (seen == Show::Tables).then(|| page::tables(outcome, self.cases.as_ref())),
+            steps: self.ran.frames.iter().map(name).collect(),
         }
     }
 
     pub(super) fn verdict(&self) -> &'static str {
-        match self.outcome.judgement.verdict {
+        match self.ran.outcome.judgement.verdict {
             Verdict::Stands => "stands",
             Verdict::Falls => "falls",
             Verdict::Undecided => "undecided",
         }
     }
 
-    /// What an answer shows.
-    fn seen(&self, show: Show) -> Show {
-        match show {
-            Show::Answer if self.outcome.mechanism.is_some() => Show::Mechanism,
-            Show::Answer if self.outcome.state.is_some() => Show::Forces,
-            Show::Answer => Show::Scene,
-            other => other,
+    pub(super) fn sentence(&self) -> String {
+        let sentence = &self.ran.outcome.judgement.sentence;
+        match &self.cases {
+            Some(cases) => format!("{}: {sentence}", cases.governing()),
+            None => sentence.clone(),
+        }
+    }
+
+    fn report(&self) -> String {
+        let head = self.cases.as_ref().map_or_else(String::new, Cases::head);
+        head + &table::report(&self.ran.outcome)
+    }
+
+    /// What is seen if this is wanted: something that there is.
+    pub(super) fn seen(&self, show: Show) -> Show {
+        let outcome = &self.ran.outcome;
+        if show != Show::Answer && self.choices().contains(&show) {
+            show
+        } else if outcome.mechanism.is_some() {
+            Show::Mechanism
+        } else if outcome.state.is_some() {
+            Show::Forces
+        } else {
+            Show::Scene
         }
     }
 
     fn choices(&self) -> Vec<Show> {
-        let outcome = &self.outcome;
+        let outcome = &self.ran.outcome;
         let mut list = vec![Show::Answer];
         if let Some(state) = &outcome.state {
             list.push(Show::Forces);
@@ -152,22 +232,26 @@ impl Solved {
         if outcome.mechanism.is_some() {
             list.push(Show::Mechanism);
         }
-        list.extend([Show::Scene, Show::Report]);
+        list.extend([Show::Scene, Show::Tables, Show::Report]);
         list
     }
 
     /// The state after a step with its model.
-    fn state(&self, step: Option<usize>) -> Option<(&Model, &State)> {
-        match step.and_then(|it| self.frames.get(it)) {
+    pub(super) fn state(&self, step: Option<usize>) -> Option<(&Model, &State)> {
+        let Ran { outcome, frames } = &self.ran;
+        match step.and_then(|it| frames.get(it)) {
             Some(frame) => Some((&frame.model, &frame.state)),
-            None => Some((&self.outcome.model, self.outcome.state.as_ref()?)),
+            None => Some((&outcome.model, outcome.state.as_ref()?)),
         }
     }
 
-    /// A picture of the state after a step, the last one without a number.
-    pub(super) fn picture(&self, show: Show, step: Option<usize>) -> Option<String> {
+    /// A picture; none of tables and reports.
+    pub(super) fn picture(&self, Seen { show, step }: Seen) -> Option<String> {
+        let (outcome, title) = (&self.ran.outcome, self.title());
         let show = self.seen(show);
-        let (outcome, title) = (&self.outcome, self.outcome.title.as_str());
+        if matches!(show, Show::Tables | Show::Report) {
+            return None;
+        }
         if show == Show::Mechanism {
             let rates = outcome.mechanism.as_ref()?;
             return Some(svg::mechanism(title, &outcome.model, rates));
@@ -189,11 +273,18 @@ impl Solved {
 
     /// The text of a file.
     pub(super) fn file(&self, format: Format) -> Result<String, Fault> {
-        let outcome = &self.outcome;
+        let Ran { outcome, frames } = &self.ran;
+        let cases = self.cases.as_ref();
         Ok(match format {
-            Format::Page => page::solved(outcome, &self.frames, self.reference.as_ref(), None),
-            Format::Json => json::result(outcome, &[])?,
-            Format::Text => table::report(outcome),
+            Format::Page => page::solved(outcome, frames, self.reference.as_ref(), cases),
+            Format::Json => {
+                let object = json::result(outcome, &[])?;
+                match cases {
+                    Some(cases) => cases.json("result", &object)?,
+                    None => object,
+                }
+            }
+            Format::Text => self.report(),
             Format::Dxf => dxf::drawing(outcome),
         })
     }

@@ -3,11 +3,15 @@
 use std::fmt;
 use std::ops::ControlFlow;
 
+use masonry::analysis::limit::{growing, train_observed};
 use masonry::analysis::study::{self, StudyProgress};
+use masonry::scene::Combined;
 use masonry::{
-    Bracket, Laws, LimitError, Scene, least_thickness_observed, limit_observed, ranges_observed,
+    Bracket, Laws, Limit, LimitError, Scene, least_thickness_observed, limit_observed,
+    ranges_observed,
 };
-use masonry_report::{limit as output, study as study_output, svg};
+use masonry_report::cases::Cases;
+use masonry_report::{limit as output, page, study as study_output, svg};
 use serde::Serialize;
 
 use super::fault::Fault;
@@ -18,6 +22,8 @@ use super::watch::Watch;
 pub(super) struct Found {
     sentence: String,
     pictures: Vec<Picture>,
+    /// In HTML.
+    tables: String,
     /// The report.
     text: String,
 }
@@ -29,7 +35,7 @@ struct Picture {
 }
 
 impl Found {
-    /// A result with its pictures, of which some may not exist.
+    /// A result with its pictures, of which some may not exist, and without tables.
     pub(super) fn new(
         sentence: &str,
         pictures: Vec<(impl Into<String>, Option<String>)>,
@@ -40,12 +46,52 @@ impl Found {
             let name: String = Into::into(name);
             Some(Picture { name, picture: picture? })
         };
-        Self { sentence, pictures: pictures.into_iter().filter_map(drawn).collect(), text }
+        let pictures = pictures.into_iter().filter_map(drawn).collect();
+        Self { sentence, pictures, tables: String::new(), text }
     }
 }
 
-pub(super) fn limit(scene: &Scene, law: Laws, watch: &mut Watch<'_>) -> Result<Found, LimitError> {
-    let limit = limit_observed(scene, law, &mut |at| watch(&Known(at)))?;
+/// The limit load; of combinations the one that governs.
+pub(super) fn limit(scene: &Scene, law: Laws, watch: &mut Watch<'_>) -> Result<Found, Fault> {
+    if scene.combinations.is_empty() {
+        let limit = limit_observed(scene, law, &mut |at| watch(&Known(at)))?;
+        return Ok(of_limit(&limit, None));
+    }
+    let group = growing(scene)?;
+    let (mut list, mut failed) = (Vec::new(), Vec::new());
+    for Combined { name, of } in scene.combined() {
+        if !of.acts(&group) {
+            continue;
+        }
+        let of = of.limit_group(&group);
+        let mut observe = |at| watch(&format_args!("combination \"{name}\": {}", Known(at)));
+        match limit_observed(&of, law, &mut observe) {
+            Ok(of) => list.push(Combined { name, of }),
+            Err(error) => failed.push(format!("Combination \"{name}\" has no answer: {error}. ")),
+        }
+        if list.last().is_some_and(|it| it.of.is_interrupted) {
+            break;
+        }
+    }
+    let Some(cases) = Cases::of_limits(&mut list) else {
+        let none = format!(
+            "\"{group}\" acts in no combination: name it in one, or another `group` in [limit]"
+        );
+        return Err(Fault::new(&if failed.is_empty() { none } else { failed.concat() }));
+    };
+    let mut found = of_limit(&list[cases.governs()].of, Some(&cases));
+    found.sentence = failed.concat() + &found.sentence;
+    Ok(found)
+}
+
+/// The limit load of the train of the scene at the position that governs.
+pub(super) fn train(scene: &Scene, law: Laws, watch: &mut Watch<'_>) -> Result<Found, LimitError> {
+    let crossing = train_observed(scene, law, &mut |at| watch(&Known(at)))?;
+    Ok(of_limit(&crossing.limit, Some(&Cases::of_train(&crossing))))
+}
+
+/// A limit load, with the lines of the cases of which it governs, if there are several.
+fn of_limit(limit: &Limit, cases: Option<&Cases>) -> Found {
     let (title, mut pictures) = (limit.title.as_str(), Vec::new());
     if let Some(path) = &limit.path {
         let rates = path.mechanism.as_ref();
@@ -57,15 +103,22 @@ pub(super) fn limit(scene: &Scene, law: Laws, watch: &mut Watch<'_>) -> Result<F
     }
     if let Some(found) = &limit.associative {
         let rates = found.mechanism.as_ref();
+        let forces = found.forces.as_ref();
         pictures.extend([
             ("Mechanism, associative", rates.map(|it| svg::mechanism(title, &limit.model, it))),
-            (
-                "Forces, associative",
-                found.forces.as_ref().map(|it| svg::forces(title, &limit.model, it)),
-            ),
+            ("Forces, associative", forces.map(|it| svg::forces(title, &limit.model, it))),
         ]);
     }
-    Ok(Found::new(&limit.sentence, pictures, output::table(&limit)))
+    pictures.extend(cases.map(|it| ("Positions", it.curve().map(str::to_owned))));
+    let sentence = match cases {
+        Some(cases) => format!("{}: {}", cases.governing(), limit.sentence),
+        None => limit.sentence.clone(),
+    };
+    let head = cases.map_or_else(String::new, Cases::head);
+    Found {
+        tables: page::limit_tables(limit, cases),
+        ..Found::new(&sentence, pictures, head + &output::table(limit))
+    }
 }
 
 pub(super) fn range(scene: &Scene, watch: &mut Watch<'_>) -> Result<Found, LimitError> {
@@ -85,7 +138,10 @@ pub(super) fn thickness(
         ("Mechanism", found.mechanism.as_ref().map(|it| svg::mechanism(title, model, it))),
         ("Forces", found.forces.as_ref().map(|it| svg::forces(title, model, it))),
     ];
-    Ok(Found::new(&found.sentence, pictures, output::thickness_table(&found)))
+    Ok(Found {
+        tables: page::thickness_tables(&found),
+        ..Found::new(&found.sentence, pictures, output::thickness_table(&found))
+    })
 }
 
 pub(super) fn study(scene: &Scene, watch: &mut Watch<'_>) -> Result<Found, Fault> {

@@ -94,6 +94,10 @@ impl Desk {
         Self { directory: directory.to_owned(), own: Mutex::default() }
     }
 
+    pub(super) fn directory(&self) -> &Path {
+        &self.directory
+    }
+
     /// Reads a file of the page, or the newest of them if none is named. The ends of lines are those of a text area.
     pub(super) fn load(&self, name: Option<&str>) -> Result<Sheet, DeskError> {
         let own = self.own();

@@ -233,7 +233,6 @@ fn a_number_is_asked_at_which_value_the_wall_falls() {
     name_number(&page, "[joints.bed]\nmu = ", "mu");
     page.drag("#mu", [-120.0, 0.0], 5);
     page.wait("document.getElementById('change').textContent === 'mu in line 10: stands at?'");
-    page.picture(&directory("change_pictures").join("change.png"));
 }
 
 #[test]
@@ -407,6 +406,113 @@ fn pictures_follow_the_hand() {
         );
         say(&line);
     }
+}
+
+#[test]
+fn tables_are_sorted_by_their_columns_and_stay_so() {
+    let Some(page) = opened("tables", DOOR) else { return };
+    page.click("[data-show=tables]");
+    page.wait("document.querySelector('#tables table')");
+    let column = |name: &str| {
+        format!(
+            "Array.from(document.querySelectorAll('#tables section')).find(it => it.querySelector('h2').textContent === 'Joints').querySelectorAll('{name}')"
+        )
+    };
+    // The column of the normal force, by the mouse and by keys.
+    let heads = column("th button");
+    let index = page.run(&format!(
+        "return Array.from({heads}).findIndex(it => it.textContent.startsWith('N '))"
+    ));
+    let index = index.as_u64().unwrap();
+    page.run(&format!("{heads}[{index}].id = 'normal'"));
+    let values = format!(
+        "Array.from({}, it => it.children[{index}].dataset.value).filter(it => it !== undefined).map(Number)",
+        column("tbody tr")
+    );
+    let sorted = |sign: &str| {
+        format!("{values}.every((it, k, all) => k === 0 || {sign} * (it - all[k - 1]) >= 0)")
+    };
+    assert_eq!(
+        page.run(&format!("return {}", sorted("1"))),
+        false,
+        "the order of the joints is another one"
+    );
+    page.click("#normal");
+    page.wait(&sorted("1"));
+    assert_eq!(
+        page.run("return document.getElementById('normal').parentNode.getAttribute('aria-sort')"),
+        "ascending"
+    );
+    page.run("document.getElementById('normal').focus()");
+    page.keys("", "\u{e007}");
+    page.wait(&sorted("-1"));
+    // A change of the text keeps order and focus.
+    page.run(
+        "const it = document.querySelector('#controls input'); it.value = 0.6; \
+         it.dispatchEvent(new Event('input')); it.dispatchEvent(new Event('change'))",
+    );
+    page.wait(&format!("{TEXT}.includes('[joints.bed]\\nmu = 0.60')"));
+    page.wait("document.querySelector('#shown[aria-busy=false]')");
+    page.wait(&format!("document.querySelector('[aria-sort=descending]') && {}", sorted("-1")));
+    assert_eq!(page.run("return document.activeElement.textContent.startsWith('N ')"), true);
+}
+
+#[test]
+fn scenes_that_are_compared_have_one_scale() {
+    let Some(page) = opened("compare", DOOR) else { return };
+    let longest = "Math.max(...Array.from(document.querySelectorAll('FIGURE .drawing .pressing path'), it => it.getTotalLength()))";
+    let of = |figure: &str| {
+        page.run(&format!("return {}", longest.replace("FIGURE", figure))).as_f64().unwrap()
+    };
+    page.click("#keep");
+    page.wait("document.querySelector('#kept svg') && !document.getElementById('scale').hidden");
+    // Bricks of a fifth of the mass have a fifth of the force.
+    name_number(&page, "density = ", "density");
+    page.run(
+        "const it = document.getElementById('scene'); it.focus(); const at = it.value.indexOf('1800.0'); \
+         it.setSelectionRange(at, at + 6)",
+    );
+    page.keys("", "360.0");
+    page.wait(&format!("{TEXT}.includes('density = 360.0\\n')"));
+    page.wait(SETTLED);
+    let ratio = of("#picture") / of("#kept");
+    assert!((ratio - 0.2).abs() < 0.01, "{ratio}");
+    let told = page.run("return document.querySelector('#picture .legend').textContent");
+    assert!(told.as_str().unwrap().contains("drawn to one scale with"), "{told}");
+    let scale = "document.getElementById('scale').textContent";
+    assert_eq!(page.run(&format!("return {scale}")), "Forces have the same scale in all pictures.");
+    page.click("[data-show=deformed]");
+    page.wait(&format!("{scale}.startsWith('Displacements')"));
+    page.click("#kept button:nth-of-type(2)");
+    page.wait(
+        "document.getElementById('scale').hidden && !document.querySelector('#kept section')",
+    );
+    // The wall that falls shows how it moves, the one that stands its forces.
+    page.click("[data-show=answer]");
+    page.click("#keep");
+    page.wait("document.querySelector('#kept svg')");
+    page.run("document.querySelector('#controls input').value = 0.05; document.querySelector('#controls input').dispatchEvent(new Event('input'))");
+    page.wait(&format!("{SENTENCE}.startsWith('The wall falls')"));
+    page.wait(&format!("{scale}.startsWith('These pictures show different things')"));
+}
+
+#[test]
+fn a_narrow_page_has_its_legend_in_readable_letters() {
+    let (address, _) = serve_scene("legend", DOOR);
+    let Some(page) = Page::open(&address, 420) else { return };
+    page.wait(SETTLED);
+    page.wait("document.querySelectorAll('ul.legend li').length > 2");
+    let smallest = "Math.min(...Array.from(document.querySelectorAll('ul.legend span'), it => parseFloat(getComputedStyle(it).fontSize)))";
+    assert!(page.run(&format!("return {smallest}")).as_f64().unwrap() >= 13.0);
+    assert_eq!(
+        page.run("return getComputedStyle(document.querySelector('#picture .legend')).display"),
+        "none"
+    );
+    // Handles are over what they move.
+    let distance = "const [a, b] = ['.handle[aria-label^=\"place of\"]', '#picture svg[data-frame]'].map(it => document.querySelector(it).getBoundingClientRect()); \
+         return [a.left - b.left, b.right - a.right, a.top - b.top, b.bottom - a.bottom]";
+    let room: Vec<f64> = serde_json::from_value(page.run(distance)).unwrap();
+    assert!(room.iter().all(|it| *it > 0.0), "{room:?}");
 }
 
 /// The page as a reader sees it, in files to be looked at.

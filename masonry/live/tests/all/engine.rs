@@ -305,6 +305,86 @@ fn a_search_for_a_change_says_how_far_it_was_when_it_is_stopped() {
     assert_eq!(found["pictures"].as_array().unwrap().len(), 0);
 }
 
+/// The block in two combinations: with the push of the scene from both sides, and with twice as much.
+fn combined() -> String {
+    format!(
+        "{PUSHED}\n[[combinations]]\nname = \"calm\"\nloads = {{ push = 1.0 }}\n\n\
+        [[combinations]]\nname = \"storm\"\nloads = {{ push = 2.0 }}\n"
+    )
+}
+
+#[test]
+fn of_combinations_the_one_that_governs_is_shown() {
+    let shown = solve(&combined())["shown"].take();
+    assert_eq!(shown["verdict"], "falls");
+    assert!(shown["sentence"].as_str().unwrap().starts_with("\"storm\" governs: "), "{shown}");
+    let ask_for = |format: &str| {
+        let file = ask(&json!({ "task": "export", "text": combined(), "format": format }));
+        file["file"].as_str().unwrap().to_owned()
+    };
+    let json: Value = serde_json::from_str(&ask_for("json")).unwrap();
+    assert_eq!(json["governs"], "storm");
+    assert_eq!(json["combinations"].as_array().unwrap().len(), 4);
+    assert!(ask_for("text").contains("calm, opposite"));
+    assert!(ask_for("page").contains("<td>calm, opposite</td>"));
+    // The block slides at 8 m/s2.
+    let limit = ask(&json!({ "task": "limit", "law": "both", "text": combined() }));
+    let sentence = limit["sentence"].as_str().unwrap();
+    assert!(sentence.starts_with("\"storm") && sentence.contains("0.8"), "{sentence}");
+    assert!(limit["text"].as_str().unwrap().contains("1.6"), "{limit}");
+    let range = ask(&json!({ "task": "range", "text": combined() }));
+    assert!(range["error"]["message"].as_str().unwrap().contains("masonry solve"), "{range}");
+}
+
+#[test]
+fn a_train_is_asked_for_where_there_is_one() {
+    // One axle over the arch; a quarter of the span governs, from either side.
+    let text = r#"title = "A bridge"
+thickness = 1.0
+gravity = [0.0, -10.0]
+units = { length = "m", force = "N" }
+materials.stone = { density = 2000.0 }
+joints.joint = { mu = 0.7 }
+
+[[arches]]
+name = "arch"
+material = "stone"
+shape = "segmental"
+origin = [0.0, 0.0]
+span = 4.0
+rise = 1.0
+thickness = 0.4
+voussoirs = 11
+joint = "joint"
+springing = "joint"
+
+[limit.train]
+over = "arch"
+axles = [[0.0, 1e4]]
+from = 0.0
+to = 4.0
+positions = 5
+"#;
+    assert_eq!(solve(text)["has_train"], true);
+    assert_eq!(solve(DOOR)["has_train"], false);
+    let found = ask(&json!({ "task": "train", "law": "associative", "text": text }));
+    let sentence = found["sentence"].as_str().unwrap();
+    assert!(
+        ["position 1\u{a0}m", "position 3\u{a0}m"].iter().any(|it| sentence.starts_with(it)),
+        "{sentence}"
+    );
+    assert!(found["pictures"].as_array().unwrap().iter().any(|it| it["name"] == "Positions"));
+    let none = ask(&json!({ "task": "train", "law": "both", "text": DOOR }));
+    assert!(none["error"]["message"].is_string());
+}
+
+#[test]
+fn an_engine_without_files_says_in_one_sentence_that_it_reads_none() {
+    let answer = solve(&format!("block_list = \"blocks.json\"\n{DOOR}"));
+    let message = answer["error"]["message"].as_str().unwrap();
+    assert!(message.starts_with("block_list: this page cannot read files"), "{message}");
+}
+
 #[test]
 fn ranges_and_thicknesses_have_a_sentence_and_a_report() {
     let text = BEGINNINGS.into_iter().find(|it| it.name == "arch").unwrap().text;

@@ -132,16 +132,100 @@ fn no_file_outside_of_the_directory_is_read_or_written() {
         }
     }
     assert_eq!(fs::read_to_string(&secret).unwrap(), "secret");
-    // A scene may name another file, which the page does not read.
-    let text = format!("block_list = {secret_path:?}\n{DOOR}");
+    // A scene may name another file, which the page reads in the directory of the scene only.
+    for list in [secret_path, "../secret.toml", "a/../../secret.toml", "../inside/scene.toml"] {
+        let message = with_list(&address, list)["error"]["message"].take();
+        let message = message.as_str().unwrap();
+        assert!(message.contains("is not in the directory of the scene"), "{list}: {message}");
+    }
+}
+
+/// What a scene comes to whose blocks are in a file.
+fn with_list(address: &str, list: &str) -> Value {
+    let text = format!("block_list = {list:?}\n{LISTED}");
     let body = json!({ "task": "solve", "text": text, "show": "answer", "step": null }).to_string();
-    let answer = said(&posted(&address, "/ask", &body));
+    said(&posted(address, "/ask", &body))
+}
+
+/// A scene without its block.
+const LISTED: &str = r#"title = "Block"
+thickness = 1.0
+gravity = [0.0, -10.0]
+units = { length = "m", force = "kN" }
+materials.stone = { density = 2000.0 }
+joints.bed = { mu = 0.8 }
+
+[[supports]]
+name = "ground"
+from = [0.0, 0.0]
+to = [2.0, 0.0]
+joint = "bed"
+
+[[loads]]
+name = "push"
+acceleration = [5.0, 0.0]
+"#;
+
+const LIST: &str =
+    r#"[{ "material": "stone", "corners": [[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [0.0, 1.0]] }]"#;
+
+#[test]
+fn blocks_are_read_from_the_directory_of_the_scene() {
+    let (address, path) = serve_scene("list", DOOR);
+    let place = path.parent().unwrap();
+    let missing = with_list(&address, "blocks.json")["error"].take();
+    assert!(missing["message"].as_str().unwrap().starts_with("block_list: "), "{missing}");
+    assert_eq!(missing["line"], 1);
+    fs::create_dir(place.join("deeper")).unwrap();
+    for name in ["blocks.json", "deeper/blocks.json"] {
+        fs::write(place.join(name), LIST).unwrap();
+        assert_eq!(with_list(&address, name)["shown"]["verdict"], "stands", "{name}");
+    }
+    // The file has changed, and the text has not.
+    fs::write(place.join("blocks.json"), LIST.replace("1.0]", "9.0]")).unwrap();
+    assert_eq!(with_list(&address, "blocks.json")["shown"]["verdict"], "falls");
+    // Places in the file are none in the text.
+    fs::write(place.join("blocks.json"), LIST.replace("stone", "gold")).unwrap();
+    let wrong = with_list(&address, "blocks.json")["error"].take();
+    assert!(wrong["message"].as_str().unwrap().contains("blocks.json, line 1"), "{wrong}");
+    assert_eq!(wrong["line"], Value::Null);
+    // A drawing, too.
+    let square =
+        r#"<svg xmlns="http://www.w3.org/2000/svg"><rect x="0" y="0" width="2" height="1"/></svg>"#;
+    fs::write(place.join("blocks.svg"), square).unwrap();
+    let drawn = with_list(&address, "blocks.svg");
     assert!(
-        answer["error"]["message"]
-            .as_str()
-            .unwrap()
-            .starts_with("block_list: the page reads no other file")
+        drawn["shown"]["verdict"].is_string() || drawn["error"].to_string().contains("blocks.svg"),
+        "{drawn}"
     );
+    // What is no file, and what is too large.
+    fs::create_dir(place.join("folder.json")).unwrap();
+    assert!(with_list(&address, "folder.json")["error"]["message"].is_string());
+    let large = fs::File::create(place.join("large.json")).unwrap();
+    large.set_len((16 << 20) + 1).unwrap();
+    let message = with_list(&address, "large.json")["error"]["message"].take();
+    assert!(message.as_str().unwrap().contains("reads at most"), "{message}");
+}
+
+#[cfg(unix)]
+#[test]
+fn no_link_leads_blocks_out_of_the_directory() {
+    let place = directory("list_links");
+    let inside = place.join("inside");
+    fs::create_dir_all(&inside).unwrap();
+    fs::write(place.join("blocks.json"), LIST).unwrap();
+    fs::write(inside.join("own.json"), LIST).unwrap();
+    fs::write(inside.join("scene.toml"), DOOR).unwrap();
+    std::os::unix::fs::symlink("../blocks.json", inside.join("out.json")).unwrap();
+    std::os::unix::fs::symlink("..", inside.join("up")).unwrap();
+    std::os::unix::fs::symlink("own.json", inside.join("in.json")).unwrap();
+    let address = serve(Desk::with_scene(&inside.join("scene.toml")).unwrap());
+    for list in ["out.json", "up/blocks.json"] {
+        let message = with_list(&address, list)["error"]["message"].take();
+        let message = message.as_str().unwrap();
+        assert!(message.contains("is not in the directory of the scene"), "{list}: {message}");
+    }
+    assert_eq!(with_list(&address, "in.json")["shown"]["verdict"], "stands");
 }
 
 #[test]
