@@ -80,7 +80,7 @@ export class Answers {
     one("#shown").setAttribute("aria-busy", this.running !== null);
     one("#age").hidden = !isOld;
     one("#age").textContent = time > AT_ONCE
-      ? `Solving for ${(time / 1000).toFixed(1)} s: ${this.running.news ?? "begun"}. Verdict and picture are those of the text before.`
+      ? `Solving for ${(time / 1000).toFixed(1)} s${this.running.news ? ` (${this.running.news})` : ""}. Verdict and picture are those of the text before.`
       : this.reason;
   }
 

@@ -5,6 +5,9 @@ import { button, made, one } from "./elements.js";
 // How often the page looks for a change of the file on the disk [ms].
 const LOOK = 1000;
 
+// The name under which a tab keeps a text that was not saved.
+const UNSAVED = "unsaved";
+
 // The ends of the names of files, and what they are.
 const EXPORTS = {
   page: ["html", "text/html"],
@@ -31,6 +34,9 @@ export class Files {
     addEventListener("beforeunload", (event) => {
       if (this.isChanged) event.preventDefault();
     });
+    // The last moments that a page is sure to hear of.
+    addEventListener("pagehide", () => this.leave());
+    document.addEventListener("visibilitychange", () => document.hidden && this.leave());
   }
 
   get isChanged() {
@@ -40,6 +46,36 @@ export class Files {
   // The name of the file without its end.
   get stem() {
     return this.name?.replace(/\.toml$/, "") ?? "scene";
+  }
+
+  // Keeps what is not saved for the next page in this tab.
+  leave() {
+    try {
+      if (this.isChanged) sessionStorage.setItem(UNSAVED, JSON.stringify({ name: this.name, text: this.editor.text }));
+      else if (one("#unsaved").hidden) sessionStorage.removeItem(UNSAVED);
+    } catch {
+      // There is no room for it: the browser has asked whether to leave.
+    }
+  }
+
+  // Asks what becomes of the text that the page before in this tab has not saved.
+  offer() {
+    const { name, text } = JSON.parse(sessionStorage.getItem(UNSAVED) ?? "{}");
+    if (text === undefined || text === this.editor.text) return;
+    const place = one("#unsaved");
+    const drop = () => {
+      sessionStorage.removeItem(UNSAVED);
+      tell(place, "");
+    };
+    const take = async () => {
+      // Without a file nothing is saved of it.
+      const saved = name === null ? "" : (await this.engine.load(name).catch(failed)).text;
+      this.editor.set(text);
+      this.rename(name, saved ?? "");
+      drop();
+    };
+    const what = name === null ? "a new scene" : name;
+    tell(place, `Changes of ${what} were not saved before this page was loaded.`, { "Take them back": take, "Drop them": drop });
   }
 
   changed() {
@@ -60,6 +96,7 @@ export class Files {
     if (error) tell(one("#notice"), error.message);
     this.editor.begin(text ?? scenes[0].text);
     this.rename(name, this.editor.text);
+    this.offer();
     if (this.engine.hasFiles) setInterval(() => this.lookAtDisk(), LOOK);
   }
 
@@ -89,7 +126,7 @@ export class Files {
       download("scene.toml", text, "application/toml");
       return this.rename(null, text);
     }
-    const given = this.name ?? prompt("Name of the new scene file, in the directory in which masonry was started", "scene.toml");
+    const given = this.name ?? prompt("Name of the new file. It is written beside the scene that was opened, or else into the directory in which masonry was started.", "scene.toml");
     if (given === null) return;
     const name = given.endsWith(".toml") ? given : `${given}.toml`;
     // A file of a new scene must not exist yet.

@@ -125,12 +125,12 @@ impl Engine {
                 self.solve(&text, seen, &beside, watch)?
             }
             Task::Limit { text, law } => json(&work::limit(&self.scene(&text)?, law, watch)?)?,
-            Task::Train { text, law } => json(&work::train(&self.scene(&text)?, law, watch)?)?,
-            Task::Range { text } => json(&work::range(&self.scene(&text)?, watch)?)?,
+            Task::Train { text, law } => json(&work::train(&self.single(&text)?, law, watch)?)?,
+            Task::Range { text } => json(&work::range(&self.single(&text)?, watch)?)?,
             Task::Thickness { text, arch } => {
-                json(&work::thickness(&self.scene(&text)?, &arch, watch)?)?
+                json(&work::thickness(&self.single(&text)?, &arch, watch)?)?
             }
-            Task::Study { text } => json(&work::study(&self.scene(&text)?, watch)?)?,
+            Task::Study { text } => json(&work::study(&self.single(&text)?, watch)?)?,
             Task::Change { text, tried } => {
                 let solve =
                     |text: &str, watch: &mut Watch<'_>| Solved::new(self.scene(text)?, watch);
@@ -194,6 +194,17 @@ impl Engine {
             list.drain(..most);
         }
         Ok(solved)
+    }
+
+    /// A scene of one set of loads, for questions that take no other.
+    fn single(&self, text: &str) -> Result<Scene, Fault> {
+        let scene = self.scene(text)?;
+        if scene.combinations.is_empty() {
+            return Ok(scene);
+        }
+        let message = "the scene has combinations: verdict and limit load take all of them; for other questions \
+                       remove [[combinations]] and leave the loads of one";
+        Err(Fault::new(&message))
     }
 
     fn scene(&self, text: &str) -> Result<Scene, Fault> {

@@ -311,6 +311,68 @@ fn changes_are_not_dropped_without_a_question() {
 }
 
 #[test]
+fn a_text_that_was_not_saved_outlives_the_page() {
+    let (address, path) = serve_scene("reload", DOOR);
+    let Some(page) = Page::open(&address, 1280) else { return };
+    page.wait(SETTLED);
+    name_number(&page, "courses = ", "courses");
+    page.drag("#courses", [4.0, 0.0], 2);
+    let mine = DOOR.replace("courses = 12", "courses = 14");
+    assert_eq!(text(&page), mine);
+    let asks = "!document.getElementById('unsaved').hidden";
+    // The browser asks whether to leave; the driver says yes.
+    page.go(&address);
+    page.wait(&format!("{SETTLED} && {asks}"));
+    assert_eq!(text(&page), DOOR, "nothing is put in the place of the file by itself");
+    // Without an answer the question comes again, also after another page.
+    page.go("about:blank");
+    page.go(&address);
+    page.wait(&format!("{SETTLED} && {asks}"));
+    page.click("#unsaved button");
+    page.wait(&format!("{TEXT}.includes('courses = 14')"));
+    page.wait(
+        "document.querySelector('#name.changed') && document.getElementById('unsaved').hidden",
+    );
+    page.keys(CONTROL, "s");
+    page.wait("!document.querySelector('#name.changed')");
+    assert_eq!(fs::read_to_string(&path).unwrap(), mine);
+    page.go(&address);
+    page.wait(SETTLED);
+    assert_eq!(page.run(&format!("return {asks}")), false, "all is saved");
+    name_number(&page, "courses = ", "courses");
+    page.drag("#courses", [4.0, 0.0], 2);
+    page.go(&address);
+    page.wait(&format!("{SETTLED} && {asks}"));
+    page.click("#unsaved button:last-of-type");
+    page.go(&address);
+    page.wait(SETTLED);
+    assert_eq!(page.run(&format!("return {asks}")), false, "it was dropped");
+    assert_eq!(text(&page), mine);
+}
+
+#[test]
+fn a_new_scene_that_was_not_saved_does_not_become_that_of_the_file() {
+    let (address, path) = serve_scene("reload_new", DOOR);
+    let Some(page) = Page::open(&address, 1280) else { return };
+    page.wait(SETTLED);
+    page.run("const it = document.getElementById('begin'); it.value = 'wall'; it.dispatchEvent(new Event('change'))");
+    page.wait(&format!("document.getElementById('name').textContent === 'New scene' && {SETTLED}"));
+    name_number(&page, "courses = ", "courses");
+    page.drag("#courses", [4.0, 0.0], 2);
+    let mine = text(&page);
+    page.go(&address);
+    page.wait(&format!("{SETTLED} && !document.getElementById('unsaved').hidden"));
+    page.click("#unsaved button");
+    page.wait("document.getElementById('name').textContent === 'New scene' && document.querySelector('#name.changed')");
+    assert_eq!(text(&page), mine);
+    page.run("window.prompt = () => 'mine.toml'");
+    page.keys(CONTROL, "s");
+    page.wait("document.getElementById('name').textContent === 'mine.toml'");
+    assert_eq!(fs::read_to_string(&path).unwrap(), DOOR);
+    assert_eq!(fs::read_to_string(path.with_file_name("mine.toml")).unwrap(), mine);
+}
+
+#[test]
 fn the_end_of_the_command_is_no_mistake_of_the_text() {
     let Some(page) = opened("ended", DOOR) else { return };
     page.run("window.fetch = () => Promise.reject(new TypeError('no connection'))");
