@@ -86,7 +86,7 @@ impl Classes {
             let second = Members::of(scene, blocks, second, at.item(1))?;
             of_pairs.push(([first, second], index(&between.joint)));
         }
-        let turns = scene.walls.iter().map(|wall| wall.turn_deg.to_radians()).collect();
+        let turns = scene.walls.iter().map(|wall| wall.turn()).collect();
         Ok(Self {
             list,
             given,

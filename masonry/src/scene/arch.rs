@@ -5,7 +5,7 @@ mod place;
 
 use serde::{Deserialize, Serialize};
 
-pub(crate) use lines::lines;
+pub(crate) use lines::{half_angle_of, lines};
 pub(crate) use place::{NamedBlock, blocks, supports};
 
 use super::setters::setters;
@@ -41,7 +41,7 @@ pub struct Arch {
     pub rise: Option<f64>,
     /// Angle of a segmental arch at the centre of its circle \[degrees\], instead of the rise.
     pub embrace_deg: Option<f64>,
-    /// Angle of the springings of a flat arch from the vertical \[degrees\].
+    /// Angle of the springings of a flat arch with a straight intrados from the vertical \[degrees\].
     pub skew_deg: Option<f64>,
     /// Depth of the ring, of a flat arch its height \[length\].
     pub thickness: Option<f64>,
@@ -81,7 +81,8 @@ pub enum Shape {
     Semicircular,
     /// Two arcs that meet at the crown: `span` and `rise`; an even number of voussoirs.
     Pointed,
-    /// A straight intrados: `span` and `skew_deg`; joints towards one point below.
+    /// A level top: `span`, and `skew_deg` of a straight intrados or `rise` of one that is an arc; joints towards one point
+    /// below.
     Flat,
     /// The joints are given: `lines`.
     Joints,

@@ -120,7 +120,7 @@ pub(crate) fn first_without_length(wall: &Wall, joints: JointThickness) -> Optio
 fn courses(wall: &Wall, joints: JointThickness) -> Box<dyn Iterator<Item = Vec<Span>> + '_> {
     match &wall.courses {
         Courses::RunningBond(count) => {
-            let width = wall.width.unwrap_or(wall.brick.length);
+            let width = wall.width_given().unwrap_or(wall.brick.length);
             let width = snap((width + joints.head) / (wall.brick.length + joints.head));
             let laid = move |course: usize| {
                 let bricks = bricks_between(&ends(wall.bond.unwrap_or_default(), course, width));

@@ -192,6 +192,8 @@ impl Wall {
         pub fn origin(mut self, origin: [f64; 2]) { self.origin = origin }
         /// Turns the wall about its origin, counter-clockwise \[degrees\].
         pub fn turn_deg(mut self, degrees: f64) { self.turn_deg = degrees }
+        /// Lets the bottom of the wall run from its origin to this point \[length\], which gives its turn, and its width if it has none.
+        pub fn to(mut self, corner: [f64; 2]) { self.to = Some(corner) }
         /// Sets the elements along the length and height of a whole brick.
         pub fn mesh(mut self, mesh: [u32; 2]) { self.mesh = Some(mesh) }
     }
@@ -202,6 +204,7 @@ impl Wall {
             material: material.to_owned(),
             origin: [0.0; 2],
             turn_deg: 0.0,
+            to: None,
             brick,
             width: None,
             courses,

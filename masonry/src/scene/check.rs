@@ -125,6 +125,15 @@ impl Scene {
         let material = self.material_of(at, &wall.material)?;
         point(&at.key("origin"), wall.origin)?;
         finite(at.key("turn_deg"), wall.turn_deg)?;
+        if let Some(to) = wall.to {
+            let at_to = at.key("to");
+            point(&at_to, to)?;
+            let because = "has no meaning beside `to`, towards which the bottom of the wall runs";
+            unwanted(wall.turn_deg.abs() > 0.0, at, "turn_deg", because, "")?;
+            let length = (to[0] - wall.origin[0]).hypot(to[1] - wall.origin[1]);
+            let wanted = "the bottom of a wall runs from `origin` to another point";
+            value(at_to, length, length > 0.0, wanted)?;
+        }
         positive(at.key("brick").key("length"), wall.brick.length)?;
         positive(at.key("brick").key("height"), wall.brick.height)?;
         let joints = JointThickness::of(self, wall);
@@ -246,7 +255,7 @@ fn check_running_bond(
 ) -> Result<f64, Fault> {
     at_least_one(at.key("courses"), count, "a wall has at least one course")?;
     let because = "because `courses` is a number";
-    let width = needed(wall.width, at, "width", because, "width = 1.0")?;
+    let width = needed(wall.width_given(), at, "width", because, "width = 1.0")?;
     positive(at.key("width"), width)?;
     // An English bond has two headers a brick, and an opening divides two bricks.
     let in_course = 2.0 * width / wall.brick.length + 3.0 + 2.0 * wall.openings.len() as f64;

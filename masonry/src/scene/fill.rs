@@ -52,6 +52,6 @@ pub(super) fn spread() -> f64 {
 }
 
 #[expect(clippy::trivially_copy_pass_by_ref, reason = "the signature that serde asks for")]
-pub(super) fn is_spread(angle: &f64) -> bool {
+pub(crate) fn is_spread(angle: &f64) -> bool {
     angle.to_bits() == spread().to_bits()
 }

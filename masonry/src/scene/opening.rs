@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::arch::half_angle_of;
 use super::setters::setters;
 use super::strict;
 use crate::rounding::rounded;
@@ -60,7 +61,7 @@ pub struct Opening {
     pub lintel: Option<Lintel>,
 }
 
-/// A lintel of its own material, or a flat arch beside which bricks are cut.
+/// A lintel of its own material, or a flat arch beside which bricks are cut, with a straight intrados or an arc.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
@@ -71,8 +72,10 @@ pub struct Lintel {
     pub joint: Option<String>,
     /// Voussoirs of a flat arch; without the key the lintel is one block.
     pub voussoirs: Option<u32>,
-    /// Angle of the springings of a flat arch from the vertical \[degrees\].
+    /// Angle of the springings of a flat arch with a straight intrados from the vertical \[degrees\].
     pub skew_deg: Option<f64>,
+    /// Rise of the intrados of a flat arch, if it is an arc \[length\].
+    pub rise: Option<f64>,
     /// Height of a flat arch in courses, 1 without the key.
     pub courses: Option<u32>,
 }
@@ -81,8 +84,8 @@ pub struct Lintel {
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct FlatArch {
     pub(crate) voussoirs: u32,
-    /// Angle of its springings from the vertical \[degrees\].
-    pub(crate) skew_deg: f64,
+    /// Tangent of the angle of its springings from the vertical.
+    slope: f64,
     /// Its height in courses.
     pub(crate) courses: u32,
 }
@@ -90,7 +93,7 @@ pub(crate) struct FlatArch {
 impl FlatArch {
     /// How far its springings lean outwards over so many courses of this height \[length\].
     pub(crate) fn lean(&self, courses: usize, height: f64) -> f64 {
-        courses as f64 * height * self.skew_deg.to_radians().tan()
+        courses as f64 * height * self.slope
     }
 }
 
@@ -127,8 +130,10 @@ impl Opening {
     /// The flat arch above it.
     pub(crate) fn arch(&self) -> Option<FlatArch> {
         let lintel = self.lintel.as_ref()?;
-        let (voussoirs, skew_deg) = lintel.voussoirs.zip(lintel.skew_deg)?;
-        Some(FlatArch { voussoirs, skew_deg, courses: lintel.courses.unwrap_or(1) })
+        let voussoirs = lintel.voussoirs?;
+        let of_arc = lintel.rise.map(|rise| half_angle_of(rise, self.width));
+        let angle = of_arc.or(lintel.skew_deg.map(f64::to_radians))?;
+        Some(FlatArch { voussoirs, slope: angle.tan(), courses: lintel.courses.unwrap_or(1) })
     }
 
     /// The courses that its lintel takes, from 0.
@@ -187,7 +192,7 @@ pub enum OpeningError {
     /// The lintel rests on nothing.
     #[error(
         "the lintel needs {bearing} of wall on its {side} to rest on, and has {room}: move the opening by at least {}{}",
-        rounded(bearing - room), shorter(*room)
+        rounded(bearing - room), otherwise(*is_arch, *room)
     )]
     NoBearing {
         /// `left` or `right`.
@@ -196,6 +201,8 @@ pub enum OpeningError {
         bearing: f64,
         /// The length of wall there.
         room: f64,
+        /// Whether the lintel is a flat arch, whose springings lean so far.
+        is_arch: bool,
     },
     /// Two openings, or an opening and a lintel, take the same place.
     #[error(
@@ -209,9 +216,13 @@ pub enum OpeningError {
     },
 }
 
-/// Another remedy, if there is some wall.
-fn shorter(room: f64) -> String {
-    if room > 0.0 { format!(", or give a `bearing` of at most {room}") } else { String::new() }
+/// Another remedy, if there is one.
+fn otherwise(is_arch: bool, room: f64) -> String {
+    match (is_arch, room > 0.0) {
+        (true, _) => ", or let the springings of the arch lean less".to_owned(),
+        (false, true) => format!(", or give a `bearing` of at most {room}"),
+        (false, false) => String::new(),
+    }
 }
 
 fn first() -> u32 {

@@ -1,6 +1,6 @@
 //! Walls of bricks in courses.
 
-use nalgebra::{Point2, Rotation2};
+use nalgebra::{Point2, Rotation2, Vector2};
 use serde::{Deserialize, Serialize};
 
 use super::{BED, Bond, Brick, HEAD, Opening, strict};
@@ -38,6 +38,10 @@ pub struct Wall {
     /// Angle by which the laid wall is turned about `origin`, counter-clockwise \[degrees\].
     #[serde(default, skip_serializing_if = "is_upright")]
     pub turn_deg: f64,
+    /// A point towards which the bottom of the wall runs from `origin` \[length\], instead of the angle; and its lower right
+    /// corner, if `courses` is a number and no width is given.
+    #[serde(default, deserialize_with = "strict::read", skip_serializing_if = "Option::is_none")]
+    pub to: Option<[f64; 2]>,
     /// The whole brick.
     #[serde(deserialize_with = "strict::read")]
     pub brick: Brick,
@@ -71,12 +75,28 @@ impl Wall {
     /// assert!((x - 0.5).abs() < 1e-15 && (y - 2.0).abs() < 1e-15);
     /// ```
     pub fn turned(&self, place: [f64; 2]) -> [f64; 2] {
-        if is_upright(&self.turn_deg) {
+        let turn = self.turn();
+        if turn.to_bits() == 0_f64.to_bits() {
             return place;
         }
         let origin = Point2::from(self.origin);
-        (origin + Rotation2::new(self.turn_deg.to_radians()) * (Point2::from(place) - origin))
-            .into()
+        (origin + Rotation2::new(turn) * (Point2::from(place) - origin)).into()
+    }
+
+    /// The angle by which the wall is turned about its origin \[rad\].
+    pub fn turn(&self) -> f64 {
+        let along = self.along();
+        along.map_or(self.turn_deg.to_radians(), |along| along.y.atan2(along.x))
+    }
+
+    /// The given width \[length\]: in figures, or as the distance between the lower corners.
+    pub fn width_given(&self) -> Option<f64> {
+        self.width.or_else(|| self.along().map(|along| along.norm()))
+    }
+
+    /// From the lower left corner to the right \[length\].
+    fn along(&self) -> Option<Vector2<f64>> {
+        self.to.map(|to| Point2::from(to) - Point2::from(self.origin))
     }
 }
 

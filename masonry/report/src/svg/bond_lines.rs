@@ -24,7 +24,7 @@ impl ReferenceLines {
     /// `None` for a scene without such a wall, or with one that is turned, with a support all along its foot, or with an opening in the way
     /// of a line.
     pub fn of(scene: &Scene) -> Option<Self> {
-        let wall = scene.walls.first().filter(|wall| wall.turn_deg.abs() <= 0.0)?;
+        let wall = scene.walls.first().filter(|wall| wall.turn().abs() <= 0.0)?;
         let [_, foot] = wall.origin;
         let level = |y: f64| (y - foot).abs() <= 1e-9 * wall.brick.height;
         let supports = scene.supports.iter().filter(|it| level(it.from[1]) && level(it.to[1]));

@@ -65,7 +65,7 @@ fn refuse_others(arch: &Arch, at: &KeyPath) -> Result<(), Fault> {
         ("span", arch.span.is_some(), &circles),
         ("thickness", arch.thickness.is_some(), &circles),
         ("voussoirs", arch.voussoirs.is_some(), &circles),
-        ("rise", arch.rise.is_some(), &[Segmental, Pointed]),
+        ("rise", arch.rise.is_some(), &[Segmental, Pointed, Flat]),
         ("embrace_deg", arch.embrace_deg.is_some(), &[Segmental]),
         ("skew_deg", arch.skew_deg.is_some(), &[Flat]),
         ("lines", arch.lines.is_some(), &[Joints]),
@@ -87,6 +87,8 @@ struct Size {
 
 /// Voussoirs of one arch, and blocks of one of its piers, at most.
 pub(super) const MOST: u32 = 10_000;
+/// How far the springings of a flat arch may lean \[degrees\]. Chosen: far more than masons build.
+const STEEPEST: f64 = 80.0;
 const RIGHT_ANGLE: f64 = 0.5 * std::f64::consts::PI;
 
 impl Size {
@@ -154,12 +156,38 @@ impl Size {
         Ok(lines)
     }
 
-    /// Joints at equal distances along the intrados, towards one point below its middle.
+    /// Joints from the intrados to a level top.
     fn flat(&self, arch: &Arch, at: &KeyPath) -> Result<Vec<JointLine>, Fault> {
-        let because = "for a flat arch";
-        let skew = needed(arch.skew_deg, at, "skew_deg", because, "skew_deg = 20.0")?;
+        match exactly_one(at, "skew_deg", arch.skew_deg, "rise", arch.rise)? {
+            One::First(skew_deg) => self.straight(skew_deg, at),
+            One::Second(rise) => self.level(rise, at),
+        }
+    }
+
+    /// An intrados that is an arc, with joints towards its centre at equal angles.
+    fn level(&self, rise: f64, at: &KeyPath) -> Result<Vec<JointLine>, Fault> {
+        let at = at.key("rise");
+        positive(at.clone(), rise)?;
+        let wanted = "the crown of the intrados lies below the level top";
+        value(at.clone(), rise, rise < self.thickness, wanted)?;
+        let half = half_angle_of(rise, self.span);
+        let wanted = "the springings of a flat arch lean by at most 80 degrees, so that it rises by at most 0.42 of its span";
+        value(at, rise, half <= STEEPEST.to_radians(), wanted)?;
+        let radius = 0.5 * self.span / half.sin();
+        let [middle, depth] = [0.5 * self.span, radius * half.cos()];
+        let joint = |k: u32| {
+            let angle = half * (2.0 * f64::from(k) / f64::from(self.count) - 1.0);
+            let below = [middle + radius * angle.sin(), radius * angle.cos() - depth];
+            let above = [middle + (self.thickness + depth) * angle.tan(), self.thickness];
+            [below, above].map(|place| self.place(place))
+        };
+        Ok((0..=self.count).map(joint).collect())
+    }
+
+    /// Joints at equal distances along a straight intrados, towards one point below its middle.
+    fn straight(&self, skew: f64, at: &KeyPath) -> Result<Vec<JointLine>, Fault> {
         let wanted = "the springings of a flat arch lean by at least 0 and at most 80 degrees";
-        value(at.key("skew_deg"), skew, (0.0..=80.0).contains(&skew), wanted)?;
+        value(at.key("skew_deg"), skew, (0.0..=STEEPEST).contains(&skew), wanted)?;
         let widened = self.thickness * skew.to_radians().tan();
         let joint = |k: u32| {
             let part = f64::from(k) / f64::from(self.count);
@@ -171,7 +199,7 @@ impl Size {
     }
 }
 
-/// Half the angle of an arc at its centre \[rad\].
+/// Half the angle of a segmental arch at its centre \[rad\].
 fn half_angle(arch: &Arch, at: &KeyPath, span: f64) -> Result<f64, Fault> {
     match exactly_one(at, "rise", arch.rise, "embrace_deg", arch.embrace_deg)? {
         One::First(rise) => {
@@ -181,7 +209,7 @@ fn half_angle(arch: &Arch, at: &KeyPath, span: f64) -> Result<f64, Fault> {
                 let error = ArchError::TooHigh { rise, largest };
                 return Err(Fault::new(at.key("rise"), error));
             }
-            Ok(2.0 * (rise / largest).atan())
+            Ok(half_angle_of(rise, span))
         }
         One::Second(embrace) => {
             let wanted = "an arc of a circle embraces more than 0 and at most 180 degrees";
@@ -189,4 +217,9 @@ fn half_angle(arch: &Arch, at: &KeyPath, span: f64) -> Result<f64, Fault> {
             Ok(0.5 * embrace.to_radians())
         }
     }
+}
+
+/// Half the angle at its centre of an arc that rises so far over a span \[rad\].
+pub(crate) fn half_angle_of(rise: f64, span: f64) -> f64 {
+    2.0 * (2.0 * rise / span).atan()
 }

@@ -92,7 +92,9 @@ pub(crate) fn voussoirs(
     opening: &Opening,
     at: &KeyPath,
 ) -> Result<Vec<[[f64; 2]; 4]>, Fault> {
-    let Some(FlatArch { voussoirs, skew_deg, courses }) = opening.arch() else {
+    let Some((lintel, FlatArch { voussoirs, courses, .. })) =
+        opening.lintel.as_ref().zip(opening.arch())
+    else {
         return Ok(Vec::new());
     };
     let first = opening.rows().end;
@@ -101,8 +103,12 @@ pub(crate) fn voussoirs(
     }
     let top = first as f64 * wall.brick.height;
     let height = f64::from(courses) * wall.brick.height;
-    let arch = Arch::flat("lintel", &wall.material, opening.width, skew_deg, height, voussoirs)
-        .origin([wall.origin[0] + opening.x, wall.origin[1] + top]);
+    let origin = [wall.origin[0] + opening.x, wall.origin[1] + top];
+    let arch = Arch {
+        rise: lintel.rise,
+        skew_deg: lintel.skew_deg,
+        ..Arch::flat("lintel", &wall.material, opening.width, 0.0, height, voussoirs).origin(origin)
+    };
     let blocks = arch::blocks(&arch, at)?;
     Ok(blocks.into_iter().map(|it| it.corners.map(|corner| wall.turned(corner))).collect())
 }

@@ -82,7 +82,7 @@ pub(super) fn check_room(at: &KeyPath, wall: &Wall, joints: JointThickness) -> C
     let (at, length, wanted) = match &wall.courses {
         Courses::RunningBond(_) => (
             at.key("width"),
-            wall.width.unwrap_or(wall.brick.length),
+            wall.width_given().unwrap_or(wall.brick.length),
             "a course would end in a head joint and no brick: with head joints of thickness t_y give a width of n (length + \
              t_y) - t_y, or one with a longer last brick",
         ),

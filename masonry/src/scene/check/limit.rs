@@ -1,10 +1,10 @@
 //! Checks of the settings of limit loads.
 
-use super::{Check, at_least_one, at_most, finite, needed, positive, value};
+use super::{Check, at_least_one, at_most, finite, needed, positive, unwanted, value};
 use crate::scene::groups::WEIGHT;
 use crate::scene::limit::is_of_train;
 use crate::scene::rules::{each, unknown};
-use crate::scene::{Fault, KeyPath, Load, LoadError, Scene, SceneErrorKind, Seismic, Train};
+use crate::scene::{Fault, KeyPath, Load, LoadError, Scene, SceneErrorKind, Seismic, Train, fill};
 
 impl Scene {
     pub(super) fn check_limit(&self) -> Check {
@@ -65,6 +65,9 @@ impl Scene {
     ) -> Check {
         self.check_body(at.key("over"), over)?;
         finite(at.key("level"), level.unwrap_or(0.0))?;
+        let has_no_fill = level.is_none() && !fill::is_spread(&angle);
+        let because = "is for an axle on fill, which spreads its force";
+        unwanted(has_no_fill, at, "angle_deg", because, ", or give the `level` of the fill")?;
         let wanted = "an angle of spread is above 0 and at most 80 degrees";
         value(at.key("angle_deg"), angle, angle > 0.0 && angle <= 80.0, wanted)
     }

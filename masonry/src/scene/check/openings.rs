@@ -6,6 +6,7 @@ use super::{
 use crate::geometry::SAME_PLACE;
 use crate::rounding::rounded;
 use crate::scene::bond::{JointThickness, taken, voussoirs};
+use crate::scene::rules::exactly_one;
 use crate::scene::{Fault, Joint, KeyPath, Lintel, Opening, OpeningError, Scene, Wall};
 
 /// How large a wall is.
@@ -94,15 +95,15 @@ impl Scene {
         value(at, thickness, is_same, wanted)
     }
 
-    /// A lintel is one block, or a flat arch of voussoirs with a skew in a dry wall.
+    /// A lintel is one block, or a flat arch of voussoirs with a skew or a rise in a dry wall.
     fn check_flat_arch(&self, at: &KeyPath, wall: &Wall, lintel: &Lintel) -> Check {
-        let Lintel { voussoirs, skew_deg, courses, .. } = *lintel;
-        if voussoirs.is_none() && skew_deg.is_none() && courses.is_none() {
+        let Lintel { voussoirs, skew_deg, rise, courses, .. } = *lintel;
+        if voussoirs.is_none() && skew_deg.is_none() && rise.is_none() && courses.is_none() {
             return Ok(());
         }
         let because = "for a flat arch above an opening";
         needed(voussoirs, at, "voussoirs", because, "voussoirs = 7")?;
-        needed(skew_deg, at, "skew_deg", because, "skew_deg = 20.0")?;
+        exactly_one(at, "skew_deg", skew_deg, "rise", rise)?;
         at_least_one(
             at.key("courses"),
             courses.unwrap_or(1),
@@ -141,7 +142,8 @@ fn check_lintel(at: &KeyPath, wall: &Wall, k: usize, size: WallSize) -> Check {
     for (side, room) in [("left", left), ("right", right)] {
         if bearing > room + SAME_PLACE * wall.brick.length {
             let (bearing, room) = (rounded(bearing), rounded(room.max(0.0)));
-            let error = OpeningError::NoBearing { side, bearing, room };
+            let is_arch = opening.arch().is_some();
+            let error = OpeningError::NoBearing { side, bearing, room, is_arch };
             return Err(Fault::new(at.clone(), error));
         }
     }

@@ -48,6 +48,8 @@ fn trains() {
     assert_train_error(&many, "0\n\n", ".positions", &["at least one position"]);
     let flat = with(&format!("{over}level = 2\nangle_deg = 90"));
     assert_train_error(&flat, "90", ".angle_deg", &["at most 80 degrees"]);
+    let bare = with(&format!("{over}angle_deg = 30"));
+    assert_train_error(&bare, "30", ".angle_deg", &["is for an axle on fill", "`level`"]);
 }
 
 /// A load of the name of the train, or of one of its axles, would grow with them.
