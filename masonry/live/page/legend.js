@@ -6,6 +6,8 @@ import { SVG, all, made, one } from "./elements.js";
 const NARROW = 600;
 // Lines of one entry are nearer to each other than so many letters are high, and entries are farther.
 const NEXT_LINE = 1.6;
+// So many numbers of hinges have room for larger letters. Chosen.
+const FEW = 24;
 // The height of letters in a narrow drawing [px].
 const LETTERS = 11;
 // Half the sizes of a symbol in a legend, and what stays free around a drawing, in units of the picture.
@@ -20,6 +22,7 @@ export function legendBelow(svg) {
   if (!drawing || !legend) return null;
   // Letters of a readable size take part in the size of the drawing.
   svg.classList.add("narrow");
+  svg.classList.toggle("few", all(".labels text", drawing).length <= FEW);
   svg.style.setProperty("--letters", `${(LETTERS * drawing.getBBox().width) / svg.clientWidth}px`);
   const { x, y, width, height } = drawing.getBBox();
   const box = [x - EDGE, y - EDGE, width + 2 * EDGE, height + 2 * EDGE];

@@ -19,6 +19,11 @@ export class Work {
       const edit = { from: number.from, to: number.to, before: "", part: 1 };
       this.ask({ ...number, edits: [edit], range: rangeOf(number) });
     });
+    one("#scene").addEventListener("keydown", (event) => {
+      if (!event.altKey || event.key !== "Enter") return;
+      event.preventDefault();
+      one("#change").click();
+    });
     one("#stop").addEventListener("click", () => this.running?.abort());
   }
 

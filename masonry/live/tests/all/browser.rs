@@ -229,6 +229,10 @@ fn a_number_is_asked_at_which_value_the_wall_falls() {
     assert_eq!(text(&page), DOOR);
     page.click("[data-asks='μ of head']");
     page.wait(&format!("{found}.includes('μ of head')"));
+    // Keys ask as well.
+    page.run("document.getElementById('scene').focus()");
+    page.keys(ALT, "\u{e007}");
+    page.wait(&format!("{found}.includes('changes with mu in line 10')"));
     // A wall that falls is asked at which value it stands; what was chosen is still the same number.
     name_number(&page, "[joints.bed]\nmu = ", "mu");
     page.drag("#mu", [-120.0, 0.0], 5);
