@@ -420,4 +420,9 @@ fn text_in_a_scene_stays_text_in_the_picture() {
     let shown = solve(&text)["shown"].clone();
     let picture = shown["picture"].as_str().unwrap();
     assert!(picture.contains("&lt;img src=x") && !picture.contains("<img"));
+    let named = DOOR.replace("name = \"wall\"", "name = \"<img src=y>\"");
+    let question = json!({ "task": "solve", "text": named, "show": "tables", "step": null });
+    let tables = ask(&question)["shown"]["tables"].take();
+    let tables = tables.as_str().unwrap();
+    assert!(tables.contains("&lt;img src=y") && !tables.contains("<img"));
 }
