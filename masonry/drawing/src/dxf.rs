@@ -20,14 +20,41 @@ struct File<'a> {
     unit: Option<i64>,
     /// Blocks by name: their first record, which has the base point, and those inside.
     blocks: BTreeMap<&'a str, Vec<Record<'a>>>,
+    /// Layers that are not shown, by their names in small letters.
+    hidden: BTreeMap<String, Hidden>,
     entities: Vec<Record<'a>>,
+}
+
+/// How a layer is not shown.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Hidden {
+    /// Blocks that are inserted on it are not shown either.
+    Frozen,
+    Off,
+}
+
+impl Hidden {
+    /// By the entry of a layer in the tables: a flag, or a negative colour.
+    fn of(layer: &Record) -> Option<Self> {
+        const FROZEN: i64 = 1;
+        let is_off = layer.flags(62) < 0;
+        if layer.flags(70) & FROZEN != 0 { Some(Self::Frozen) } else { is_off.then_some(Self::Off) }
+    }
+
+    fn name(self) -> &'static str {
+        match self {
+            Self::Frozen => "frozen",
+            Self::Off => "off",
+        }
+    }
 }
 
 pub(super) fn read(text: &str) -> Result<Drawing, DrawingError> {
     let file = File::of(records(text)?)?;
     let mut drawing = Drawing::in_unit(file.unit.and_then(Unit::of_dxf));
     drawing.unknown_unit = file.unit.filter(|_| drawing.unit.is_none());
-    Expansion { blocks: &file.blocks, drawing: &mut drawing }.all(&file.entities)?;
+    let File { blocks, hidden, .. } = &file;
+    Expansion { blocks, hidden, drawing: &mut drawing }.all(&file.entities)?;
     Ok(drawing)
 }
 
@@ -58,6 +85,10 @@ impl<'a> File<'a> {
                     if let Some(inside) = block.and_then(|name| file.blocks.get_mut(name)) {
                         inside.push(record);
                     }
+                }
+                ("LAYER", "TABLES") => {
+                    let name = record.text(2).unwrap_or_default().to_lowercase();
+                    file.hidden.extend(Hidden::of(&record).map(|how| (name, how)));
                 }
                 (_, "ENTITIES") => file.entities.push(record),
                 _ => {}

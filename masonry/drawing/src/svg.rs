@@ -31,7 +31,8 @@ pub(super) fn read(text: &str) -> Result<Drawing, DrawingError> {
     let upright = Matrix3::new_nonuniform_scaling(&Vector2::new(scale, -scale));
     let line_ends = text.match_indices('\n').map(|(at, _)| at).collect();
     let mut reader = Reader { drawing: &mut drawing, line_ends };
-    reader.inside(root, &Frame { map: upright, layer: "0", depth: 0 })?;
+    let frame = Frame { map: upright, layer: "0", depth: 0, is_drawn: true, is_visible: true };
+    reader.inside(root, &frame)?;
     Ok(drawing)
 }
 
@@ -61,6 +62,10 @@ struct Frame<'a> {
     map: Matrix3<f64>,
     layer: &'a str,
     depth: usize,
+    /// Whether no group around it has `display: none`.
+    is_drawn: bool,
+    /// The nearest `visibility`.
+    is_visible: bool,
 }
 
 impl Reader<'_> {
@@ -72,15 +77,21 @@ impl Reader<'_> {
     }
 
     fn node(&mut self, node: Node, frame: &Frame) -> Result<(), DrawingError> {
-        if is_hidden(node) {
-            return Ok(());
-        }
+        let is_drawn = frame.is_drawn && property(node, "display") != Some("none");
+        let is_visible = property(node, "visibility")
+            .filter(|it| *it != "inherit")
+            .map_or(frame.is_visible, |it| it == "visible");
+        let frame = &Frame { is_drawn, is_visible, ..*frame };
         let place = self.place(node);
         if frame.depth == DEEPEST {
             return Err(DrawingErrorKind::Nested { depth: DEEPEST }.at(&place));
         }
-        let map = frame.map * transform(node, &place)?;
+        let map = frame.map * if is_drawn { transform(node, &place)? } else { Matrix3::identity() };
         let parts = match node.tag_name().name() {
+            // What describes, styles or is only used elsewhere is not drawn.
+            "defs" | "metadata" | "title" | "desc" | "style" | "namedview" | "script" => {
+                return Ok(());
+            }
             "svg" if has_own_coordinates(node) => {
                 let what = "<svg> with x, y or viewBox was left out: move its objects into a group";
                 self.drawing.changes.push(Change::new(what, &place));
@@ -89,17 +100,19 @@ impl Reader<'_> {
             "g" | "a" | "svg" | "switch" => {
                 let label = node.attribute((INKSCAPE, "label")).or_else(|| node.attribute("id"));
                 let layer = label.unwrap_or(frame.layer);
-                return self.inside(node, &Frame { map, layer, depth: frame.depth + 1 });
+                return self.inside(node, &Frame { map, layer, depth: frame.depth + 1, ..*frame });
+            }
+            _ if !(is_drawn && is_visible) => {
+                let what =
+                    format!("hidden objects of layer \"{}\" were left out", shown(frame.layer));
+                self.drawing.changes.push(Change::new(what, &place));
+                return Ok(());
             }
             "path" => path::parts(node.attribute("d").unwrap_or_default(), &place)?,
             "polygon" | "polyline" => vec![points(node)],
             "rect" => vec![rectangle(node, &place)?],
             "line" => vec![line(node, &place)?],
             "circle" => vec![circle(node, &place)?],
-            // What describes, styles or is only used elsewhere is not drawn.
-            "defs" | "metadata" | "title" | "desc" | "style" | "namedview" | "script" => {
-                return Ok(());
-            }
             name => {
                 let what = format!(
                     "<{}> was left out: turn objects into paths, unlink clones",
@@ -141,10 +154,13 @@ fn has_own_coordinates(node: Node) -> bool {
     node.has_attribute("viewBox") || ["x", "y"].into_iter().any(is_moved)
 }
 
-fn is_hidden(node: Node) -> bool {
-    let style = node.attribute("style").unwrap_or_default();
-    node.attribute("display") == Some("none")
-        || style.replace(' ', "").split(';').any(|it| it == "display:none")
+/// The value of a property, from the style or else from an attribute of its name.
+fn property<'a>(node: Node<'a, '_>, name: &str) -> Option<&'a str> {
+    let of_style = node.attribute("style").unwrap_or_default().split(';').find_map(|it| {
+        let (key, value) = it.split_once(':')?;
+        (key.trim() == name).then(|| value.trim())
+    });
+    of_style.or_else(|| node.attribute(name)).map(|it| it.trim_end_matches("!important").trim())
 }
 
 fn transform(node: Node, place: &Place) -> Result<Matrix3<f64>, DrawingError> {

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use nalgebra::{Matrix3, Point2, Vector2};
 
+use super::Hidden;
 use super::pairs::Record;
 use super::shapes::{self, Shape};
 use crate::error::shown;
@@ -16,6 +17,7 @@ const DEEPEST: usize = 16;
 /// A drawing that grows by entities.
 pub(super) struct Expansion<'a> {
     pub(super) blocks: &'a BTreeMap<&'a str, Vec<Record<'a>>>,
+    pub(super) hidden: &'a BTreeMap<String, Hidden>,
     pub(super) drawing: &'a mut Drawing,
 }
 
@@ -71,11 +73,21 @@ impl<'a> Expansion<'a> {
     ) -> Result<(), DrawingError> {
         /// The flags of polylines that are meshes.
         const MESH: i64 = 16 | 64;
+        let layer = frame.layer_of(record);
+        let hidden = self.hidden.get(&layer.to_lowercase());
         let shape = match record.kind {
             // The ends of lists, and what blocks carry along.
             "SEQEND" | "ATTRIB" | "ATTDEF" | "VIEWPORT" => return Ok(()),
             _ if record.flags(60) == 1 => {
                 let what = "invisible entities were left out";
+                self.drawing.changes.push(Change::new(what, &frame.place(record)));
+                return Ok(());
+            }
+            // What is inserted on a layer that is off has layers of its own.
+            kind if hidden.is_some_and(|it| kind != "INSERT" || *it == Hidden::Frozen) => {
+                let how = hidden.map_or("off", |it| it.name());
+                let layer = shown(layer);
+                let what = format!("entities of layer \"{layer}\", which is {how}, were left out");
                 self.drawing.changes.push(Change::new(what, &frame.place(record)));
                 return Ok(());
             }
@@ -110,7 +122,7 @@ impl<'a> Expansion<'a> {
         }
         let map = if record.is_mirrored()? { frame.map * mirror() } else { frame.map };
         let points = shape.points.iter().map(|it| map.transform_point(it)).collect();
-        let layer = if record.layer() == "0" { frame.layer } else { record.layer() }.to_owned();
+        let layer = frame.layer_of(record).to_owned();
         if shape.is_closed {
             let (name, is_fixed) = (None, false);
             self.drawing.add_outline(Outline { corners: points, layer, name, is_fixed, place })
@@ -134,7 +146,7 @@ impl<'a> Expansion<'a> {
             return Err(DrawingErrorKind::UnknownBlock { name: shown(name) }.at(&place));
         };
         let to_base = Matrix3::new_translation(&-first.point(10)?.coords);
-        let layer = if record.layer() == "0" { frame.layer } else { record.layer() };
+        let layer = frame.layer_of(record);
         let depth = frame.depth + 1;
         let inserted = Place::new(format!("{}{}", record.place(), frame.inside), None);
         let of = format!(" in block {} of {inserted}", shown(name));
@@ -147,7 +159,11 @@ impl<'a> Expansion<'a> {
     }
 }
 
-impl Frame<'_> {
+impl<'a> Frame<'a> {
+    fn layer_of(&self, record: &Record<'a>) -> &'a str {
+        if record.layer() == "0" { self.layer } else { record.layer() }
+    }
+
     fn place(&self, record: &Record) -> Place {
         let place = record.place();
         Place { entity: place.entity + &self.inside, ..place }

@@ -178,6 +178,13 @@ fn svg_has_transforms_units_and_layers() {
         <g transform="matrix(1 0 0 -1 0 60)"><path d="m 25 0 h 50 v 20 h -50 z"/></g>
         <rect style="display: none" x="0" y="0" width="5" height="5"/>
       </g>
+      <g inkscape:label="old" style="fill:none; display : none"><g transform="broken"><rect width="9" height="9"/></g></g>
+      <g inkscape:label="brick" visibility="hidden">
+        <circle r="4"/>
+        <g visibility="visible" transform="translate(10, 20)">
+          <rect x="0" y="40" width="25" height="20"/><rect x="0" y="40" width="25" height="20" style="visibility:collapse"/>
+        </g>
+      </g>
       <g id="support"><line x1="0" y1="100" x2="150" y2="100"/></g>
       <text>A wall</text>
     </svg>"#;
@@ -191,7 +198,10 @@ fn svg_has_transforms_units_and_layers() {
         let corners: &[[f64; 2]] = &found.scene.blocks[k].corners;
         *corners.iter().min_by(|a, b| (a[0] + a[1]).total_cmp(&(b[0] + b[1]))).unwrap()
     };
-    assert_eq!(found.scene.blocks.len(), 3);
+    assert_eq!(found.scene.blocks.len(), 4);
+    let hidden =
+        |layer| changes(&found, &format!("hidden objects of layer \"{layer}\" were left out"));
+    assert_eq!([hidden("brick"), hidden("old")], [3, 1], "{}", found.report());
     assert!(near(lowest(0), [0.02, -0.2]), "{:?}", lowest(0));
     assert!(near(lowest(1), [0.12, -0.2]) && near(lowest(2), [0.07, -0.16]), "{:?}", lowest(2));
     assert!(found.scene.blocks.iter().all(|it| it.material == "brick"));
@@ -265,6 +275,37 @@ fn invisible_entities_are_left_out() {
         .read();
     assert_eq!((drawing.lines.len(), drawing.changes.len()), (1, 1));
     assert_eq!(drawing.changes[0].what, "invisible entities were left out");
+}
+
+/// What hangs on a layer that is frozen or off is no part of the drawing, nor is a block that is inserted on a frozen one.
+#[test]
+fn layers_that_are_not_shown_are_left_out() {
+    let stone = |x: f64| vec![[x, 0.0], [x + 1.0, 0.0], [x + 1.0, 1.0], [x, 1.0]];
+    let dxf = Dxf::new(6)
+        .polygons("0", &[stone(0.0)])
+        .polygons("stone", &[stone(1.0)])
+        .into_block("pair", [0.0, 0.0])
+        .polygons("Ice", &[stone(20.0), stone(21.0)])
+        .polygons("night", &[stone(30.0)])
+        .polygons("day", &[stone(40.0)]);
+    let insert = |layer: &str, x: f64| format!("0\nINSERT\n8\n{layer}\n2\npair\n10\n{x}\n20\n0\n");
+    let layer = |name: &str, flags: i32, colour: i32| {
+        format!("0\nLAYER\n2\n{name}\n70\n{flags}\n62\n{colour}\n6\nCONTINUOUS\n")
+    };
+    let layers = [layer("ICE", 5, 7), layer("night", 0, -7), layer("day", 4, 7)].concat();
+    let tables =
+        format!("0\nSECTION\n2\nTABLES\n0\nTABLE\n2\nLAYER\n{layers}0\nENDTAB\n0\nENDSEC\n");
+    let text = dxf.text();
+    let text =
+        text.replace("0\nSECTION\n2\nENTITIES\n", &format!("{tables}0\nSECTION\n2\nENTITIES\n"));
+    let inserts = [insert("ice", 0.0), insert("night", 5.0), insert("day", 10.0)].concat();
+    let text = text.replace("0\nENDSEC\n0\nEOF", &format!("{inserts}0\nENDSEC\n0\nEOF"));
+    let found = imported(&text, DrawingFormat::Dxf);
+    let lefts: Vec<f64> = found.scene.blocks.iter().map(|it| it.corners[0][0]).collect();
+    assert_eq!(lefts, [40.0, 6.0, 10.0, 11.0]);
+    let counts =
+        ["\"Ice\", which is frozen", "\"ice\", which is frozen", "\"night\", which is off"];
+    assert_eq!(counts.map(|it| changes(&found, it)), [2, 1, 2], "{}", found.report());
 }
 
 #[test]
