@@ -1,6 +1,6 @@
 //! Blocks that are drawn by single lines: the smallest loops that the lines of a layer make.
 //!
-//! Lines may be drawn once for two blocks or once for each, and may end on the middle of another.
+//! Lines may be drawn once for two blocks or once for each, may end on the middle of another, and may cross.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -8,11 +8,14 @@ use nalgebra::Point2;
 
 use super::outline::distance;
 use super::{ImportError, ImportErrorKind};
-use masonry::geometry;
+use masonry::geometry::{self, cross};
 use masonry_drawing::{Change, DrawnLine, Outline, Place};
 
 /// Pieces of lines. Theory: four for each of the blocks that are allowed, and as many again for arcs.
 const MOST_PIECES: usize = 160_000;
+
+/// Points and lines abreast of a line, on average. Chosen: those of a bed joint through a wall of 20 000 stones.
+const MOST_ABREAST: usize = 1000;
 
 /// The outlines that lines make, layer by layer.
 pub(crate) fn of(
@@ -36,6 +39,7 @@ pub(crate) fn of(
                     .at(&[&line.place]));
             }
         }
+        graph.cross(tolerance)?;
         let mut net = graph.net(tolerance)?;
         for place in net.prune() {
             changes.push(Change::new("lines that end freely were dropped", &place));
@@ -84,22 +88,65 @@ impl Graph {
         self.points.len() - 1
     }
 
+    /// The direction in which the points extend farther: fewer lines are abreast.
+    fn axis(&self) -> usize {
+        let extent = |axis: usize| {
+            let along = self.points.iter().map(|it| it[axis]);
+            let [low, high] = [
+                along.clone().fold(f64::INFINITY, f64::min),
+                along.fold(f64::NEG_INFINITY, f64::max),
+            ];
+            high - low
+        };
+        usize::from(extent(1) > extent(0))
+    }
+
+    /// Adds the points in which lines cross.
+    ///
+    /// # Errors
+    /// Far more lines are abreast than those of blocks, or cross.
+    fn cross(&mut self, tolerance: f64) -> Result<(), ImportError> {
+        let axis = self.axis();
+        let mut lines: Vec<([Point2<f64>; 2], &Place)> = Vec::new();
+        for (ends, place) in &self.pieces {
+            let [a, b] = ends.map(|end| self.points[end]);
+            lines.push((if a[axis] <= b[axis] { [a, b] } else { [b, a] }, place));
+        }
+        lines.sort_by(|(a, _), (b, _)| a[0][axis].total_cmp(&b[0][axis]));
+        let mut active: Vec<[Point2<f64>; 2]> = Vec::new();
+        let mut crossings = Vec::new();
+        let mut left = MOST_ABREAST * lines.len();
+        for (line, place) in lines {
+            active.retain(|other| other[1][axis] >= line[0][axis]);
+            left = left
+                .checked_sub(active.len())
+                .filter(|_| crossings.len() <= MOST_PIECES)
+                .ok_or_else(|| ImportErrorKind::Crowded.at(&[place]))?;
+            crossings.extend(active.iter().filter_map(|other| crossing(line, *other)));
+            active.push(line);
+        }
+        for at in crossings {
+            self.point(at, tolerance);
+        }
+        Ok(())
+    }
+
     /// The lines, divided at the points that lie on them, each once.
     ///
     /// # Errors
     /// A line has far more points beside it than lines of blocks have.
     fn net(self, tolerance: f64) -> Result<Net, ImportError> {
-        /// Points abreast of a line, on average. Chosen: those of a bed joint through a wall of 20 000 stones.
-        const MOST: usize = 1000;
+        let axis = self.axis();
+        let place_of = |k: usize| self.points[k][axis];
         let mut order: Vec<usize> = (0..self.points.len()).collect();
-        order.sort_by(|a, b| self.points[*a].x.total_cmp(&self.points[*b].x));
-        let xs: Vec<f64> = order.iter().map(|k| self.points[*k].x).collect();
+        order.sort_by(|a, b| place_of(*a).total_cmp(&place_of(*b)));
+        let places: Vec<f64> = order.iter().map(|k| place_of(*k)).collect();
         let mut sides = BTreeMap::new();
-        let mut left = MOST * self.pieces.len();
+        let mut left = MOST_ABREAST * self.pieces.len();
         for (ends, place) in self.pieces {
             let [from, to] = ends.map(|end| self.points[end]);
-            let low = xs.partition_point(|x| *x < from.x.min(to.x) - tolerance);
-            let high = xs.partition_point(|x| *x <= from.x.max(to.x) + tolerance);
+            let low = places.partition_point(|it| *it < from[axis].min(to[axis]) - tolerance);
+            let high = places.partition_point(|it| *it <= from[axis].max(to[axis]) + tolerance);
             left = left
                 .checked_sub(high.saturating_sub(low))
                 .ok_or_else(|| ImportErrorKind::Crowded.at(&[&place]))?;
@@ -114,6 +161,15 @@ impl Graph {
         }
         Ok(Net::of(self.points, sides))
     }
+}
+
+/// The point in which two lines cross or touch; none of lines in one direction.
+fn crossing([a, b]: [Point2<f64>; 2], [c, d]: [Point2<f64>; 2]) -> Option<Point2<f64>> {
+    let (first, second) = (b - a, d - c);
+    let turn = cross(first, second);
+    let at = cross(c - a, second) / turn;
+    let is_inside = |it: f64| (0.0..=1.0).contains(&it);
+    (is_inside(at) && is_inside(cross(c - a, first) / turn)).then(|| a + first * at)
 }
 
 /// Points, the neighbours of each, and the lines between them.

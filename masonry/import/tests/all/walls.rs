@@ -227,6 +227,37 @@ fn lines_and_open_polylines_make_blocks() {
     assert_eq!(changes(&imported, "joined from lines"), exact().len());
 }
 
+/// Beds through the whole wall, and heads that end before, at and beyond them by millimetres: lines cross, and miss each other.
+#[test]
+fn lines_that_cross_are_divided() {
+    let width = BRICKS as f64 * BRICK[0];
+    let height = COURSES as f64 * BRICK[1];
+    for degrees in [0.0, 5.0, 20.0] {
+        let map = |point: [f64; 2]| rounded(1e-3)(turned(degrees)(point));
+        let line = |dxf: Dxf, from: [f64; 2], to: [f64; 2]| dxf.line("brick", map(from), map(to));
+        let mut dxf = Dxf::new(6);
+        for course in 0..=COURSES {
+            let y = course as f64 * BRICK[1];
+            dxf = line(dxf, [-0.02, y], [width + 0.03, y]);
+        }
+        for (k, polygon) in exact().iter().enumerate().filter(|(_, it)| it[0][0] > 1e-9) {
+            let beyond = 2e-3 * (k % 3) as f64 - 1e-3;
+            let [[x, low], [_, high]] = [polygon[0], polygon[3]];
+            dxf = line(dxf, [x, low - 20.0 * beyond.max(0.0)], [x, high + beyond]);
+        }
+        dxf = line(dxf, [0.0, -0.05], [0.0, height + 0.05]);
+        dxf = line(dxf, [width, height], [width, 0.0]);
+        let imported = on_floor(dxf, degrees).import();
+        assert_like_exact(&imported, degrees, 2e-2);
+        assert_eq!(changes(&imported, "joined from lines"), exact().len());
+        assert!(changes(&imported, "end freely") > 5, "{}", imported.report());
+    }
+    // Closed polylines are blocks by themselves, whatever lines cross them.
+    let crossed = on_floor(Dxf::new(6).polygons("brick", &exact()), 0.0);
+    let crossed = crossed.line("brick", [-0.1, 0.3], [width + 0.1, 0.31]);
+    assert_like_exact(&crossed.import(), 0.0, 1e-9);
+}
+
 /// The corners of a voussoir between two angles, in the order of the intrados, then the extrados backwards.
 fn voussoir(from: f64, to: f64) -> [[f64; 2]; 4] {
     let at = |radius: f64, angle: f64| [radius * angle.cos(), radius * angle.sin()];
