@@ -3,7 +3,9 @@
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
+use masonry::files::read_bounded;
 use masonry::scene::Scene;
+use masonry_drawing::LARGEST_FILE;
 
 pub(super) type Failure = Box<dyn std::error::Error>;
 
@@ -28,6 +30,21 @@ pub(super) fn keep_scene(scene: &Scene, file: &Path, option: &str) -> Result<(),
         return Err(format!("{file} is read for the scene: choose another {option}").into());
     }
     Ok(())
+}
+
+/// The words in a file by which this program knows that it has written it.
+pub(super) const MARK: &str = "written by masonry";
+
+/// Refuses a file that this program has not written, or that somebody has worked on since and taken the mark out of.
+pub(super) fn keep_foreign(file: &Path, option: &str) -> Result<(), Failure> {
+    let is_own = |bytes: Vec<u8>| {
+        bytes.is_empty() || bytes.windows(MARK.len()).any(|it| it == MARK.as_bytes())
+    };
+    if !file.exists() || read_bounded(file, LARGEST_FILE).is_ok_and(is_own) {
+        return Ok(());
+    }
+    let file = file.display();
+    Err(format!("{file} would be overwritten, and masonry has not written it: move it away, or choose another {option}").into())
 }
 
 /// Whether two paths lead to the same file or directory, which exists.

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
 
-use crate::end::{Failure, SOLVED, is_same, listing, print};
+use crate::end::{Failure, MARK, SOLVED, is_same, keep_foreign, listing, print};
 use masonry::files::{read_bounded, write_atomically};
 use masonry_drawing::{Drawing, DrawingFormat, LARGEST_FILE, Unit};
 use masonry_import::{ImportOptions, Joints, import};
@@ -71,6 +71,7 @@ pub(super) fn run(args: &ImportArgs) -> Result<u8, Failure> {
             let file = file.display();
             return Err(format!("{file} is the drawing: choose another {option}").into());
         }
+        file.iter().try_for_each(|file| keep_foreign(file, option))?;
     }
     let name = args.file.display();
     let of_file = |error: &dyn std::error::Error| format!("{name}: {error}");
@@ -78,7 +79,11 @@ pub(super) fn run(args: &ImportArgs) -> Result<u8, Failure> {
     let imported = import(&drawing, &args.options()).map_err(|error| of_file(&error))?;
     let text = imported.to_toml()?;
     let mut written = Vec::new();
-    for (file, text) in [(&args.out, &text), (&args.picture, &imported.picture())] {
+    let marked = [
+        (&args.out, format!("# {MARK}\n{text}")),
+        (&args.picture, format!("{}<!-- {MARK} -->\n", imported.picture())),
+    ];
+    for (file, text) in marked {
         if let Some(file) = file {
             write_atomically(file, text.as_bytes())
                 .map_err(|error| format!("cannot write {}: {error}", file.display()))?;

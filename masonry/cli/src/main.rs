@@ -22,7 +22,9 @@ use std::process::ExitCode;
 
 use clap::{Args, CommandFactory, Parser, Subcommand};
 
-use crate::end::{BAD_INPUT, Failure, SOLVED, is_same, keep_scene, print, without_controls};
+use crate::end::{
+    BAD_INPUT, Failure, MARK, SOLVED, is_same, keep_foreign, keep_scene, print, without_controls,
+};
 use crate::route::RouteValue;
 use masonry::files::write_atomically;
 use masonry::model::Model;
@@ -130,7 +132,10 @@ fn draw(args: &DrawArgs) -> Result<u8, Failure> {
     let beside = || args.scene.with_extension("svg");
     let picture = args.out.clone().or_else(|| args.dxf.is_none().then(beside));
     for (out, option) in [(&picture, "--out"), (&args.dxf, "--dxf")] {
-        out.iter().try_for_each(|out| keep_scene(&scene, out, option))?;
+        if let Some(out) = out {
+            keep_scene(&scene, out, option)?;
+            keep_foreign(out, option)?;
+        }
     }
     if let (Some(out), Some(dxf)) = (&picture, &args.dxf)
         && (out == dxf || is_same(out, dxf))
@@ -139,10 +144,12 @@ fn draw(args: &DrawArgs) -> Result<u8, Failure> {
     }
     let mut files = Vec::new();
     if let Some(out) = picture {
-        files.push((out, svg::scene(&scene.title, &Model::from_scene(&scene)?)));
+        let picture = svg::scene(&scene.title, &Model::from_scene(&scene)?);
+        files.push((out, format!("{picture}<!-- {MARK} -->\n")));
     }
     if let Some(out) = args.dxf.clone() {
-        files.push((out, dxf::drawing(&masonry::solve(&scene)?)));
+        // A comment of a drawing has the code 999.
+        files.push((out, format!("999\n{MARK}\n{}", dxf::drawing(&masonry::solve(&scene)?))));
     }
     for (out, text) in files {
         write_atomically(&out, text.as_bytes())

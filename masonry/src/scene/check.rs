@@ -85,7 +85,8 @@ impl Scene {
     fn check_general(&self) -> Check {
         plain(KeyPath::of("title"), &self.title)?;
         if let Some(path) = &self.block_list {
-            let message = "only reading a scene file takes it in".to_owned();
+            let message =
+                "only reading a scene file takes it in: list its blocks in the scene".to_owned();
             let kind = SceneErrorKind::BlockList { path: path.clone(), message };
             return Err(Fault::new(KeyPath::of("block_list"), kind));
         }

@@ -103,10 +103,13 @@ impl Scene {
 
 /// A file with more blocks: a JSON list, or a drawing if `drawings` is given; the error says why it is not read.
 fn more_blocks(path: PathBuf, scene: &Scene, drawings: Option<Drawings>) -> Result<List, String> {
-    let bytes = read_bounded(&path, LARGEST_FILE).map_err(|error| error.to_string())?;
+    let bytes = read_bounded(&path, LARGEST_FILE).map_err(|error| {
+        format!("{error}: name a JSON list or a drawing, relative to the scene")
+    })?;
     let begins = bytes.iter().find(|byte| !byte.is_ascii_whitespace());
     let Some(read) = drawings.filter(|_| begins != Some(&b'[')) else {
-        let text = String::from_utf8(bytes).map_err(|error| error.to_string())?;
+        let text =
+            String::from_utf8(bytes).map_err(|error| format!("{error}: save it as UTF-8"))?;
         return Ok(List { path, text, entities: None, changes: Vec::new() });
     };
     let drawn = read(&path, &bytes, scene)?;

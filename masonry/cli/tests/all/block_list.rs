@@ -252,6 +252,8 @@ fn mistakes_in_a_drawing_have_the_entity() {
         overlap.contains("LWPOLYLINE 1 (line ") && overlap.contains("overlap by 0.1 m"),
         "{overlap}"
     );
+    // The drawing was found: no other is asked for.
+    assert!(!overlap.contains("name a JSON list"), "{overlap}");
     assert!(
         overlap.contains("closes; in a scene the tolerance is `contact.tolerance`"),
         "{overlap}"

@@ -11,6 +11,7 @@ use serde_json::Value;
 /// A drawing in a directory of its own.
 fn written(name: &str, text: &str) -> PathBuf {
     let directory = Path::new(env!("CARGO_TARGET_TMPDIR")).join("import").join(name);
+    let _ = fs::remove_dir_all(&directory);
     fs::create_dir_all(&directory).unwrap();
     let path = directory.join("wall.dxf");
     fs::write(&path, text).unwrap();
@@ -96,6 +97,42 @@ fn what_cannot_be_imported_ends_with_code_2() {
     );
     let error = refused(&["import", &drawing.replace("wall.dxf", "none.dxf")]);
     assert!(error.contains("none.dxf: No such file"), "{error}");
+}
+
+/// Files are written again, as long as their mark says that nobody else has written them.
+#[test]
+fn only_files_with_the_mark_are_overwritten() {
+    let path = written("marked", DRAWING);
+    let others = ["scene.toml", "picture.svg", "drawn.dxf", "drawn.svg"];
+    let others = others.map(|name| path.with_file_name(name));
+    let drawing = path.to_str().unwrap();
+    let [scene, picture, dxf, svg] = others.each_ref().map(|it| it.to_str().unwrap());
+    let import = ["import", drawing, "--out", scene, "--picture", picture];
+    let draw = ["draw", scene, "--dxf", dxf, "--out", svg];
+    for arguments in [&import, &draw, &import, &draw] {
+        let output = masonry(arguments);
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    }
+    Scene::read(&others[0]).unwrap();
+    Drawing::read(&fs::read(dxf).unwrap(), DrawingFormat::Dxf).unwrap();
+    roxmltree::Document::parse(&fs::read_to_string(svg).unwrap()).unwrap();
+    let last = [&draw, &draw, &import, &import];
+    let options = ["--out", "--dxf", "--picture", "--out"];
+    for ((file, arguments), option) in [svg, dxf, picture, scene].into_iter().zip(last).zip(options)
+    {
+        let marked = fs::read_to_string(file).unwrap();
+        let text = marked.replace("written by masonry", "");
+        fs::write(file, &text).unwrap();
+        let output = masonry(arguments);
+        assert_eq!(output.status.code(), Some(2));
+        let error = String::from_utf8(output.stderr).unwrap();
+        let expected = format!(
+            "error: {file} would be overwritten, and masonry has not written it: move it away, or choose another {option}\n"
+        );
+        assert_eq!(error, expected);
+        assert_eq!(fs::read_to_string(file).unwrap(), text);
+        fs::write(file, marked).unwrap();
+    }
 }
 
 /// What `draw --dxf` writes is read back with the same coordinates, and its scene has the verdict of the first.

@@ -17,11 +17,11 @@ pub enum SceneErrorKind {
     Write(String),
     /// The list of blocks cannot be read. [`Scene::read`](crate::Scene::read) alone reads JSON lists only;
     /// [`Scene::read_with`](crate::Scene::read_with) takes the function that reads drawings.
-    #[error("cannot read the list of blocks {}: {message}: name a JSON list or a drawing, relative to the scene", path.display())]
+    #[error("cannot read the list of blocks {}: {message}", path.display())]
     BlockList {
         /// The file, as the scene names it.
         path: PathBuf,
-        /// The message of the operating system, or of the reader of drawings.
+        /// The message of the operating system, or of the reader of drawings, with the remedy.
         message: String,
     },
     /// The text is no TOML, or has unknown, missing or repeated keys, or values of a wrong type: what is wrong and what was
