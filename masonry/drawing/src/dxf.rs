@@ -4,12 +4,14 @@
 //! blocks, so that a reader of its own is small, knows the line of everything, and passes over what it does not know.
 
 mod insert;
+mod layers;
 mod pairs;
 mod shapes;
 
 use std::collections::BTreeMap;
 
 use self::insert::Expansion;
+use self::layers::Hidden;
 use self::pairs::{Record, records};
 use super::{Drawing, DrawingError, DrawingErrorKind, Place, Unit};
 
@@ -23,30 +25,6 @@ struct File<'a> {
     /// Layers that are not shown, by their names in small letters.
     hidden: BTreeMap<String, Hidden>,
     entities: Vec<Record<'a>>,
-}
-
-/// How a layer is not shown.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Hidden {
-    /// Blocks that are inserted on it are not shown either.
-    Frozen,
-    Off,
-}
-
-impl Hidden {
-    /// By the entry of a layer in the tables: a flag, or a negative colour.
-    fn of(layer: &Record) -> Option<Self> {
-        const FROZEN: i64 = 1;
-        let is_off = layer.flags(62) < 0;
-        if layer.flags(70) & FROZEN != 0 { Some(Self::Frozen) } else { is_off.then_some(Self::Off) }
-    }
-
-    fn name(self) -> &'static str {
-        match self {
-            Self::Frozen => "frozen",
-            Self::Off => "off",
-        }
-    }
 }
 
 pub(super) fn read(text: &str) -> Result<Drawing, DrawingError> {

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use nalgebra::{Matrix3, Point2, Vector2};
 
-use super::Hidden;
+use super::layers::Hidden;
 use super::pairs::Record;
 use super::shapes::{self, Shape};
 use crate::error::shown;
