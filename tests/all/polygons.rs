@@ -235,6 +235,27 @@ fn a_wall_of_hexagons_has_its_rigid_limit() {
     }
 }
 
+/// A block tips about the Gauss point of its bed, at `1/sqrt(3)` of half of its breadth from the middle; a warning says so.
+#[test]
+fn gauss_points_reach_a_part_of_a_joint() {
+    let tipped = |points: PointRule| {
+        let tower = scene([rectangle("tower", "stone", [0.0, 0.2], [0.0, 1.0])])
+            .contact_points(points)
+            .support(Support::new("ground", [-1.0, 0.0], [1.0, 0.0], "bed"))
+            .load(Load::acceleration("push", [GRAVITY, 0.0]));
+        let limit = limit_by(&tower, Laws::Associative).unwrap();
+        let warned =
+            limit.warnings.iter().find(|it| it.starts_with("Contact points are inside")).cloned();
+        (limit.associative.unwrap().load_factor.unwrap(), warned)
+    };
+    let (at_ends, warned) = tipped(PointRule::Vertices);
+    assert_close(at_ends, 0.2, 1e-6);
+    assert_eq!(warned, None);
+    let (inside, warned) = tipped(PointRule::Gauss);
+    assert_close(inside, 0.2 / 3_f64.sqrt(), 1e-6);
+    assert!(warned.unwrap().contains("on 58 % of the length of one at least"));
+}
+
 /// Outlines that are no polygon.
 #[test]
 fn outlines_that_touch_themselves_are_refused() {

@@ -54,6 +54,7 @@ pub use watch::{Bracket, LimitObserver};
 
 use crate::analysis::clock::Clock;
 use crate::data::info::PhaseTime;
+use crate::geometry::SAME_PLACE;
 use crate::history::Actions;
 use crate::model::Model;
 use crate::plan::Plan;
@@ -297,5 +298,26 @@ fn warnings(model: &Model, laws: Laws) -> Vec<String> {
             model.contacts.len()
         ));
     }
+    let reached = reached(model);
+    if reached < 1.0 - SAME_PLACE {
+        list.push(format!(
+            "Contact points are inside of joints, on {:.0} % of the length of one at least: joints open about these points and not \
+             about their ends, so that the structure may carry more. With `contact.points = \"vertices\"` they reach the ends.",
+            100.0 * reached
+        ));
+    }
     list
+}
+
+/// The part of its length that the points of a joint are on, of all joints the least.
+fn reached(model: &Model) -> f64 {
+    let mut reached = vec![[f64::INFINITY, f64::NEG_INFINITY]; model.joints.len()];
+    for point in &model.contacts {
+        let joint = &model.joints[point.joint.index()];
+        let along = joint.to - joint.from;
+        let at = (point.position - joint.from).dot(&along) / along.norm_squared();
+        let [low, high] = &mut reached[point.joint.index()];
+        (*low, *high) = (low.min(at), high.max(at));
+    }
+    reached.into_iter().map(|[low, high]| high - low).fold(f64::INFINITY, f64::min)
 }
