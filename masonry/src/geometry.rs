@@ -11,7 +11,7 @@ mod shape;
 
 pub(crate) use extent::Extent;
 pub use overlap::{SegmentOverlap, facing_normal, facing_overlap, length_inside, overlap_area};
-pub use shape::{PolygonError, check_convex, check_simple, edge_behind_centroid};
+pub use shape::{PolygonError, check_convex, check_simple, edge_behind_centroid, without_straight};
 
 /// Lengths below this part of those around them are rounding errors: places that are as near to each other are one.
 pub(crate) const SAME_PLACE: f64 = 1e-9;

@@ -11,6 +11,7 @@
 //! * `t_n` \[N\] acts on `b` along `+n`: compression is positive; tension needs a tensile strength;
 //! * `t_t` \[N\] acts on `b` along `+t`.
 
+pub mod bending;
 mod classes;
 mod dry;
 mod forces;

@@ -4,8 +4,10 @@ use masonry::analysis::limit::{Laws, limit_by};
 use masonry::analysis::solve::solve;
 use masonry::data::verdict::Verdict;
 use masonry::geometry;
-use masonry::model::Model;
+use masonry::model::heal::heal;
+use masonry::model::{Model, PlacedBlock};
 use masonry::scene::{Block, Brick, Joint, Load, Material, Scene, Support, Wall};
+use nalgebra::Point2;
 
 use crate::common::M_KN;
 use crate::random_walls::Random;
@@ -265,6 +267,27 @@ fn corners_move_by_little_more_than_they_are_off() {
             }
         }
     }
+}
+
+/// Stones that share corners alone, without a support.
+#[test]
+fn corners_meet_in_the_middle() {
+    let stone = |x: f64| PlacedBlock {
+        name: String::new(),
+        corners: [[x, 0.0], [x + 1.0, 0.0], [x + 1.0, 1.0], [x, 1.0]].map(Point2::from).to_vec(),
+        elasticity: None,
+        density: None,
+        mesh: None,
+        loads: Vec::new(),
+    };
+    let mut stones = [stone(0.0), stone(1.002)];
+    let healed = heal(&mut stones, 2, &[], Some(0.003)).unwrap().unwrap();
+    assert_eq!(healed.corners, 4);
+    assert!((healed.largest - 0.001).abs() < 1e-15);
+    assert_eq!(stones[0].corners[1..3], [stones[1].corners[0], stones[1].corners[3]]);
+    assert_eq!(heal(&mut stones, 2, &[], Some(0.003)), Ok(None));
+    // One that is far from all others.
+    assert_eq!(heal(&mut [stone(0.0), stone(2.0)], 1, &[], Some(0.003)), Ok(None));
 }
 
 /// Stones on a wall of bricks, which stay, and on a support that is shorter than the lowest one.

@@ -24,6 +24,17 @@ pub enum PolygonError {
     Crossing,
 }
 
+/// The corners at which a polygon turns: those between two edges of one line are left out.
+pub fn without_straight(polygon: &[Point2<f64>]) -> Vec<Point2<f64>> {
+    let count = polygon.len();
+    let slack = SAME_PLACE * size(polygon);
+    let turns = |k: &usize| {
+        let ends = [polygon[(k + count - 1) % count], polygon[(k + 1) % count]];
+        (nearest_on_segment(ends, polygon[*k]) - polygon[*k]).norm() > slack
+    };
+    (0..count).filter(turns).map(|k| polygon[k]).collect()
+}
+
 /// Checks that the corners are finite, run counter-clockwise once and span a strictly convex shape.
 ///
 /// A corner counts as convex when twice the area of its triangle exceeds `1e-9` times the square of the polygon's size.

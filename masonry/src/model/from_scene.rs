@@ -106,6 +106,7 @@ fn heal_corners(
     for (block, key) in blocks.iter_mut().zip(keys) {
         let Some(mesh) = &block.mesh else { continue };
         let divisions = mesh.divisions();
+        block.corners = geometry::without_straight(&block.corners);
         let meshed = BlockMesh::of(&block.corners, divisions);
         let kind = || match geometry::edge_behind_centroid(&block.corners) {
             Some(edge) => SceneErrorKind::NoMesh { block: block.name.clone(), edge },
@@ -184,11 +185,11 @@ fn block(
     let material = scene.materials.get(material).copied().unwrap_or_default();
     let elasticity = material.elasticity(units);
     let mesh = mesh.filter(|_| elasticity.is_some());
+    // Contact needs no corner on a straight edge, and patches of a mesh are better without it.
+    let corners = if mesh.is_some() { geometry::without_straight(&corners) } else { corners };
+    let mesh = mesh.and_then(|divisions| BlockMesh::of(&corners, divisions));
     let density = material.density;
-    let mut block =
-        PlacedBlock { name, corners, elasticity, density, mesh: None, loads: Vec::new() };
-    block.mesh = mesh.and_then(|divisions| BlockMesh::of(&block.corners, divisions));
-    block
+    PlacedBlock { name, corners, elasticity, density, mesh, loads: Vec::new() }
 }
 
 /// Refuses a brick cut to next to nothing, and what is left of a block whose corners were moved too far.

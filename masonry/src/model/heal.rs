@@ -202,8 +202,8 @@ impl Drawing {
         Meetings { joined, beside }
     }
 
-    /// Moves the first corner of every place to the middle of all, if it moves; the number of corners of each place, and how far they
-    /// are apart \[m\].
+    /// Moves the first corner of every place to the middle of all, if it may move; the number of corners of each place, and how far
+    /// they are from it \[m\].
     fn gather(&mut self, places: &[usize]) -> (Vec<f64>, f64) {
         let before = self.points.clone();
         let mut weights = vec![0.0; self.points.len()];

@@ -3,7 +3,8 @@
 //! A block is divided into quadrilaterals, its patches, and each patch by its bilinear map into as many elements. A convex
 //! quadrilateral is one patch. Another convex polygon has a patch at every corner, between the middles of both edges and the
 //! centroid; these patches are convex, since the centroid lies beyond the line between the middles beside a corner. A polygon
-//! that is star-shaped about its centroid has three patches in the triangle of each edge with the centroid.
+//! that is star-shaped about its centroid has three patches in the triangle of each edge with the centroid. Corners on straight edges
+//! are left out before.
 
 use std::collections::{BTreeMap, BTreeSet};
 

@@ -4,8 +4,10 @@ use std::ops::RangeInclusive;
 
 use nalgebra::Vector2;
 
+use super::bending::Bending;
 use super::{Acceleration, BlockLoad, Healed, LoadCase, Model};
 use crate::geometry::Extent;
+use crate::material::constitutive;
 
 /// Elastic moduli of stone, brick, and mortar from fresh to hard \[Pa\].
 const YOUNG: RangeInclusive<f64> = 1e6..=1e12;
@@ -19,6 +21,11 @@ const GRAVITY: RangeInclusive<f64> = 0.1..=100.0;
 const LITTLE: f64 = 10.0;
 const LARGE: f64 = 0.5;
 
+/// Blocks that are as slender bend as beams do, length by height. Chosen: bricks are shorter, and lie on all of their bed.
+const BEAM: f64 = 4.0;
+/// The stiffness of a mesh in bending by that of the block. Chosen: moduli of masonry are known no better.
+const STIFF: f64 = 1.2;
+
 impl Model {
     /// Unusual magnitudes of a scene, in sentences; empty if there are none.
     pub fn unusual(&self) -> Vec<String> {
@@ -27,6 +34,7 @@ impl Model {
             self.stiffnesses(),
             self.weights(),
             self.totals(),
+            self.stiff_meshes(),
             self.massless(),
             self.idle(),
             self.moved_corners(),
@@ -107,6 +115,31 @@ impl Model {
             )
         };
         odd.into_iter().map(sentence).collect()
+    }
+
+    /// Slender blocks whose meshes bend too little, the worst by name.
+    fn stiff_meshes(&self) -> Vec<String> {
+        let stiff = self.blocks.iter().filter_map(|block| {
+            let d = constitutive(block.elasticity?, self.plane);
+            let bending = Bending::of(block.mesh.as_ref()?, &d)?;
+            let is_stiff = bending.slenderness >= BEAM && bending.stiffness > STIFF;
+            is_stiff.then_some((bending, &block.name))
+        });
+        let mut stiff: Vec<(Bending, &String)> = stiff.collect();
+        stiff.sort_by(|(a, _), (b, _)| b.stiffness.total_cmp(&a.stiffness));
+        let Some((Bending { slenderness, stiffness }, name)) = stiff.first() else {
+            return Vec::new();
+        };
+        let others = match stiff.len() - 1 {
+            0 => String::new(),
+            count => format!(" (and {count} more)"),
+        };
+        // The error falls with the square of the number; lateral strains in one row need less than half of what is allowed.
+        let times = (2.0 * (stiffness - 1.0) / (STIFF - 1.0)).sqrt().ceil();
+        vec![format!(
+            "Block \"{name}\"{others} is {slenderness:.0} times as long as high, and its mesh may be up to {stiffness:.1} times as stiff in \
+             bending as the block: set a `mesh` with {times} times as many elements along it."
+        )]
     }
 
     fn stiffnesses(&self) -> Vec<String> {

@@ -313,8 +313,9 @@ fn check_mesh(at: &KeyPath, mesh: Option<[u32; 2]>, material: &Material) -> Chec
 /// Refuses blocks that no mesh fits, and numbers of elements that do not fit the block.
 fn check_patches(at: &KeyPath, block: &Block, mesh: [u32; 2]) -> Check {
     let corners: Vec<_> = block.corners.iter().copied().map(Point2::from).collect();
-    let (name, count) = (|| block.name.clone(), corners.len());
-    let is_convex = geometry::check_convex(&corners).is_ok();
+    let name = || block.name.clone();
+    let turns = geometry::without_straight(&corners);
+    let (is_convex, count) = (geometry::check_convex(&turns).is_ok(), turns.len());
     if let (false, Some(edge)) = (is_convex, geometry::edge_behind_centroid(&corners)) {
         let kind = SceneErrorKind::NoMesh { block: name(), edge };
         return Err(Fault::new(at.key("corners").item(edge), kind));

@@ -6,6 +6,7 @@
 mod common;
 
 mod accuracy;
+mod mechanics_bending;
 mod mechanics_contact;
 mod mechanics_elements;
 mod mechanics_film_law;
