@@ -19,7 +19,8 @@ use masonry::data::state::{PointState, Reaction};
 use masonry::model::Model;
 
 /// Writes `forces.svg` and `mechanism.svg`, if there are forces and a mechanism, the same of the path with its curve, and
-/// `limit.json`, which lists them, into `dir`, which is created; and `train.svg` if the cases are the positions of a train.
+/// `limit.json`, which lists them and has a line for each case, into `dir`, which is created; and `train.svg` if the cases are
+/// the positions of a train.
 ///
 /// # Errors
 /// [`OutputError`] for a directory that cannot be made, and for files that cannot be written.
@@ -31,7 +32,11 @@ pub fn write(
     let mut list = pictures(limit, false);
     list.extend(cases.and_then(Cases::curve).map(|it| Pictures::one("train.svg", it.to_owned())));
     let list = files(list).collect();
-    write_files(dir, list, Some("limit.json"), |names| json(limit, names))
+    let object = |names: &[String]| {
+        let one = json(limit, names)?;
+        cases.map_or_else(|| Ok(one.clone()), |cases| cases.json("limit", &one))
+    };
+    write_files(dir, list, Some("limit.json"), object)
 }
 
 /// The same of the least thickness of an arch: the forces at the thickness that stands, and the mechanism of the one that

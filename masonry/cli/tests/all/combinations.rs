@@ -86,7 +86,11 @@ fn the_worst_verdict_governs() {
 #[test]
 fn the_smallest_factor_governs() {
     let path = written("limits", &[STORM, HURRICANE, QUAKE].concat());
-    let wind = object(&masonry("limit", &path, &["--json", "--group", "wind"]));
+    let out = path.with_file_name("limit");
+    let more = ["--json", "--group", "wind", "--out", out.to_str().unwrap()];
+    let wind = object(&masonry("limit", &path, &more));
+    let file = fs::read_to_string(out.join("limit.json")).unwrap();
+    assert_eq!(serde_json::from_str::<Value>(&file).unwrap(), wind);
     assert_eq!(members(&wind, "combination"), ["storm", "hurricane"]);
     assert_eq!((&wind["governs"], &wind["limit"]["group"]), (&"hurricane".into(), &"wind".into()));
     for (factor, expected) in members(&wind, "load_factor").into_iter().zip([8.0 / 1.5, 8.0 / 9.0])
