@@ -319,5 +319,7 @@ fn reached(model: &Model) -> f64 {
         let [low, high] = &mut reached[point.joint.index()];
         (*low, *high) = (low.min(at), high.max(at));
     }
-    reached.into_iter().map(|[low, high]| high - low).fold(f64::INFINITY, f64::min)
+    // Joints that are too far apart have no points.
+    let parts = reached.into_iter().map(|[low, high]| high - low).filter(|part| *part >= 0.0);
+    parts.fold(f64::INFINITY, f64::min)
 }
