@@ -45,7 +45,7 @@ const answers = new Answers({
     editor.setRules(numbers);
     sliders.show(controls, text);
     work.offer(controls, has_train);
-    if (shown) work.setVerdict(shown.verdict);
+    work.nameNumbers(shown?.verdict);
     picture.places = places;
   },
 });

@@ -46,9 +46,10 @@ export class Work {
     this.name(button);
   }
 
-  // The buttons of numbers say what is asked for, and for which number if it does not stand beside them.
-  setVerdict(verdict) {
-    this.asked = ASKED[verdict] ?? ASKED.undecided;
+  // The buttons of numbers say what is asked for, by the last verdict that there was, and for which number if it does not stand
+  // beside them.
+  nameNumbers(verdict) {
+    this.asked = ASKED[verdict] ?? this.asked;
     for (const it of all("[data-asks]")) this.name(it);
   }
 

@@ -127,6 +127,20 @@ fn sliders_that_are_moved_at_once_count_both() {
 }
 
 #[test]
+fn a_scene_with_a_mistake_has_buttons_with_names() {
+    let (address, _) = serve_scene("mistake_first", &DOOR.replace("courses = 12", "curses = 12"));
+    let Some(page) = Page::open(&address, 1280) else { return };
+    page.wait("!document.getElementById('fault').hidden");
+    let names = page
+        .run("return Array.from(document.querySelectorAll('[data-asks]'), it => it.textContent)");
+    assert_eq!(names.as_array().unwrap().len(), 5, "{names}");
+    assert!(
+        names.as_array().unwrap().iter().all(|it| it.as_str().unwrap().ends_with("changes at?")),
+        "{names}"
+    );
+}
+
+#[test]
 fn one_slider_moves_the_friction_of_all_joints_and_finds_where_the_wall_falls() {
     let Some(page) = opened("all", &DOOR.replace("mu = 0.65   #", "mu = 0.325 #")) else { return };
     page.run(
