@@ -137,6 +137,11 @@ pub fn outward_normal(polygon: &[Point2<f64>], k: usize) -> Vector2<f64> {
     turn_right((q - p).normalize())
 }
 
+/// Half the angle at its centre of an arc of a circle that rises so far over a span \[rad\].
+pub(crate) fn half_angle(rise: f64, span: f64) -> f64 {
+    2.0 * (2.0 * rise / span).atan()
+}
+
 /// A vector turned by -90 degrees.
 pub fn turn_right(v: Vector2<f64>) -> Vector2<f64> {
     Vector2::new(v.y, -v.x)

@@ -8,7 +8,7 @@ use crate::ids::BlockId;
 use crate::law::JointLaw;
 use crate::material::FilmMaterial;
 use crate::scene::rules::unknown;
-use crate::scene::{self, BED, Fault, HEAD, KeyPath, Opening, Scene, SceneErrorKind};
+use crate::scene::{self, BED, Fault, HEAD, KeyPath, Opening, Scene, SceneErrorKind, Wall};
 
 /// The classes of all joints.
 pub(super) struct Classes {
@@ -86,7 +86,7 @@ impl Classes {
             let second = Members::of(scene, blocks, second, at.item(1))?;
             of_pairs.push(([first, second], index(&between.joint)));
         }
-        let turns = scene.walls.iter().map(|wall| wall.turn()).collect();
+        let turns = scene.walls.iter().map(Wall::turn).collect();
         Ok(Self {
             list,
             given,

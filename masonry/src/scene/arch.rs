@@ -5,7 +5,7 @@ mod place;
 
 use serde::{Deserialize, Serialize};
 
-pub(crate) use lines::{half_angle_of, lines};
+pub(crate) use lines::lines;
 pub(crate) use place::{NamedBlock, blocks, supports};
 
 use super::setters::setters;

@@ -2,9 +2,9 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::arch::half_angle_of;
 use super::setters::setters;
 use super::strict;
+use crate::geometry;
 use crate::rounding::rounded;
 
 /// Size of a whole brick.
@@ -131,7 +131,7 @@ impl Opening {
     pub(crate) fn arch(&self) -> Option<FlatArch> {
         let lintel = self.lintel.as_ref()?;
         let voussoirs = lintel.voussoirs?;
-        let of_arc = lintel.rise.map(|rise| half_angle_of(rise, self.width));
+        let of_arc = lintel.rise.map(|rise| geometry::half_angle(rise, self.width));
         let angle = of_arc.or(lintel.skew_deg.map(f64::to_radians))?;
         Some(FlatArch { voussoirs, slope: angle.tan(), courses: lintel.courses.unwrap_or(1) })
     }

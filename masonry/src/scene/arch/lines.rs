@@ -170,7 +170,7 @@ impl Size {
         positive(at.clone(), rise)?;
         let wanted = "the crown of the intrados lies below the level top";
         value(at.clone(), rise, rise < self.thickness, wanted)?;
-        let half = half_angle_of(rise, self.span);
+        let half = geometry::half_angle(rise, self.span);
         let wanted = "the springings of a flat arch lean by at most 80 degrees, so that it rises by at most 0.42 of its span";
         value(at, rise, half <= STEEPEST.to_radians(), wanted)?;
         let radius = 0.5 * self.span / half.sin();
@@ -209,7 +209,7 @@ fn half_angle(arch: &Arch, at: &KeyPath, span: f64) -> Result<f64, Fault> {
                 let error = ArchError::TooHigh { rise, largest };
                 return Err(Fault::new(at.key("rise"), error));
             }
-            Ok(half_angle_of(rise, span))
+            Ok(geometry::half_angle(rise, span))
         }
         One::Second(embrace) => {
             let wanted = "an arc of a circle embraces more than 0 and at most 180 degrees";
@@ -217,9 +217,4 @@ fn half_angle(arch: &Arch, at: &KeyPath, span: f64) -> Result<f64, Fault> {
             Ok(0.5 * embrace.to_radians())
         }
     }
-}
-
-/// Half the angle at its centre of an arc that rises so far over a span \[rad\].
-pub(crate) fn half_angle_of(rise: f64, span: f64) -> f64 {
-    2.0 * (2.0 * rise / span).atan()
 }
