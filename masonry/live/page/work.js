@@ -69,28 +69,34 @@ export class Work {
   changed() {
     const now = this.number && this.editor.numberAt(this.number.from);
     this.choose(now?.label === this.number?.label ? now : null);
-    for (const section of all("#found section")) section.classList.add("old");
+    age(true);
   }
 
   async begin(task, title, more = {}) {
     this.running?.abort();
     const mine = (this.running = new AbortController());
+    const question = { task, text: this.editor.text, law: one("#law").value, arch: this.arch, ...more };
+    const isOld = () => question.text !== this.editor.text;
     const tell = (news) => {
-      if (this.running === mine) one("#news").textContent = news;
+      if (this.running !== mine) return;
+      one("#news").textContent = news;
+      one("#news").classList.toggle("old", isOld());
     };
     // A limit is a multiple of the load of the text, which has a factor of its own.
     const multiplied = (sentence) => {
       const own = task === "limit" && this.factors.find(({ group }) => sentence.includes(`"${group}"`));
       return own ? ` The limit multiplies the load with its factor of ${own.value}.` : "";
     };
-    const question = { task, text: this.editor.text, law: one("#law").value, arch: this.arch, ...more };
     one("#stop").hidden = false;
     tell(`${title}: begun`);
     try {
       const onNews = (news) => tell(`${title}: ${news}`);
       const found = await this.engine.ask(question, { signal: mine.signal, onNews });
       tell(found.error?.message ?? `${title}: ${found.sentence}${multiplied(found.sentence)} ${found.pictures.length > 0 ? "The pictures are" : "The report is"} below.`);
-      if (!found.error) show(title, found);
+      if (!found.error) {
+        show(title, found);
+        age(isOld());
+      }
     } catch (error) {
       tell(error.name === "AbortError" ? `${one("#news").textContent} (stopped)` : error.message);
     }
@@ -98,6 +104,11 @@ export class Work {
     this.running = null;
     one("#stop").hidden = true;
   }
+}
+
+// Whether what was found is of an earlier text.
+function age(isOld) {
+  for (const it of all("#found > section, #news")) it.classList.toggle("old", isOld);
 }
 
 function show(title, { sentence, pictures, tables, text }) {

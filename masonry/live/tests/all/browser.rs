@@ -208,6 +208,13 @@ fn a_limit_is_found_and_another_one_is_stopped() {
     let found = page.run("return document.querySelector('#found h2').textContent");
     assert!(found.as_str().unwrap().contains("sideways"), "{found}");
     page.wait("document.querySelector('#found figure svg')");
+    // What was found is that of an earlier text after a change.
+    assert_eq!(page.run("return document.querySelectorAll('.old').length"), 0);
+    name_number(&page, "[joints.head]\nmu = ", "head");
+    page.drag("#head", [4.0, 0.0], 2);
+    page.wait(&format!(
+        "{SETTLED} && document.querySelectorAll('#news.old, #found .old').length === 2"
+    ));
 
     let large = DOOR
         .replace("width = 2.5", "width = 12.5")
