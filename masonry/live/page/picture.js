@@ -85,12 +85,17 @@ export function put(figure, markup) {
 // equal is passed over by the browser itself, which is faster than any script.
 export function become(old, next) {
   if (old.isEqualNode(next)) return;
-  for (const { name, value } of next.attributes) {
+  const names = next.getAttributeNames();
+  for (const name of names) {
+    const value = next.getAttribute(name);
     if (old.getAttribute(name) !== value) old.setAttribute(name, value);
   }
-  for (const name of old.getAttributeNames()) {
-    if (!next.hasAttribute(name)) old.removeAttribute(name);
+  if (old.attributes.length > names.length) {
+    for (const name of old.getAttributeNames()) {
+      if (!next.hasAttribute(name)) old.removeAttribute(name);
+    }
   }
+  if (!old.firstChild && !next.firstChild) return;
   let before = old.firstChild;
   for (const child of [...next.childNodes]) {
     const following = before?.nextSibling ?? null;

@@ -1,5 +1,7 @@
 //! The forces in the joints: resultants at their places, the paths between them, and the part of friction that is used.
 
+use std::collections::BTreeMap;
+
 use nalgebra::Vector2;
 
 use super::arrows::{Arrows, Displaced, LEAST};
@@ -144,10 +146,14 @@ impl Drawn<'_> {
         }
         let widest = WIDEST * sheet.marks();
         sheet.layer("paths", |canvas, frame| {
+            // One element for each width: viewers and scripts are slow with thousands of elements.
+            let mut by_width: BTreeMap<String, String> = BTreeMap::new();
             for path in paths {
-                let width = (widest * path.force / self.largest).max(0.3);
-                let width = format!("style=\"stroke-width:{}px\"", fixed(width));
-                canvas.path(&open(path.ends.map(|end| frame.at(end))), &width);
+                let width = fixed((widest * path.force / self.largest).max(0.3));
+                *by_width.entry(width).or_default() += &open(path.ends.map(|end| frame.at(end)));
+            }
+            for (width, data) in by_width {
+                canvas.path(&data, &format!("style=\"stroke-width:{width}px\""));
             }
         });
         sheet.legend.add("path of forces, as wide as the force is large", "paths", legend::line);
