@@ -267,6 +267,18 @@ fn times(page: &Page) -> Vec<[f64; 2]> {
     serde_json::from_value(list).unwrap()
 }
 
+/// The times of pictures in a sentence.
+fn told(name: &str, mut times: Vec<[f64; 2]>) -> String {
+    times.sort_by(|a, b| a[0].total_cmp(&b[0]));
+    let [[median, solve], [slow, _]] = [50, 95].map(|part| times[(times.len() - 1) * part / 100]);
+    format!(
+        "{name}: {} pictures, in the middle {:.1} times the solve ({median:.0} ms), 95 % within {:.1} times ({slow:.0} ms)",
+        times.len(),
+        median / solve,
+        slow / solve,
+    )
+}
+
 /// The page is fast because it adds little to the solve. What is printed are ratios, since a machine that tests has others to serve.
 #[test]
 fn pictures_follow_the_hand() {
@@ -296,17 +308,17 @@ fn pictures_follow_the_hand() {
         page.wait(
             "document.getElementById('fault').hidden && !document.querySelector('#shown.stale')",
         );
-        let mut times = times(&page);
-        times.sort_by(|a, b| a[0].total_cmp(&b[0]));
-        let [[median, solve], [slow, _]] =
-            [50, 95].map(|part| times[(times.len() - 1) * part / 100]);
-        let line = format!(
-            "{name}: {} pictures, in the middle {:.1} times the solve ({median:.0} ms), 95 % within {:.1} times ({slow:.0} ms)",
-            times.len(),
-            median / solve,
-            slow / solve,
-        );
-        say(&line);
+        // A change in the middle of a drag waits for the picture of the one before.
+        say(&told(&format!("{name}, one drag"), times(&page)));
+        page.run("performance.clearMeasures()");
+        for count in 1..=5 {
+            name_number(&page, words, "number");
+            page.drag("#number", [2.0, 0.0], 1);
+            let answered =
+                format!("performance.getEntriesByName('answer').length === {count} && {SETTLED}");
+            page.wait(&answered);
+        }
+        say(&told(&format!("{name}, single changes"), times(&page)));
     }
 }
 
