@@ -44,8 +44,9 @@ impl Page {
         Some(page)
     }
 
-    /// Opens another address.
+    /// Opens another address. The browser does not ask whether to leave, since the driver misses its question now and then.
     pub(crate) fn go(&self, address: &str) {
+        self.run("addEventListener('beforeunload', (it) => it.stopImmediatePropagation(), true)");
         self.post("/url", &json!({ "url": address }));
     }
 

@@ -108,6 +108,12 @@ impl Canvas {
     }
 }
 
+/// The data of a circle.
+pub(super) fn dot(Pixel { x, y }: Pixel, radius: f64) -> String {
+    let [left, y, radius, across] = [x - radius, y, radius, 2.0 * radius].map(fixed);
+    format!("M{left} {y}a{radius} {radius} 0 1 0 {across} 0a{radius} {radius} 0 1 0 -{across} 0")
+}
+
 /// The data of a line through points.
 pub(super) fn open(points: impl IntoIterator<Item = Pixel>) -> String {
     let mut data = String::new();

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use nalgebra::Vector2;
 
 use super::arrows::{Arrows, Displaced, LEAST};
-use super::canvas::{Pixel, fixed, open};
+use super::canvas::{Pixel, dot, fixed, open};
 use super::labels::{Label, Labels};
 use super::legend;
 use super::names;
@@ -194,10 +194,13 @@ impl Drawn<'_> {
                 }
             });
             sheet.layer(&places, |canvas, frame| {
-                for it in &own {
-                    let name = names::number(it.joint);
-                    let class = if is_inside(it) { "" } else { outside };
-                    canvas.circle(frame.at(it.at), radius, format!("{name} {class}").trim_end());
+                // Two elements for all: strokes below them have the names of joints.
+                for (is_class, class) in [(true, ""), (false, outside)] {
+                    let of_class = own.iter().filter(|it| is_inside(it) == is_class);
+                    let dots: String = of_class.map(|it| dot(frame.at(it.at), radius)).collect();
+                    if !dots.is_empty() {
+                        canvas.path(&dots, class);
+                    }
                 }
             });
             let most = InUnits(self.model.units).force_text(most);
