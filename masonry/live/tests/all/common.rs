@@ -43,6 +43,30 @@ name = "sideways"
 acceleration = [0.981, 0.0]
 "#;
 
+/// A block on the ground, pushed to the side by half its weight.
+pub(crate) const PUSHED: &str = r#"title = "Block"
+thickness = 1.0
+gravity = [0.0, -10.0]
+units = { length = "m", force = "kN" }
+materials.stone = { density = 2000.0 }
+joints.bed = { mu = 0.8 }
+
+[[blocks]]
+name = "block"
+material = "stone"
+corners = [[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [0.0, 1.0]]
+
+[[supports]]
+name = "ground"
+from = [0.0, 0.0]
+to = [2.0, 0.0]
+joint = "bed"
+
+[[loads]]
+name = "push"
+acceleration = [5.0, 0.0]
+"#;
+
 /// A directory for the files of a test.
 pub(crate) fn directory(name: &str) -> PathBuf {
     let directory = Path::new(env!("CARGO_TARGET_TMPDIR")).join("live").join(name);

@@ -8,7 +8,7 @@ use masonry_live::beginnings::BEGINNINGS;
 use masonry_live::engine::Engine;
 use serde_json::{Value, json};
 
-use crate::common::DOOR;
+use crate::common::{DOOR, PUSHED};
 
 fn ask(question: &Value) -> Value {
     let answer =
@@ -184,30 +184,6 @@ fn a_limit_is_found_told_on_the_way_and_stopped() {
     engine.answer(&question, &mut stop);
     assert!(asked < all);
 }
-
-/// A block on the ground, pushed to the side by half its weight.
-const PUSHED: &str = r#"title = "Block"
-thickness = 1.0
-gravity = [0.0, -10.0]
-units = { length = "m", force = "kN" }
-materials.stone = { density = 2000.0 }
-joints.bed = { mu = 0.8 }
-
-[[blocks]]
-name = "block"
-material = "stone"
-corners = [[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [0.0, 1.0]]
-
-[[supports]]
-name = "ground"
-from = [0.0, 0.0]
-to = [2.0, 0.0]
-joint = "bed"
-
-[[loads]]
-name = "push"
-acceleration = [5.0, 0.0]
-"#;
 
 /// The question for values of the number after some words, in a range.
 fn change(words: &str, range: [f64; 2]) -> Value {

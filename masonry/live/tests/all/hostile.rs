@@ -6,7 +6,7 @@ use std::net::TcpStream;
 use masonry_live::server::Desk;
 use serde_json::{Value, json};
 
-use crate::common::{DOOR, directory, parts, posted, sent, serve, serve_scene};
+use crate::common::{DOOR, PUSHED, directory, parts, posted, sent, serve, serve_scene};
 
 const QUESTION: &str = r#"{"task":"begin"}"#;
 
@@ -142,29 +142,11 @@ fn no_file_outside_of_the_directory_is_read_or_written() {
 
 /// What a scene comes to whose blocks are in a file.
 fn with_list(address: &str, list: &str) -> Value {
-    let text = format!("block_list = {list:?}\n{LISTED}");
+    let [before, after] = ["[[blocks]]", "[[supports]]"].map(|it| PUSHED.find(it).unwrap());
+    let text = format!("block_list = {list:?}\n{}{}", &PUSHED[..before], &PUSHED[after..]);
     let body = json!({ "task": "solve", "text": text, "show": "answer", "step": null }).to_string();
     said(&posted(address, "/ask", &body))
 }
-
-/// A scene without its block.
-const LISTED: &str = r#"title = "Block"
-thickness = 1.0
-gravity = [0.0, -10.0]
-units = { length = "m", force = "kN" }
-materials.stone = { density = 2000.0 }
-joints.bed = { mu = 0.8 }
-
-[[supports]]
-name = "ground"
-from = [0.0, 0.0]
-to = [2.0, 0.0]
-joint = "bed"
-
-[[loads]]
-name = "push"
-acceleration = [5.0, 0.0]
-"#;
 
 const LIST: &str =
     r#"[{ "material": "stone", "corners": [[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [0.0, 1.0]] }]"#;
