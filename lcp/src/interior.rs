@@ -3,10 +3,12 @@
 mod balance;
 mod constants;
 mod convex;
+mod dual;
 mod homogeneous;
 mod iterate;
 mod least;
 mod newton_system;
+mod outcome;
 mod predictor_corrector;
 mod problems;
 mod program;

@@ -3,7 +3,8 @@
 
 use faer::sparse::SparseColMat;
 
-use super::homogeneous::{Accuracy, Outcome};
+use super::homogeneous::Accuracy;
+use super::outcome::Outcome;
 use super::program::{Program, against};
 use super::{InteriorPoint, InteriorPointSettings};
 use crate::active::unplanned;

@@ -1,16 +1,13 @@
 //! Convex programs as part of a homogeneous problem, which always has a solution: that of the program, or a proof that
 //! there is none.
 
-use faer::sparse::FaerError;
-
 use super::constants::{
-    BALANCINGS, FRACTION_TO_BOUNDARY, LEAST_AIM, LOADS, PATIENCE, TRIAL_REDUCTION, TRIAL_RESIDUAL,
+    FRACTION_TO_BOUNDARY, LEAST_AIM, LOADS, PATIENCE, TRIAL_REDUCTION, TRIAL_RESIDUAL,
 };
 use super::program::{Program, ProgramFactors};
 use super::step::{correction, lengthened};
 use super::variables::{Variables, dot};
 use crate::Status;
-use crate::certify::verdict;
 use crate::states::PROXIMAL;
 use crate::vector::{HALF_DIGITS, ROUNDING, max_abs};
 
@@ -24,89 +21,17 @@ pub(super) enum Accuracy {
     OfForces(f64),
 }
 
-/// The outcome of a program, in the units in which the program is given.
-pub(super) struct Outcome {
-    /// [`Status::Infeasible`] if `u` and `t` are a proof that there is no solution, as was confirmed.
+impl Accuracy {
+    pub(super) fn tolerance(self) -> f64 {
+        let (Self::OfAll(tolerance) | Self::OfForces(tolerance)) = self;
+        tolerance
+    }
+}
+
+/// The end of an iteration: a point, and why it is the last.
+pub(super) struct End {
+    pub(super) at: Variables,
     pub(super) status: Status,
-    /// The residual of the point, from the data.
-    pub(super) residual: f64,
-    pub(super) u: Vec<f64>,
-    pub(super) t: Vec<f64>,
-    pub(super) y: Vec<f64>,
-    pub(super) factorisations: usize,
-}
-
-impl Program {
-    /// Solves the program, or ends as soon as `is_proof` says that `u` and `t` prove that it has no solution. `stop` is asked
-    /// before every step, with the residual.
-    ///
-    /// # Errors
-    /// That memory does not suffice.
-    pub(super) fn solve(
-        self,
-        accuracy: Accuracy,
-        stop: impl FnMut(f64) -> Option<Status>,
-        mut is_proof: impl FnMut(&[f64], &[f64]) -> bool,
-    ) -> Result<Outcome, FaerError> {
-        let (program, units) = self.scaled();
-        let times = |v: &[f64], unit: f64| -> Vec<f64> { v.iter().map(|v| v * unit).collect() };
-        let mut factors = ProgramFactors::of(&program)?;
-        let is_proof =
-            |at: &Variables| is_proof(&units.displacements(&at.u), &times(&at.t, units.force));
-        let (mut at, status) = iterate(&program, &mut factors, accuracy, stop, is_proof);
-        if let (Status::Solved, Accuracy::OfForces(tolerance)) = (status, accuracy) {
-            let balanced = Homogeneous::new(&program, balanced(&program, &factors, &at));
-            if balanced.residual(&balanced.defect(), accuracy) <= tolerance {
-                at = balanced.at;
-            }
-        }
-        let now = Homogeneous::new(&program, at);
-        let residual = now.residual(&now.defect(), accuracy);
-        let (Accuracy::OfAll(tolerance) | Accuracy::OfForces(tolerance)) = accuracy;
-        let at = now.at;
-        Ok(Outcome {
-            status: if status == Status::Infeasible {
-                status
-            } else {
-                verdict(residual, tolerance, status)
-            },
-            residual,
-            u: units.displacements(&at.u),
-            t: times(&at.t, units.force),
-            y: times(&at.y, units.length),
-            factorisations: factors.factorisations,
-        })
-    }
-}
-
-/// A solution of a program without stiffness whose forces balance its loads to the last digit of every row, by those of the
-/// springs of the last step: displacements of these change forces so that products of pairs stay.
-fn balanced(program: &Program, factors: &ProgramFactors, at: &Variables) -> Variables {
-    let lack = |t: &[f64]| {
-        let mut rest = program.f.clone();
-        program.add_forces(t, &mut rest);
-        rest
-    };
-    let mut at = at.clone();
-    let mut rest = lack(&at.t);
-    // The largest may grow by rounding only, while the others are corrected.
-    let most = max_abs(&rest).max(ROUNDING * max_abs(&at.t));
-    for _ in 0..BALANCINGS {
-        factors.gram.solve(&mut rest);
-        let u: Vec<f64> = at.u.iter().zip(&rest).map(|(u, change)| u + change).collect();
-        let pairs = at.t.iter().zip(&factors.stiffness).zip(program.opened(&rest));
-        let t: Vec<f64> = pairs.map(|((t, s), change)| (t - s * change).max(0.0)).collect();
-        rest = lack(&t);
-        let left = max_abs(&rest);
-        if left.is_nan() || left > most {
-            break;
-        }
-        (at.u, at.t) = (u, t);
-    }
-    let forces = program.compliance.iter().zip(&at.t);
-    let gaps = program.opened(&at.u).into_iter().zip(&program.x_0).zip(forces);
-    at.y = gaps.map(|((opened, x), (c, t))| (opened + x + c * t).max(0.0)).collect();
-    at
 }
 
 /// A point of the homogeneous problem of Andersen and Ye (1999),
@@ -118,35 +43,35 @@ fn balanced(program: &Program, factors: &ProgramFactors, at: &Variables) -> Vari
 ///
 /// Where `tau > 0`, `u / tau` and `t / tau` are a solution of the problem; where `kappa > 0`, `u` and `t` prove that there
 /// is none.
-struct Homogeneous<'a> {
+pub(super) struct Homogeneous<'a> {
     program: &'a Program,
-    at: Variables,
+    pub(super) at: Variables,
     /// `K u` and `A^T u`.
     strained: Vec<f64>,
     opened: Vec<f64>,
 }
 
 /// The residuals of the equations at a point.
-struct HomogeneousDefect {
+pub(super) struct HomogeneousDefect {
     /// `f tau + A t - K u`
-    balance: Vec<f64>,
+    pub(super) balance: Vec<f64>,
     /// `A^T u + D t + x_0 tau - y`
     gaps: Vec<f64>,
 }
 
 /// The solution of a program, or `u` and `t` that prove that there is none.
-fn iterate(
+pub(super) fn iterate(
     program: &Program,
     factors: &mut ProgramFactors,
     accuracy: Accuracy,
     mut stop: impl FnMut(f64) -> Option<Status>,
     mut is_proof: impl FnMut(&Variables) -> bool,
-) -> (Variables, Status) {
+) -> End {
     let Some(at) = Variables::start(program, factors) else {
-        return (Variables::zero(program), Status::Stalled);
+        return End { at: Variables::zero(program), status: Status::Stalled };
     };
     let mut now = Homogeneous::new(program, at);
-    let (Accuracy::OfAll(tolerance) | Accuracy::OfForces(tolerance)) = accuracy;
+    let tolerance = accuracy.tolerance();
     let (mut least, mut since, mut provable) = ([f64::INFINITY; 3], 0, TRIAL_RESIDUAL);
     loop {
         let defect = now.defect();
@@ -156,22 +81,22 @@ fn iterate(
             // Rounding by the division may take a point beyond the tolerance again.
             let solved = Homogeneous::new(program, now.at.clone().solution());
             if solved.residual(&solved.defect(), accuracy) <= tolerance {
-                return (solved.at, Status::Solved);
+                return End { at: solved.at, status: Status::Solved };
             }
         }
         if error <= provable {
             provable = TRIAL_REDUCTION * error;
             if is_proof(&now.at) {
-                return (now.at, Status::Infeasible);
+                return End { at: now.at, status: Status::Infeasible };
             }
             if let Some(at) = now.projected(factors, error)
                 && is_proof(&at)
             {
-                return (at, Status::Infeasible);
+                return End { at, status: Status::Infeasible };
             }
         }
         if let Some(status) = stop(residual.min(error)) {
-            return (now.at.solution(), status);
+            return End { at: now.at.solution(), status };
         }
         // Far from a proof its error may be as small as it will be for long, while the rest goes on.
         let merits = [residual, error, now.at.mean_product()];
@@ -181,30 +106,31 @@ fn iterate(
         let alpha = now.advance(factors, defect);
         // Some are stuck for twenty steps and go on.
         if alpha < HALF_DIGITS || since > 2 * PATIENCE {
-            return (now.at.solution(), Status::Stalled);
+            return End { at: now.at.solution(), status: Status::Stalled };
         }
     }
 }
 
 impl<'a> Homogeneous<'a> {
-    fn new(program: &'a Program, at: Variables) -> Self {
+    pub(super) fn new(program: &'a Program, at: Variables) -> Self {
         let (strained, opened) = (program.strained(&at.u), program.opened(&at.u));
         Self { program, at, strained, opened }
     }
 
-    fn residual(&self, defect: &HomogeneousDefect, accuracy: Accuracy) -> f64 {
-        let Variables { t, y, tau, .. } = &self.at;
+    pub(super) fn residual(&self, defect: &HomogeneousDefect, accuracy: Accuracy) -> f64 {
+        let Variables { u, t, y, tau, .. } = &self.at;
         let (force, length) = (max_abs(t).max(*tau), max_abs(y).max(*tau));
-        let (unit, part) = match accuracy {
-            Accuracy::OfAll(_) => (force, 1.0),
+        let (unit, opening, part) = match accuracy {
+            Accuracy::OfAll(_) => (force, length, 1.0),
             Accuracy::OfForces(tolerance) => {
-                // Rounding leaves some last digits of the largest force.
-                let rounded = ROUNDING * force / tolerance;
+                // Rounding leaves some last digits of the largest force, and of the largest free variable.
+                let rounded = |size: f64| ROUNDING * size / tolerance;
                 let load = LOADS * tau * max_abs(&self.program.f);
-                (load.max(rounded).min(force), 10.0 * tolerance.sqrt())
+                let unit = load.max(rounded(force)).min(force);
+                (unit, length.max(rounded(max_abs(u))), 10.0 * tolerance.sqrt())
             }
         };
-        let defect = (max_abs(&defect.balance) / unit).max(max_abs(&defect.gaps) / length);
+        let defect = (max_abs(&defect.balance) / unit).max(max_abs(&defect.gaps) / opening);
         let natural = t.iter().zip(y).map(|(t, y)| (t / force).min(y / length));
         natural.fold(defect, |max, v| max.max(part * v.abs()))
     }
@@ -221,7 +147,7 @@ impl<'a> Homogeneous<'a> {
         against.fold(max_abs(&self.strained), f64::max) / work
     }
 
-    fn defect(&self) -> HomogeneousDefect {
+    pub(super) fn defect(&self) -> HomogeneousDefect {
         let Self { program, at, .. } = self;
         let tau = at.tau;
         let mut balance: Vec<f64> =

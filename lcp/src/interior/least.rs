@@ -3,7 +3,8 @@
 use faer::sparse::SparseColMat;
 
 use super::InteriorPoint;
-use super::homogeneous::{Accuracy, Outcome};
+use super::homogeneous::Accuracy;
+use super::outcome::Outcome;
 use super::program::{Program, against};
 use crate::active::unplanned;
 use crate::certify::is_proof_of;
@@ -30,15 +31,15 @@ pub struct LeastForces {
 
 impl InteriorPoint {
     /// `min |t|^2 / 2` with `A t + f = 0` and `t >= 0`, or `u` with `A^T u >= 0` and `f.u > 0`, which proves that there is no
-    /// such `t` (Farkas 1902), by the homogeneous problem of Andersen and Ye (1999). Uses the tolerance and the limits of
-    /// the settings.
+    /// such `t` (Farkas 1902). Newton's method on the dual function of `u` comes first (Mangasarian 2004); if its steps become
+    /// short, the homogeneous problem of Andersen and Ye (1999) follows. Uses the tolerance and the limits of the settings.
     ///
     /// The iteration ends where the balance holds to the tolerance, relative to the largest force, and to a hundred times it
     /// relative to the largest load, or to rounding errors of the forces (64 eps of the largest) where forces are so much larger
     /// than the loads. What is left then is distributed, so that every row is balanced to its last digits, as far as rounding
-    /// errors of the forces allow. A force and its multiplier `t + A^T u` may both be
-    /// zero, and come near it together: the smaller one, relative to the largest, has to be below a tenth of the root of the
-    /// tolerance.
+    /// errors of the forces allow. Multipliers hold to the tolerance, relative to the largest `t + A^T u`, or to rounding
+    /// errors of the largest of them. A force and its multiplier `t + A^T u` may both be zero, and come near it together: the
+    /// smaller one, relative to the largest, has to be below a tenth of the root of the tolerance.
     ///
     /// # Errors
     /// [`Error::Length`] when `f` is not as long as a column of `A`, [`Error::NotFinite`] for a NaN or an infinity,

@@ -84,6 +84,11 @@ impl Program {
         (0..self.x_0.len()).map(by).collect()
     }
 
+    /// `A^T u + x_0`
+    pub(super) fn gaps(&self, u: &[f64]) -> impl Iterator<Item = f64> {
+        self.opened(u).into_iter().zip(&self.x_0).map(|(opened, x)| opened + x)
+    }
+
     /// Adds `A t`.
     pub(super) fn add_forces(&self, t: &[f64], out: &mut [f64]) {
         add_image(&self.a, 1.0, t, out);

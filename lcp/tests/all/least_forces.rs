@@ -70,3 +70,53 @@ fn struts_that_would_have_to_pull_are_proved_to_carry_nothing() {
         }
     }
 }
+
+/// A stack of blocks, one wide and half as high, of weight one, which a force on the top pushes aside: the resultants of the
+/// loads, and in every joint the forces of two corners along the edges of their cones of friction.
+fn stack(blocks: usize, push: f64) -> LeastForces {
+    const MU: f64 = 1.5;
+    let mut entries = Vec::new();
+    let edges = [(-0.5, -MU), (-0.5, MU), (0.5, -MU), (0.5, MU)];
+    for block in 0..blocks {
+        for (edge, (x, along)) in edges.into_iter().enumerate() {
+            let column = 4 * block + edge;
+            // The block above the joint, and the one below it, each about its centre.
+            let bodies = [(Some(block), 1.0, -0.25), (block.checked_sub(1), -1.0, 0.25)];
+            for (body, sign, y) in bodies {
+                let Some(body) = body else { continue };
+                let acts = [sign * along, sign, sign * (x - y * along)];
+                let rows = acts.into_iter().enumerate();
+                entries.extend(rows.map(|(row, v)| Triplet::new(3 * body + row, column, v)));
+            }
+        }
+    }
+    let edges = SparseColMat::try_new_from_triplets(3 * blocks, 4 * blocks, &entries)
+        .expect("a sound matrix");
+    let mut loads = [0.0, -1.0, 0.0].repeat(blocks);
+    let top = 3 * (blocks - 1);
+    loads[top] = push;
+    loads[top + 2] = -0.25 * push;
+    InteriorPoint::default()
+        .least_forces(&edges, &loads, &mut |_| ControlFlow::Continue(()))
+        .expect("finite data")
+}
+
+/// The higher a stack, the larger its multipliers beside its forces: rounding errors of the former end no iteration.
+#[test]
+fn a_high_stack_is_balanced_within_a_few_steps() {
+    for blocks in [10, 100, 1000] {
+        // A push of the weight of one block tips the stack.
+        let found = stack(blocks, 0.9);
+        assert_eq!(found.status, Status::Solved, "{blocks}");
+        assert!(found.info.factorisations <= 12, "{blocks}: {}", found.info.factorisations);
+        for (joint, forces) in found.t.chunks(4).enumerate() {
+            let above = (blocks - joint) as f64;
+            let pressed: f64 = forces.iter().sum();
+            assert!(
+                (pressed - above).abs() <= 1e-9 * blocks as f64,
+                "{blocks}, {joint}: {pressed}"
+            );
+        }
+        assert_eq!(stack(blocks, 1.01).status, Status::Infeasible, "{blocks}");
+    }
+}

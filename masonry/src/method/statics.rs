@@ -8,8 +8,9 @@
 //! springs that are sheared and opened by the same law (associated flow). It has one solution if there are any admissible
 //! forces. If there are none, the multipliers `v` of the balance prove it: `E^T v >= 0` and `r.v > 0`. This is a motion of
 //! rigid blocks on which every contact force does nonnegative work, and the loads do more work than cohesion and tensile
-//! strength take (Farkas 1902, Moreau 1962). The interior points find either, since they solve a homogeneous problem that
-//! contains both (Andersen and Ye 1999). The [`proof`] is checked in the geometry.
+//! strength take (Farkas 1902, Moreau 1962). Newton's method on the multipliers finds the forces within a few steps (Mangasarian
+//! 2004). If its steps become short, interior points find either, since they solve a homogeneous problem that contains both
+//! (Andersen and Ye 1999). The [`proof`] is checked in the geometry.
 //!
 //! Rigid blocks without gaps stand if there are such forces: at rest every gap and every slip is zero. For all other
 //! walls they are necessary but not sufficient.
@@ -32,7 +33,7 @@ mod sharpen;
 pub struct Decision {
     /// The decision.
     pub statics: Statics,
-    /// Steps of the interior points, each of which factorises one matrix of three unknowns a block.
+    /// Steps, each of which factorises one matrix of three unknowns a block.
     pub steps: usize,
     /// Whether the observer has ended it.
     pub is_cancelled: bool,
