@@ -22,6 +22,9 @@ pub(crate) struct Effort {
     pub(crate) points: usize,
     /// Whether rounds start from the given point, which keeps unknowns that the states leave free.
     pub(crate) anchored: bool,
+    /// Whether all contacts with contradictions change their state even if there were fewer before. With friction they may go
+    /// round in circles then.
+    pub(crate) all_at_once: bool,
     /// The proximal term with which the equations of the states are solved. States that are a little wrong may leave a
     /// motion free, which a small one lets go anywhere.
     pub(crate) proximal: f64,
@@ -31,8 +34,17 @@ impl Effort {
     /// While the iteration comes nearer, when few contacts are left to exchange.
     pub(crate) const QUICK: Self = Self { rounds: 8, patience: 2, points: 400, ..Self::THOROUGH };
     /// Where it does not come any nearer.
-    pub(crate) const THOROUGH: Self =
-        Self { rounds: 60, patience: 10, points: 20, anchored: false, proximal: PROXIMAL };
+    pub(crate) const THOROUGH: Self = Self {
+        rounds: 60,
+        patience: 10,
+        points: 20,
+        anchored: false,
+        all_at_once: false,
+        proximal: PROXIMAL,
+    };
+    /// From given states, of which any number may be wrong.
+    pub(crate) const START: Self =
+        Self { patience: 3, points: 1, all_at_once: true, ..Self::THOROUGH };
     /// From a point amid all solutions of a convex problem.
     #[cfg(feature = "clarabel")]
     pub(crate) const ANCHORED: Self = Self { anchored: true, ..Self::THOROUGH };
@@ -94,7 +106,8 @@ pub(crate) fn cross_over(
             break;
         }
         // All at a time may go round in circles, with friction above all.
-        vertex.exchange(&contradictions, is_nearer || is_dust || !has_friction);
+        let are_all = is_nearer || is_dust || !has_friction || effort.all_at_once;
+        vertex.exchange(&contradictions, are_all);
         fewest = fewest.min(exchanged);
         least = least.min(largest);
     }

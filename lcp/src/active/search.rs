@@ -59,7 +59,7 @@ impl<'a> Search<'a> {
                 (u, forces, contacts)
             }
         };
-        self.cross_over(PointRef { u: &u, forces: &forces }, contacts, &Effort::THOROUGH)
+        self.cross_over(PointRef { u: &u, forces: &forces }, contacts, &Effort::START)
     }
 
     /// Whether nothing moves and no force acts, a point that iterations only come nearer to without end.

@@ -1,7 +1,8 @@
 //! The contact problem with all displacements as unknowns: larger than the reduced forms, but sparse.
 
 use faer::sparse::{SparseColMat, Triplet};
-use lcp::{Contact2d, ContactState, Residuals};
+use lcp::refine::ContactStatus;
+use lcp::{Contact2d, ContactState, Residuals, WarmStart};
 
 use crate::data::state::{RowState, State};
 use crate::ids::BlockId;
@@ -259,6 +260,22 @@ impl Sparse {
             }
         }
         self.problem.state(u, t_n, t_t)
+    }
+
+    /// A start with the states that forces of the rows of the system show: points without a normal force are open, and those
+    /// with forces on the cone slide.
+    pub(crate) fn start_of(&self, system: &System, forces: &[f64]) -> WarmStart {
+        let (normal, tangential) = forces.split_at(system.points());
+        let rest = vec![0.0; self.problem.displacements()];
+        let state = self.with_forces(system, rest, normal, tangential);
+        let points = state.t_n.iter().zip(&state.t_t).zip(self.problem.mu());
+        let statuses = points.map(|((t_n, t_t), mu)| match cleared(mu * t_n - t_t.abs(), *t_n) {
+            _ if *t_n <= 0.0 => ContactStatus::Open,
+            below if below > 0.0 => ContactStatus::Stick,
+            _ if *t_t < 0.0 => ContactStatus::Forwards,
+            _ => ContactStatus::Backwards,
+        });
+        self.problem.start_of(&statuses.collect::<Vec<_>>())
     }
 
     /// The contact points of the structure; those of cohesion follow them in the problem.

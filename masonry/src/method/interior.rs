@@ -6,6 +6,7 @@
 
 use lcp::{
     Contact2d, ContactState, InteriorPoint, InteriorPointSettings, Iteration, Solver, Status,
+    WarmStart,
 };
 
 use super::loading::{self, Led, Loading};
@@ -26,6 +27,8 @@ pub struct Interior<'a> {
     pub mass: &'a [f64],
     /// How far blocks may move \[m\].
     pub reach: f64,
+    /// Where the path begins.
+    pub start: &'a WarmStart,
 }
 
 impl Interior<'_> {
@@ -45,7 +48,7 @@ impl Interior<'_> {
             return self.led(None, request, observer);
         }
         let solver = if may_move {
-            loading::path(tolerance, max_steps)
+            loading::path(tolerance, max_steps, self.start)
         } else {
             let defaults = InteriorPointSettings::default();
             let max_iterations = max_steps.unwrap_or(defaults.max_iterations);
@@ -65,7 +68,7 @@ impl Interior<'_> {
         request: &Request,
         observer: EventObserver<'_>,
     ) -> Result<RouteAnswer, lcp::Error> {
-        let Self { sparse, before, mass, reach } = *self;
+        let Self { sparse, before, mass, reach, .. } = *self;
         let problem = &sparse.problem;
         let tolerance = request.tolerance.min(request.step_tolerance);
         let taken = path.as_ref().map_or(0, |path| path.info.iterations);

@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 
 use lcp::{
     Contact2d, ContactState, Ending, Evolution, EvolutionSettings, InteriorPoint,
-    InteriorPointSettings, Iteration,
+    InteriorPointSettings, Iteration, WarmStart,
 };
 
 use crate::geometry;
@@ -55,11 +55,12 @@ pub(crate) struct Led {
     pub(crate) iterations: usize,
 }
 
-/// The method before blocks move, if nothing has acted on them yet: the path of interior points from its first start,
-/// in at most so many steps.
-pub(crate) fn path(tolerance: f64, max_steps: Option<usize>) -> InteriorPoint {
+/// The method before blocks move, if nothing has acted on them yet: from these states, or else the path of interior points from
+/// its first start, in at most so many steps.
+pub(crate) fn path(tolerance: f64, max_steps: Option<usize>, start: &WarmStart) -> InteriorPoint {
+    let start = start.clone();
     let mut settings =
-        InteriorPointSettings { tolerance, prove_infeasible: false, ..Default::default() };
+        InteriorPointSettings { tolerance, prove_infeasible: false, start, ..Default::default() };
     settings.max_iterations =
         max_steps.map_or(STEPS_BEFORE_MOTION, |most| most.min(STEPS_BEFORE_MOTION));
     settings.openings.truncate(1);

@@ -4,7 +4,7 @@ use std::cmp::Ordering;
 use std::ops::ControlFlow;
 use web_time::Instant;
 
-use lcp::{Contact2d, Status};
+use lcp::{Contact2d, Status, WarmStart};
 
 use super::{Event, SolveError, named};
 use crate::analysis::clock::Clock;
@@ -163,7 +163,11 @@ impl<'a> Chain<'a> {
         let sparse = Sparse::new(&system)?;
         let mass = &mass::lumped(&model, &system);
         let reach = loading::reach(&model);
-        let interior = Interior { sparse: &sparse, before: None, mass, reach };
+        let start = &match &best.statics {
+            Some(Statics::Admissible(forces)) => sparse.start_of(&system, forces),
+            _ => WarmStart::None,
+        };
+        let interior = Interior { sparse: &sparse, before: None, mass, reach, start };
         self.may_be_cut = false;
         let RouteAnswer { info, motion, .. } =
             self.timed(|request, observer| interior.solve(request, observer))?;
@@ -297,7 +301,8 @@ impl<'a> Chain<'a> {
                 let before = given.as_ref().map(|it| &it.problem).zip(state.as_ref());
                 let mass = &mass::lumped(model, system);
                 let reach = loading::reach(model);
-                let interior = Interior { sparse: &sparse, before, mass, reach };
+                let start = &WarmStart::None;
+                let interior = Interior { sparse: &sparse, before, mass, reach, start };
                 let answer = self.timed(|request, observer| interior.solve(request, observer));
                 self.before = given;
                 answer

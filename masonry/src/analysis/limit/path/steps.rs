@@ -1,6 +1,6 @@
 //! One step of a load factor: the blocks rest, or flow.
 
-use lcp::{Contact2d, ContactState, Ending, Observer, Solver};
+use lcp::{Contact2d, ContactState, Ending, Observer, Solver, WarmStart};
 
 use crate::forms::Sparse;
 use crate::method::loading::{self, Loading};
@@ -52,7 +52,7 @@ impl Steps<'_> {
         if let Some(from) = from {
             problem = problem.after(&from.u)?;
         } else {
-            let path = loading::path(self.tolerance, None);
+            let path = loading::path(self.tolerance, None, &WarmStart::None);
             let solution = path.solve_observed(&problem, observer)?;
             if let (true, Some(state)) = (solution.is_solved(), solution.contact) {
                 return Ok(StepEnd::Rests(rest(&problem, state)?.into()));
