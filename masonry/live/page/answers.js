@@ -1,5 +1,6 @@
 import { all, button, made, one } from "./elements.js";
 import { put } from "./picture.js";
+import { valueOf } from "./sliders.js";
 import { Tables } from "./tables.js";
 
 // Solves the text, always the newest and one at a time, and shows the answer.
@@ -143,7 +144,7 @@ export class Answers {
   keep(event) {
     if (this.last === null) return;
     const { text, shown, controls } = this.last;
-    const values = controls.map(({ label, value }) => `${label} ${Number(value.toPrecision(6))}`).join(", ");
+    const values = controls.map((it) => `${it.label} ${valueOf(it)}`).join(", ");
     const kept = { text };
     const drop = (now) => {
       this.kept = this.kept.filter((it) => it !== kept);
@@ -151,11 +152,11 @@ export class Answers {
       this.changed(now);
     };
     kept.figure = made("figure");
-    kept.section = made("section", {}, made("h2", { textContent: `Kept: ${shown.sentence}` }),
+    // Pictures side by side begin at one height.
+    kept.section = made("section", {}, kept.figure, made("h2", { textContent: `Kept: ${shown.sentence}` }),
       button("Back to this", (now) => this.editor.set(text, now)),
       button("Drop", drop),
       made("p", { textContent: values }),
-      kept.figure,
     );
     this.kept.unshift(kept);
     one("#kept").prepend(kept.section);

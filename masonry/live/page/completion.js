@@ -20,11 +20,11 @@ export class Completion {
   async open() {
     const [text, at] = [this.editor.text, this.area.selectionStart];
     // Without an answer there is nothing to list; the solve of the same text says why.
-    const { entries, before } = await this.engine.ask({ task: "complete", text, at }).catch(() => ({}));
+    const { entries, before, after } = await this.engine.ask({ task: "complete", text, at }).catch(() => ({}));
     if (text !== this.editor.text || at !== this.area.selectionStart) return;
     this.close();
     if (!entries?.length) return;
-    Object.assign(this, { entries, before, at });
+    Object.assign(this, { entries, before, after, at });
     this.list.replaceChildren(...entries.map(({ name, meaning }, index) => {
       const item = document.createElement("li");
       [item.role, item.id, item.title] = ["option", `completion-${index}`, meaning];
@@ -40,8 +40,12 @@ export class Completion {
     const letters = text.split("\n")[until.length - 1].length;
     const width = letters > 0 ? probe.getBoundingClientRect().width / letters : 0;
     this.list.style.left = `${8 + width * Math.max(until.at(-1).length - before, 0)}px`;
-    this.list.style.top = `${row.offsetTop + row.offsetHeight}px`;
     this.list.hidden = false;
+    // Above the line if there is no room below it.
+    const [below, above] = [row.offsetTop + row.offsetHeight, row.offsetTop - this.list.offsetHeight];
+    const { scrollTop, clientHeight } = this.editor.box;
+    const isBelow = below + this.list.offsetHeight <= scrollTop + clientHeight || above < scrollTop;
+    this.list.style.top = `${isBelow ? below : above}px`;
     this.choose(0);
   }
 
@@ -81,8 +85,10 @@ export class Completion {
     this.close();
     if (!entry) return;
     const from = this.at - this.before;
+    const rest = this.editor.text.slice(this.at).split("\n", 1)[0];
+    const text = entry.name + (rest.trim() === "" ? this.after : "");
     this.editor.remember();
-    this.editor.change([{ from, to: this.at, text: entry.name }], event);
-    this.area.setSelectionRange(from + entry.name.length, from + entry.name.length);
+    this.editor.change([{ from, to: this.at, text }], event);
+    this.area.setSelectionRange(from + text.length, from + text.length);
   }
 }

@@ -16,6 +16,7 @@ export class Editor {
     this.area = document.getElementById("scene");
     this.layer = document.getElementById("colours");
     this.lines = document.getElementById("lines");
+    this.box = document.getElementById("editor");
     [this.onChange, this.onNumber] = [onChange, onNumber];
     this.rules = new Map();
     this.past = [];
@@ -230,6 +231,13 @@ export class Editor {
     this.area.focus({ preventScroll: true });
     this.area.setSelectionRange(at, at);
     this.layer.children[line - 1]?.scrollIntoView({ block: "nearest" });
+    // The row is as wide as the longest line: its end would be in view, and its beginning not.
+    if (column === 1) this.box.scrollLeft = 0;
+  }
+
+  // Shows the beginning of a text.
+  rewind() {
+    this.box.scrollTo(0, 0);
   }
 
   // Marks the place of a mistake; without one nothing is marked.

@@ -17,8 +17,11 @@ const EXPORTS = {
 };
 
 export class Files {
-  constructor(engine, editor, picture) {
-    Object.assign(this, { engine, editor, picture });
+  // `onBegin()` hears of a scene that has nothing to do with the one before.
+  constructor(engine, editor, picture, onBegin) {
+    Object.assign(this, { engine, editor, picture, onBegin });
+    // The names of the files that were open, by the texts that they have.
+    this.known = new Map();
     // The name of the file, and the text that it has; of a new scene no name, and the text that it began with.
     [this.name, this.saved] = [null, editor.text];
     // The save that runs, and the text on the disk that differs from the one here and the one before.
@@ -75,16 +78,20 @@ export class Files {
       drop();
     };
     const what = name === null ? "a new scene" : name;
-    tell(place, `Changes of ${what} were not saved before this page was loaded.`, { "Take them back": take, "Drop them": drop });
+    tell(place, `Changes of ${what} were not saved before this page was loaded.`, { Restore: take, Discard: drop });
   }
 
+  // A text of a file that was open, to which undo has led back, is that file again.
   changed() {
+    const known = this.name === null ? this.known.get(this.editor.text) : undefined;
+    if (known !== undefined) [this.name, this.saved] = [known, this.editor.text];
+    one("#name").textContent = this.name ?? "New scene";
     one("#name").classList.toggle("changed", this.isChanged);
   }
 
   rename(name, saved) {
     [this.name, this.saved] = [name, saved];
-    one("#name").textContent = name ?? "New scene";
+    if (name !== null) this.known.set(saved, name);
     this.changed();
   }
 
@@ -107,8 +114,11 @@ export class Files {
     await this.saving;
     if (this.isChanged && !confirm("The changes of this scene are not saved. Begin another one?")) return;
     this.settle();
+    tell(one("#unsaved"), "");
     this.editor.set(text);
+    this.editor.rewind();
     this.rename(null, text);
+    this.onBegin();
   }
 
   // Saves, one at a time. A save that is refused since the file has changed shows the conflict at once.
@@ -129,8 +139,10 @@ export class Files {
     const given = this.name ?? prompt("Name of the new file. It is written beside the scene that was opened, or else into the directory in which masonry was started.", "scene.toml");
     if (given === null) return;
     const name = given.endsWith(".toml") ? given : `${given}.toml`;
-    // A file of a new scene must not exist yet.
-    const was = this.name === null ? null : this.saved;
+    // A file of a new scene must not exist yet, or is one to be replaced.
+    const there = this.name === null ? (await this.engine.load(name).catch(failed)).text : this.saved;
+    if (this.name === null && there !== undefined && !confirm(`There is a file ${name}. Replace it?`)) return;
+    const was = there ?? null;
     const { error } = await this.engine.save({ name, text, was }).catch(failed);
     if (!error) this.rename(name, text);
     tell(one("#notice"), error?.message ?? "");

@@ -35,7 +35,7 @@ const picture = new Picture((place) => {
 const handles = new Handles(one("#picture"), editor);
 const work = new Work(engine, editor);
 const sliders = new Sliders(editor, ({ most, ...control }) => work.ask({ ...control, range: [0, most] }));
-const files = new Files(engine, editor, picture);
+const files = new Files(engine, editor, picture, () => work.clear());
 const answers = new Answers({
   engine,
   editor,
@@ -43,7 +43,8 @@ const answers = new Answers({
   handles,
   show({ numbers, controls, places, has_train, shown }, text) {
     editor.setRules(numbers);
-    sliders.show(controls, text);
+    // A mistake that hides what the text has leaves the sliders where they are.
+    if (shown || controls.length > 0) sliders.show(controls, text);
     work.offer(controls, has_train);
     work.nameNumbers(shown?.verdict);
     picture.places = places;

@@ -4,6 +4,8 @@ import { isNarrow, legendBelow } from "./legend.js";
 
 // The kinds of elements, and what of them the text has as a name: of a joint that is its class.
 const KINDS = { block: "block", joint: "class", support: "support", load: "name" };
+// Marks of more elements than these are pale.
+const MANY = 12;
 const SELECTOR = Object.keys(KINDS).map((kind) => `[data-${kind}]`).join(",");
 
 export class Picture {
@@ -57,9 +59,12 @@ export class Picture {
   mark(line) {
     this.line = line;
     const place = this.places.find((it) => it.first <= line && line <= it.last);
+    let count = 0;
     for (const element of this.svg?.querySelectorAll(SELECTOR) ?? []) {
-      element.classList.toggle("found", place !== undefined && this.placeOf(element) === place);
+      count += element.classList.toggle("found", place !== undefined && this.placeOf(element) === place);
     }
+    // What all bricks of a wall show has to be seen below their marks.
+    this.svg?.classList.toggle("many", count > MANY);
     return place;
   }
 }

@@ -3,6 +3,9 @@ import { stepOf, writtenAs } from "./numbers.js";
 
 // Sliders of what a scene offers, which change the numbers of its text.
 
+// The value of a control in words.
+export const valueOf = ({ value, is_largest: isLargest }) => `${isLargest ? "≤ " : ""}${Number(value.toPrecision(6))}`;
+
 export class Sliders {
   // `onAsk(control)` hears of which control the change of the verdict is asked for.
   constructor(editor, onAsk) {
@@ -26,7 +29,7 @@ export class Sliders {
         input.step = stepOf(Number(input.max), false) / 10;
         input.value = control.value;
       }
-      one("output", row).textContent = Number(control.value.toPrecision(6));
+      one("output", row).textContent = valueOf(control);
     });
     const next = rows.find((row) => row.waiting);
     if (next) this.move(next, one("input", next), next.waiting);

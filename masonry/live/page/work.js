@@ -62,7 +62,16 @@ export class Work {
 
   // Asks at which values of a number the verdict changes.
   ask({ label, edits, value, range, whole = false }) {
-    this.begin("change", "Values tried", { label, edits, value, range, whole });
+    this.begin("change", "Search", { label, edits, value, range, whole });
+  }
+
+  // What was found belongs to another scene.
+  clear() {
+    this.running?.abort();
+    this.running = null;
+    one("#stop").hidden = true;
+    one("#news").textContent = "";
+    one("#found").replaceChildren();
   }
 
   // What was found belongs to an earlier text, and numbers may be in other places.

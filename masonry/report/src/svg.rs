@@ -29,7 +29,7 @@ mod style;
 pub(super) use arrows::Growth;
 pub use bond_lines::ReferenceLines;
 pub(super) use canvas::escape as escaped;
-pub use cracks::cracks;
+pub use cracks::{cracks, cracks_or_none};
 pub use deformed::deformed;
 pub use forces::forces;
 pub(super) use history::train;

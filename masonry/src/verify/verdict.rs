@@ -99,13 +99,16 @@ fn warnings(known: &Findings<'_>, verdict: Verdict, movement: Option<Drift>) -> 
     if known.circulating > 0 && state.is_some() {
         let blocks = "Displacements, stresses and the resultants of joints that do not meet in a corner are \
                       not affected.";
-        let rigid = "One of many sets that balance the loads is shown. Joints that slide while the load grows \
-                     may bring the wall down below the load that these forces carry; `masonry limit` computes that load.";
+        let rigid = format!(
+            "One of many sets that balance the loads is shown. Joints that slide while the load grows may bring the {} \
+             down below the load that these forces carry; `masonry limit` computes that load.",
+            known.structure
+        );
         list.push(format!(
             "Forces at {} of {} contact points are not unique. {}",
             known.circulating,
             known.model.contacts.len(),
-            if known.at_rest { rigid } else { blocks }
+            if known.at_rest { &rigid } else { blocks }
         ));
     }
     list

@@ -98,7 +98,7 @@ fn mistakes_in_a_list_have_their_place_in_it() {
         "line 4, column 9\n  |\n\
          4 |   { \"nam\": \"lintel\", \"material\": \"stone\",\n  \
          |         ^\n\
-         unknown field `nam`, expected one of `name`, `material`, `corners`, `mesh`; did you mean `name`?",
+         unknown field `nam`; did you mean `name`? expected one of `name`, `material`, `corners`, `mesh`",
     );
     assert_message(
         "corner",

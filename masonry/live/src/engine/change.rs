@@ -16,6 +16,10 @@ use super::work::Found;
 
 /// Parts of the range at whose ends values are tried first. Chosen: few enough for a scene that takes seconds.
 const PARTS: i64 = 8;
+/// A range in which the verdict does not change grows to so many times its upper end. Chosen: twice, to 16 times the end.
+const WIDER: i64 = 4;
+/// See [`WIDER`].
+const WIDENINGS: usize = 2;
 /// Values are multiples of the power of ten below this part of the range. Chosen: three digits, more than μ is ever known to.
 const LAST_DIGIT: f64 = 1e-3;
 /// An end of the range that is a multiple itself stays one in spite of rounding errors below this part of the last digit. Chosen:
@@ -169,6 +173,21 @@ impl Search<'_> {
             if !self.solve(multiple, solve, watch)? {
                 return Ok(false);
             }
+        }
+        // More of what is counted would be another structure.
+        for _ in 0..if self.tried.whole { 0 } else { WIDENINGS } {
+            let wider = self.digits.last.saturating_mul(WIDER);
+            if !self.changes().is_empty() || self.digits.last <= 0 {
+                break;
+            }
+            if !self.solve(wider, solve, watch)? {
+                return Ok(false);
+            }
+            if let Some(Answer::Mistake(_)) = self.answers.get(&wider) {
+                self.answers.remove(&wider);
+                break;
+            }
+            self.digits.last = wider;
         }
         while let Some([a, b]) = self.changes().into_iter().find(|[a, b]| b - a > 1) {
             if !self.solve(a + (b - a) / 2, solve, watch)? {

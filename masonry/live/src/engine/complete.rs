@@ -12,6 +12,8 @@ pub(super) struct Completion {
     before: usize,
     /// What may stand in its place.
     entries: Vec<Key>,
+    /// What follows a key of a table.
+    after: &'static str,
 }
 
 /// What fits at the end of a text that is broken off at the cursor; names are taken from the whole text.
@@ -23,6 +25,7 @@ pub(super) fn complete(until: &str, whole: &Text<'_>) -> Completion {
     let (context, word) = line.split_at(before_word.len());
     let mut path = header(above);
     path.extend(braces(context));
+    let mut after = "";
     let entries = match context.trim_end().strip_suffix('=') {
         Some(key) => {
             let key = key.trim_end().rsplit(|c: char| !is_in_word(c) && c != '.').next();
@@ -31,12 +34,17 @@ pub(super) fn complete(until: &str, whole: &Text<'_>) -> Completion {
         }
         // In a comment or a header nothing is a key.
         None if context.contains('#') || context.trim_end().ends_with(['[', '.']) => Vec::new(),
-        None => Schema::keys(&path),
+        None => {
+            // Those of the whole scene may be tables, which have headers of their own.
+            after = if path.is_empty() { "" } else { " = " };
+            Schema::keys(&path)
+        }
     };
     let fits = |entry: &Key| entry.name.starts_with(word) && entry.name != word;
     Completion {
         before: word.encode_utf16().count(),
         entries: entries.into_iter().filter(fits).collect(),
+        after,
     }
 }
 

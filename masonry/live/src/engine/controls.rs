@@ -10,6 +10,8 @@ use super::text::{Number, Text, Value, text_of, value_of};
 pub(super) struct Control {
     label: String,
     value: f64,
+    /// The numbers that it changes differ, of which the value is the largest.
+    is_largest: bool,
     /// The end of the slider; it begins at zero.
     most: f64,
     /// What it changes in the text.
@@ -54,6 +56,7 @@ fn friction(text: &Text<'_>) -> Vec<Control> {
             Some(Control {
                 label: format!("{sign} of {class}"),
                 value: number.value,
+                is_largest: false,
                 most: at_least(most, number.value),
                 edits: vec![Edit::of(number)],
             })
@@ -75,7 +78,8 @@ fn together(classes: &[Control], sign: &str) -> Option<Control> {
     };
     let edits: Vec<Vec<Edit>> = classes.iter().map(edit).collect();
     let label = format!("{sign} of all joints");
-    (classes.len() > 1).then(|| Control { label, value, most, edits: edits.concat() })
+    let is_largest = classes.iter().any(|it| it.value < value);
+    (classes.len() > 1).then(|| Control { label, value, is_largest, most, edits: edits.concat() })
 }
 
 /// A slider for every group of loads, which keeps the ratios of the factors within it.
@@ -94,6 +98,7 @@ fn factors(text: &Text<'_>) -> Vec<Control> {
                 list.push(Control {
                     label,
                     value,
+                    is_largest: false,
                     most: at_least(MOST_FACTOR, value),
                     edits: vec![edit],
                 });
@@ -120,6 +125,7 @@ fn thicknesses(text: &Text<'_>) -> Vec<Control> {
         Some(Control {
             label,
             value: number.value,
+            is_largest: false,
             most: 2.0 * number.value,
             edits: vec![Edit::of(number)],
         })

@@ -263,9 +263,7 @@ impl Solved {
         Some(match show {
             Show::Forces => svg::forces(title, model, contacts),
             Show::Stresses => svg::principal_stresses(title, model, state, self.reference.as_ref()),
-            Show::Cracks => {
-                svg::cracks(title, model, contacts).unwrap_or_else(|| svg::scene(title, model))
-            }
+            Show::Cracks => svg::cracks_or_none(title, model, contacts),
             Show::Deformed => svg::deformed(title, model, state),
             _ => svg::scene(title, model),
         })

@@ -235,8 +235,14 @@ fn all_changes_that_were_seen_are_told_and_none_is_claimed() {
     let sentence = both["sentence"].as_str().unwrap();
     assert!(sentence.starts_with("The verdict changes 2 times with it: falls at -8"), "{sentence}");
     assert!(sentence.contains("; stands at 8, falls at 8.01."), "{sentence}");
-    let none = ask(&change(push, [-4.0, 6.0]));
+    // A range without a change grows upwards until there is one.
+    let wider = ask(&change(push, [-4.0, 6.0]));
+    let sentence = wider["sentence"].as_str().unwrap();
+    assert!(sentence.contains(": stands at 8, falls at 8.01. "), "{sentence}");
+    assert!(sentence.contains(" values from -4 to 24 were tried; "), "{sentence}");
+    let none = ask(&change("mu = ", [0.6, 1.2]));
     let sentence = none["sentence"].as_str().unwrap();
+    assert!(sentence.contains(" values from 0.6 to 19.2 were tried; "), "{sentence}");
     assert!(
         sentence.starts_with("The scene stands at all values of it that were tried."),
         "{sentence}"

@@ -23,9 +23,14 @@ const LEAST_SLIP: f64 = 0.01;
 /// The structure with its open joints, wider ones darker; the legend is in millimetres. Joints that are closed and have
 /// slid have a line of their own colour. `None` if no joint has opened or slid.
 pub fn cracks(title: &str, model: &Model, contacts: &[PointState]) -> Option<String> {
-    let openings = joints::openings(model, contacts);
-    let by = widest(&openings);
-    (!openings.is_empty()).then(|| compared(&Loaded { title, model, contacts }, by))
+    let is_closed = joints::openings(model, contacts).is_empty();
+    (!is_closed).then(|| cracks_or_none(title, model, contacts))
+}
+
+/// The same [`cracks`], or the structure with a note that no joint has opened or slid.
+pub fn cracks_or_none(title: &str, model: &Model, contacts: &[PointState]) -> String {
+    let by = widest(&joints::openings(model, contacts));
+    compared(&Loaded { title, model, contacts }, by)
 }
 
 /// The width \[m\] of the widest crack; zero if all joints are closed.

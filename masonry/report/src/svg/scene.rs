@@ -107,7 +107,7 @@ fn draw_joints(sheet: &mut Sheet, model: &Model) {
                 canvas.circle(frame.at(contact.position), radius, &name);
             }
         });
-        let text = format!("{} joints, {}", class.name, law(&class.law));
+        let text = format!("joints \"{}\", {}", class.name, law(&class.law));
         sheet.legend.add(&text, &lines, |symbol| {
             legend::line(symbol);
             for x in [-22.0, 22.0] {

@@ -44,11 +44,15 @@ pub(super) fn of_interrupted(
 fn of_both(group: &str, associative: &Associative, path: &Path) -> String {
     match (associative.answer, associative.bound, path.load_factor) {
         _ if associative.carries_nothing() => of_associative(group, associative),
-        (Answer::Fails, Some(bound), Some(stands)) if path.decided => format!(
-            "\"{group}\": stands up to {} (path), cannot stand above {} (proved).",
-            at_least(stands),
-            at_most(bound)
-        ),
+        (Answer::Fails, Some(bound), Some(stands)) if path.decided => {
+            let falls = path.falls.filter(|falls| *falls < bound);
+            let falls = falls.map_or_else(String::new, |it| format!(", falls at {}", at_most(it)));
+            format!(
+                "\"{group}\": stands up to {}{falls} (path), cannot stand above {} (proved).",
+                at_least(stands),
+                at_most(bound)
+            )
+        }
         (Answer::Unlimited, _, Some(stands)) if path.falls.is_none() => format!(
             "\"{group}\": stands at every factor that was tried, up to {} (path); forces within friction carry any \
              factor (proved).",

@@ -53,7 +53,11 @@ pub(super) fn with_nearest(message: &str) -> String {
     let hint = message.starts_with("unknown ").then_some(&quoted[..]);
     match hint.and_then(<[&str]>::split_first) {
         Some((given, known)) => match nearest(given, known.iter().copied()) {
-            Some(name) => format!("{message}; did you mean `{name}`?"),
+            Some(name) => {
+                // The list of all keys may be long.
+                let (unknown, expected) = message.split_once(", ").unwrap_or((message, ""));
+                format!("{unknown}; did you mean `{name}`? {expected}")
+            }
             None => message.to_owned(),
         },
         None => message.to_owned(),
