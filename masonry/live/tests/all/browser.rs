@@ -42,6 +42,8 @@ fn a_number_is_dragged_and_the_wall_falls() {
     page.wait(&format!("{SENTENCE}.startsWith('The wall stands')"));
     page.run("window.before = document.querySelector('#picture svg[data-frame]')");
     name_number(&page, "[joints.bed]\nmu = ", "mu");
+    let place = || page.run("return document.getElementById('undo').offsetLeft");
+    let before = place();
     page.drag("#mu", [-120.0, 0.0], 25);
     page.wait(&format!("{SENTENCE}.startsWith('The wall falls')"));
     assert!(text(&page).contains("[joints.bed]\nmu = 0.05\n"), "{}", text(&page));
@@ -51,9 +53,11 @@ fn a_number_is_dragged_and_the_wall_falls() {
         page.run("return window.before === document.querySelector('#picture svg[data-frame]')"),
         true
     );
+    assert_eq!(place(), before, "no button moves below a hand");
     page.click("#undo");
     page.wait(&format!("{SENTENCE}.startsWith('The wall stands')"));
     assert_eq!(text(&page), DOOR, "a drag is undone at once");
+    assert_eq!(place(), before, "nor if the text is that of the file again");
 }
 
 #[test]

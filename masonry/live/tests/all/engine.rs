@@ -160,6 +160,20 @@ fn completion_knows_keys_words_and_names() {
     assert_eq!(offered("[[supports]]\njoint = "), ["\"bed\"", "\"head\""]);
     assert_eq!(offered("[limit]\ngroup = "), ["\"sideways\""]);
     assert_eq!(offered("# a wörd"), Vec::<String>::new());
+    let after = |text: &str| {
+        ask(&json!({ "task": "complete", "text": text, "at": text.len() }))["after"].clone()
+    };
+    assert_eq!(
+        [after("[[walls]]\nbo"), after("th"), after("[[walls]]\nbond = \"r")],
+        [" = ", "", ""]
+    );
+}
+
+#[test]
+fn cracks_of_a_wall_that_has_none_say_so() {
+    let answer = ask(&json!({ "task": "solve", "text": DOOR, "show": "cracks" }));
+    let picture = answer["shown"]["picture"].as_str().unwrap();
+    assert!(picture.contains("no joint has opened or slid"), "{picture}");
 }
 
 #[test]
