@@ -1,5 +1,6 @@
 //! Scenes from text and as text.
 
+use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 use super::drawn::{Drawings, Drawn};
@@ -82,8 +83,15 @@ impl Scene {
     pub(super) fn of(source: &Source) -> Result<Self, SceneError> {
         let mut scene: Self = toml::from_str(source.as_str()).map_err(|error| {
             // An error without a place, such as a missing key of the whole scene, is shown at the top.
-            let place = source.place(error.span().unwrap_or(0..0));
-            SceneError::syntax(error.message(), place, source.path())
+            let span = error.span().unwrap_or(0..0);
+            let mut message = error.message().to_owned();
+            if let Some(line) = unclosed_above(source.as_str(), span.start) {
+                let _ = write!(
+                    message,
+                    "; the list or table in brackets that begins in line {line} may lack its end"
+                );
+            }
+            SceneError::syntax(&message, source.place(span), source.path())
         })?;
         if let Some(list) = source.list() {
             if list.entities.is_some() {
@@ -99,6 +107,29 @@ impl Scene {
         }
         Ok(scene)
     }
+}
+
+/// The line, above that of a place, in which the last bracket opens that is not closed before the place: the parser gives
+/// up where the next bracket opens, which may be many lines below.
+fn unclosed_above(text: &str, place: usize) -> Option<usize> {
+    let mut open = Vec::new();
+    let before = text.get(..place)?;
+    for (row, line) in before.lines().enumerate() {
+        // The mark that ends a string, in which brackets are letters.
+        let mut string = None;
+        for letter in line.chars() {
+            match letter {
+                _ if string.is_some() => string = string.filter(|mark| *mark != letter),
+                '#' => break,
+                '"' | '\'' => string = Some(letter),
+                '[' | '{' => open.push(row + 1),
+                ']' | '}' => drop(open.pop()),
+                _ => {}
+            }
+        }
+    }
+    let rows = 1 + before.matches('\n').count();
+    open.pop().filter(|row| *row < rows)
 }
 
 /// A file with more blocks: a JSON list, or a drawing if `drawings` is given; the error says why it is not read.

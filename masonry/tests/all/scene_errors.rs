@@ -126,6 +126,16 @@ fn the_message_shows_the_line_with_carets() {
     assert!(error.to_string().starts_with(shown), "{error}");
 }
 
+/// The parser gives up at the next bracket, two lines below.
+#[test]
+fn a_list_without_an_end_is_named_by_its_beginning() {
+    let error = error_of("mu = 0.6", "mu = [0.6 # ]");
+    assert_eq!(error.line(), Some(20), "{error}");
+    assert!(error.to_string().contains("that begins in line 18 may lack its end"), "{error}");
+    let error = error_of("mesh = [4, 2]", "mesh = [4 2]");
+    assert!(!error.to_string().contains("may lack its end"), "{error}");
+}
+
 #[test]
 fn text_that_does_not_fit_the_format() {
     for (piece, replacement, marked, words) in [
