@@ -224,3 +224,33 @@ fn weight_and_loads_are_told_apart() {
     let report = table::report(&outcome);
     assert!(report.contains("self weight") && report.contains("applied load"), "{report}");
 }
+
+/// A bar between two faces that lean outwards: the forces of least size are on the edges of their cones, and a prestress of the
+/// faces adds to them.
+#[test]
+fn forces_on_the_edges_of_their_cones_are_not_unique_at_rest() {
+    let scene = Scene::from_toml(
+        r#"
+title = "Bar between two faces"
+thickness = 1.0
+gravity = [0.0, -9.81]
+units = { length = "m", force = "kN" }
+materials.stone = { density = 1000.0 }
+joints.face = { mu = 0.84 }
+blocks = [{ name = "bar", material = "stone", corners = [[-1.2, 0.0], [1.2, 0.0], [1.1, 0.8], [-1.1, 0.8]] }]
+supports = [
+  { name = "left", from = [-1.2, 0.0], to = [-1.1, 0.8], joint = "face" },
+  { name = "right", from = [1.1, 0.8], to = [1.2, 0.0], joint = "face" },
+]
+"#,
+    )
+    .unwrap();
+    let outcome = solve(&scene).unwrap();
+    let contacts = &outcome.state.as_ref().unwrap().contacts;
+    assert!(contacts.iter().all(|it| (it.t_t.abs() - 0.84 * it.t_n).abs() < 1e-9 * it.t_n));
+    let warnings = &outcome.judgement.warnings;
+    assert!(
+        warnings.iter().any(|it| it.starts_with("Forces at 4 of 4 contact points are not unique")),
+        "{warnings:?}"
+    );
+}

@@ -423,7 +423,7 @@ impl Run {
         let build = || Sparse::new(&self.system).ok();
         let circulating = step.state.as_ref().and_then(|state| {
             let sparse = self.sparse.or_else(build)?;
-            Some(verdict::circulating(&model, &sparse.problem, state))
+            Some(verdict::circulating(&model, &sparse.problem, state, self.system.is_at_rest()))
         });
         let judgement = Judgement::of(&Findings {
             structure: self.structure,

@@ -18,11 +18,18 @@ const CIRCULATES: f64 = 1e-3;
 
 /// How many contact points have forces that are not unique.
 ///
-/// A force may change along both directions inside its cone, along the edge if it slides, and not at all if it is zero.
+/// A force may change along both directions inside its cone, along the edge if it slides, and not at all if it is zero. Of
+/// blocks at rest no point slides: a force on the edge of its cone, as those of least size often are, may leave it inwards.
 /// The part `d - B^T (B B^T)^-1 B d` of such changes `d` of order one has no effect on the blocks; `B` maps changes to
 /// forces on displacements.
-pub(crate) fn circulating(model: &Model, problem: &Contact2d, state: &State) -> usize {
-    let Some(Changes { points, effects }) = changes(model, problem, state) else { return 0 };
+pub(crate) fn circulating(
+    model: &Model,
+    problem: &Contact2d,
+    state: &State,
+    at_rest: bool,
+) -> usize {
+    let changes = changes(model, problem, state, at_rest);
+    let Some(Changes { points, effects }) = changes else { return 0 };
     let Some(unfelt) = unfelt(effects.as_ref()) else { return 0 };
     let circulating = points.iter().zip(&unfelt).filter(|(_, unfelt)| unfelt.abs() > CIRCULATES);
     let mut points: Vec<usize> = circulating.map(|(point, _)| *point).collect();
@@ -38,7 +45,7 @@ struct Changes {
 }
 
 /// The forces that may change, and the effects of their changes on the balance; `None` if memory does not suffice.
-fn changes(model: &Model, problem: &Contact2d, state: &State) -> Option<Changes> {
+fn changes(model: &Model, problem: &Contact2d, state: &State, at_rest: bool) -> Option<Changes> {
     let contacts = || model.contacts.iter().zip(&state.contacts);
     // How far a force is from opening the joint.
     let pressed = |(point, force): (&JointPoint, &PointState)| force.t_n + point.law.tension;
@@ -54,7 +61,8 @@ fn changes(model: &Model, problem: &Contact2d, state: &State) -> Option<Changes>
             continue;
         }
         points.push(point);
-        if t_t.abs() < (1.0 - NONE) * law.bound(t_n) {
+        let bound = law.bound(t_n);
+        if bound > 0.0 && (at_rest || t_t.abs() < (1.0 - NONE) * bound) {
             points.push(point);
             effects.push(column(normals, point));
             effects.push(column(tangents, point));
