@@ -27,7 +27,7 @@ pub struct Interior<'a> {
     pub mass: &'a [f64],
     /// How far blocks may move \[m\].
     pub reach: f64,
-    /// Where the path begins.
+    /// States of the contacts that are tried before the path.
     pub start: &'a WarmStart,
 }
 

@@ -3,6 +3,8 @@
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
+use toml::de::DeTable;
+
 use super::drawn::{Drawings, Drawn};
 use super::source::{List, Source};
 use super::{Fault, KeyPath, Scene, SceneError, SceneErrorKind, block_list};
@@ -110,8 +112,9 @@ impl Scene {
 }
 
 /// The line, above that of a place, in which the last bracket opens that is not closed before the place: the parser gives
-/// up where the next bracket opens, which may be many lines below.
+/// up where the next bracket opens, which may be many lines below. `None` if all of the text is TOML.
 fn unclosed_above(text: &str, place: usize) -> Option<usize> {
+    DeTable::parse(text).err()?;
     let mut open = Vec::new();
     let before = text.get(..place)?;
     for (row, line) in before.lines().enumerate() {

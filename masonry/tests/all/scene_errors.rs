@@ -132,8 +132,14 @@ fn a_list_without_an_end_is_named_by_its_beginning() {
     let error = error_of("mu = 0.6", "mu = [0.6 # ]");
     assert_eq!(error.line(), Some(20), "{error}");
     assert!(error.to_string().contains("that begins in line 18 may lack its end"), "{error}");
-    let error = error_of("mesh = [4, 2]", "mesh = [4 2]");
-    assert!(!error.to_string().contains("may lack its end"), "{error}");
+    // A comma is missing in the same line; a key is wrong within a list that has an end.
+    for (piece, replacement) in [
+        ("mesh = [4, 2]", "mesh = [4 2]"),
+        ("courses = 3", "courses = 3\nopenings = [\n  { widht = 0.2 },\n]"),
+    ] {
+        let error = error_of(piece, replacement);
+        assert!(!error.to_string().contains("may lack its end"), "{error}");
+    }
 }
 
 #[test]

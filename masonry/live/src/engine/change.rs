@@ -175,15 +175,16 @@ impl Search<'_> {
             }
         }
         // More of what is counted would be another structure.
-        for _ in 0..if self.tried.whole { 0 } else { WIDENINGS } {
-            let wider = self.digits.last.saturating_mul(WIDER);
+        let widenings = if self.tried.whole { 0 } else { WIDENINGS };
+        for _ in 0..widenings {
             if !self.changes().is_empty() || self.digits.last <= 0 {
                 break;
             }
+            let wider = self.digits.last.saturating_mul(WIDER);
             if !self.solve(wider, solve, watch)? {
                 return Ok(false);
             }
-            if let Some(Answer::Mistake(_)) = self.answers.get(&wider) {
+            if matches!(self.answers[&wider], Answer::Mistake(_)) {
                 self.answers.remove(&wider);
                 break;
             }

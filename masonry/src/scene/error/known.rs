@@ -53,11 +53,8 @@ pub(super) fn with_nearest(message: &str) -> String {
     let hint = message.starts_with("unknown ").then_some(&quoted[..]);
     match hint.and_then(<[&str]>::split_first) {
         Some((given, known)) => match nearest(given, known.iter().copied()) {
-            Some(name) => {
-                // The list of all keys may be long.
-                let (unknown, expected) = message.split_once(", ").unwrap_or((message, ""));
-                format!("{unknown}; did you mean `{name}`? {expected}")
-            }
+            // First, since the list of all keys may be long.
+            Some(name) => message.replacen(", ", &format!("; did you mean `{name}`? "), 1),
             None => message.to_owned(),
         },
         None => message.to_owned(),
