@@ -28,12 +28,12 @@ pub(super) struct Classes {
     /// Classes of the lintels of the openings of the walls.
     of_lintels: Vec<Vec<Option<usize>>>,
     /// The place of every block of a wall or an arch.
-    parts: Vec<Part>,
+    places: Vec<BlockPlace>,
 }
 
 /// The place of a block in a wall or an arch.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct Part {
+pub(super) struct BlockPlace {
     /// The wall, or the arch, counted after the walls.
     pub(super) wall: usize,
     /// The ring of a voussoir.
@@ -52,7 +52,7 @@ impl Classes {
     pub(super) fn of(
         scene: &Scene,
         blocks: &[PlacedBlock],
-        parts: Vec<Part>,
+        places: Vec<BlockPlace>,
     ) -> Result<Self, Fault> {
         let mut list: Vec<JointClass> =
             scene.joints.iter().map(|(name, joint)| joint_class(scene, name, joint)).collect();
@@ -97,7 +97,7 @@ impl Classes {
             of_pairs,
             of_rings,
             of_lintels,
-            parts,
+            places,
         })
     }
 
@@ -115,7 +115,7 @@ impl Classes {
         if let Some(class) = self.of_pair(a, b) {
             return class;
         }
-        if let Some(class) = self.of_parts(a, b) {
+        if let Some(class) = self.of_places(a, b) {
             return class;
         }
         let wall = self.wall_of(a).filter(|wall| self.wall_of(b) == Some(*wall));
@@ -137,19 +137,19 @@ impl Classes {
     }
 
     /// The class of a joint between two rings of an arch, or beside a lintel.
-    fn of_parts(&self, a: BlockId, b: BlockId) -> Option<usize> {
-        let [a, b] = [a, b].map(|block| self.parts.get(block.index()));
+    fn of_places(&self, a: BlockId, b: BlockId) -> Option<usize> {
+        let [a, b] = [a, b].map(|block| self.places.get(block.index()));
         let (a, b) = a.zip(b).filter(|(a, b)| a.wall == b.wall)?;
         if let (Some(one), Some(other)) = (a.ring, b.ring) {
             let arch = a.wall - self.of_lintels.len();
             return self.of_rings[arch].filter(|_| one != other);
         }
-        let of_lintel = |part: &Part| self.of_lintels.get(part.wall)?[part.lintel?];
+        let of_lintel = |part: &BlockPlace| self.of_lintels.get(part.wall)?[part.lintel?];
         of_lintel(a).or_else(|| of_lintel(b))
     }
 
     fn wall_of(&self, block: BlockId) -> Option<usize> {
-        self.parts.get(block.index()).map(|part| part.wall)
+        self.places.get(block.index()).map(|place| place.wall)
     }
 
     /// The classes of a model with these joints.

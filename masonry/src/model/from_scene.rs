@@ -2,7 +2,7 @@
 
 use nalgebra::Vector2;
 
-use super::classes::{Classes, Part};
+use super::classes::{BlockPlace, Classes};
 use super::{
     Healed, JointClass, JointPoint, Model, Movement, PlacedBlock, PlacedJoint, PlacedSupport,
     Plane, heal, place_loads, placement,
@@ -39,14 +39,14 @@ impl Model {
 fn build(scene: &Scene) -> Result<Model, Fault> {
     let units = scene.units;
     let thickness = scene.thickness.unwrap_or(1.0) * units.length_to_si();
-    let Laid { mut blocks, keys, parts } = lay_blocks(scene)?;
+    let Laid { mut blocks, keys, places } = lay_blocks(scene)?;
     let supports: Vec<PlacedSupport> =
         scene.all_supports().iter().map(|s| support(s, units)).collect();
     let mut healed = heal_corners(scene, &mut blocks, &keys, &supports)?;
     placement::check_supports(&blocks, &supports, units)?;
     placement::check_movements(scene, &blocks)?;
 
-    let classes = Classes::of(scene, &blocks, parts)?;
+    let classes = Classes::of(scene, &blocks, places)?;
     let found = find_joints(scene, &blocks, &supports, classes, thickness)?;
     placement::check_touching(&blocks, &keys, &supports, &found.joints)?;
     placement::check_overlapping_supports(&blocks, &supports, &found.joints, units)?;
@@ -127,11 +127,11 @@ struct Laid {
     /// The key of the scene that describes each.
     keys: Vec<KeyPath>,
     /// The place of every brick and voussoir; single blocks come after all of these.
-    parts: Vec<Part>,
+    places: Vec<BlockPlace>,
 }
 
 fn lay_blocks(scene: &Scene) -> Result<Laid, Fault> {
-    let (mut blocks, mut keys, mut parts) = (Vec::new(), Vec::new(), Vec::new());
+    let (mut blocks, mut keys, mut places) = (Vec::new(), Vec::new(), Vec::new());
     let counts = |mesh: Option<[u32; 2]>| mesh.map(|counts| counts.map(|n| n as usize));
     for (k, wall) in scene.walls.iter().enumerate() {
         for brick in bond::bricks_in_mortar(wall, JointThickness::of(scene, wall)) {
@@ -141,7 +141,7 @@ fn lay_blocks(scene: &Scene) -> Result<Laid, Fault> {
             let material = lintel.and_then(|it| it.material.as_ref()).unwrap_or(&wall.material);
             blocks.push(block(scene, brick.name(wall), material, &corners, mesh));
             keys.push(KeyPath::of("walls").item(k).key("courses"));
-            parts.push(Part { wall: k, ring: None, lintel: brick.lintel });
+            places.push(BlockPlace { wall: k, ring: None, lintel: brick.lintel });
         }
         for (index, opening) in wall.openings.iter().enumerate() {
             let at = KeyPath::of("walls").item(k).key("openings").item(index).key("lintel");
@@ -152,7 +152,7 @@ fn lay_blocks(scene: &Scene) -> Result<Laid, Fault> {
                 let material = material.unwrap_or(&wall.material);
                 blocks.push(block(scene, name, material, corners, counts(wall.mesh)));
                 keys.push(at.clone());
-                parts.push(Part { wall: k, ring: None, lintel: Some(index) });
+                places.push(BlockPlace { wall: k, ring: None, lintel: Some(index) });
             }
         }
     }
@@ -161,7 +161,7 @@ fn lay_blocks(scene: &Scene) -> Result<Laid, Fault> {
         for NamedBlock { name, corners, ring } in scene::arch::blocks(arch, &at)? {
             blocks.push(block(scene, name, &arch.material, &corners, counts(arch.mesh)));
             keys.push(at.clone());
-            parts.push(Part { wall: scene.walls.len() + k, ring, lintel: None });
+            places.push(BlockPlace { wall: scene.walls.len() + k, ring, lintel: None });
         }
     }
     for (k, it) in scene.blocks.iter().enumerate() {
@@ -170,7 +170,7 @@ fn lay_blocks(scene: &Scene) -> Result<Laid, Fault> {
     }
     check_shapes(&blocks, &keys)?;
     placement::check_names(&blocks, &keys)?;
-    Ok(Laid { blocks, keys, parts })
+    Ok(Laid { blocks, keys, places })
 }
 
 fn block(

@@ -124,7 +124,7 @@ struct Drawing {
 }
 
 /// A place has to be on the line through two others.
-struct Row {
+struct Collinear {
     place: usize,
     ends: [usize; 2],
 }
@@ -155,13 +155,13 @@ impl Drawing {
 
     /// Moves all that is near each other together, to first order; how far it was apart \[m\]. `None` if memory does not suffice.
     fn step(&mut self) -> Option<f64> {
-        let Meetings { mut joined, beside } = self.meetings();
+        let Neighbours { mut joined, beside } = self.neighbours();
         let places: Vec<usize> = (0..self.points.len()).map(|it| joined.root(it)).collect();
         let (weights, gathered) = self.gather(&places);
         let on_lines = beside.into_iter().map(|it| it.into_iter().map(|it| places[it]).collect());
         let on_lines = on_lines.filter(|it: &BTreeSet<usize>| it.len() > 2).collect();
         let lines = self.one_line_each(on_lines);
-        let rows: Vec<Row> = lines.into_iter().flat_map(|line| self.rows(line)).collect();
+        let rows: Vec<Collinear> = lines.into_iter().flat_map(|line| self.rows(line)).collect();
         let apart = self.straighten(&rows, &weights)?;
         for k in self.free.clone() {
             self.points[k] = self.points[places[k]];
@@ -170,7 +170,7 @@ impl Drawing {
     }
 
     /// All corners that meet others, and for every edge its ends and the points on it.
-    fn meetings(&self) -> Meetings {
+    fn neighbours(&self) -> Neighbours {
         let mut joined = Joined((0..self.points.len()).collect());
         let mut beside = vec![BTreeSet::new(); self.points.len()];
         for [a, b] in self.pairs.iter().flat_map(|[a, b]| [[*a, *b], [*b, *a]]) {
@@ -199,7 +199,7 @@ impl Drawing {
                 }
             }
         }
-        Meetings { joined, beside }
+        Neighbours { joined, beside }
     }
 
     /// Moves the first corner of every place to the middle of all, if it may move; the number of corners of each place, and how far
@@ -250,11 +250,11 @@ impl Drawing {
     }
 
     /// The conditions that put the places of a line onto one.
-    fn rows(&self, line: BTreeSet<usize>) -> Vec<Row> {
+    fn rows(&self, line: BTreeSet<usize>) -> Vec<Collinear> {
         let (free, fixed): (Vec<_>, Vec<_>) =
             line.iter().copied().partition(|it| self.free.contains(it));
         if let [from, .., to] = self.along(fixed)[..] {
-            return free.into_iter().map(|place| Row { place, ends: [from, to] }).collect();
+            return free.into_iter().map(|place| Collinear { place, ends: [from, to] }).collect();
         }
         let mut rows = Vec::new();
         halve(&self.along(line.into_iter().collect()), &mut rows);
@@ -272,10 +272,10 @@ impl Drawing {
     }
 
     /// The least movements of places for which all conditions hold, to first order; how far they were from that \[m\].
-    fn straighten(&mut self, rows: &[Row], weights: &[f64]) -> Option<f64> {
+    fn straighten(&mut self, rows: &[Collinear], weights: &[f64]) -> Option<f64> {
         let (mut entries, mut apart) = (Vec::new(), Vec::with_capacity(rows.len()));
         let mut columns = BTreeMap::new();
-        for (row, Row { place, ends: [from, to] }) in rows.iter().enumerate() {
+        for (row, Collinear { place, ends: [from, to] }) in rows.iter().enumerate() {
             let [point, start, end] = [place, from, to].map(|it| self.points[*it]);
             let along = end - start;
             let normal = geometry::turn_right(along) / along.norm();
@@ -318,7 +318,7 @@ impl Drawing {
 }
 
 /// What is near each other.
-struct Meetings {
+struct Neighbours {
     joined: Joined,
     beside: Vec<BTreeSet<usize>>,
 }
@@ -350,10 +350,10 @@ fn nearest(body: &Range<usize>, distance: impl Fn(usize) -> f64, reach: f64) -> 
 }
 
 /// The middle place is on the line between the first and the last one, and so on in both halves.
-fn halve(places: &[usize], rows: &mut Vec<Row>) {
+fn halve(places: &[usize], rows: &mut Vec<Collinear>) {
     if let [from, _, .., to] = *places {
         let middle = places.len() / 2;
-        rows.push(Row { place: places[middle], ends: [from, to] });
+        rows.push(Collinear { place: places[middle], ends: [from, to] });
         halve(&places[..=middle], rows);
         halve(&places[middle..], rows);
     }

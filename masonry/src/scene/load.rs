@@ -71,7 +71,7 @@ pub struct Load {
     /// along gravity, times the factor of the load; factors of stages and limit loads do not change it.
     /// Earth and water have none unless it is given.
     #[serde(default, deserialize_with = "strict::part")]
-    #[cfg_attr(test, schemars(with = "Option<Part>"))]
+    #[cfg_attr(test, schemars(with = "Option<AllOrPart>"))]
     pub mass: Option<f64>,
 }
 
@@ -80,7 +80,7 @@ pub struct Load {
 #[derive(schemars::JsonSchema)]
 #[serde(untagged)]
 #[allow(dead_code, reason = "it describes what is read")]
-enum Part {
+enum AllOrPart {
     All(bool),
     Of(f64),
 }

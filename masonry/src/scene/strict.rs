@@ -123,20 +123,20 @@ impl<'de, T: Strict<'de>> Visitor<'de> for PairVisitor<T> {
 
 /// A fraction from 0 to 1, of which `true` is 1 and `false` 0.
 pub(super) fn part<'de, D: Deserializer<'de>>(from: D) -> Result<Option<f64>, D::Error> {
-    Ok(Option::<Part>::deserialize(from)?.map(|Part(part)| part))
+    Ok(Option::<Fraction>::deserialize(from)?.map(|Fraction(part)| part))
 }
 
-struct Part(f64);
+struct Fraction(f64);
 
-impl<'de> Deserialize<'de> for Part {
+impl<'de> Deserialize<'de> for Fraction {
     fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
-        from.deserialize_any(PartVisitor).map(Self)
+        from.deserialize_any(FractionVisitor).map(Self)
     }
 }
 
-struct PartVisitor;
+struct FractionVisitor;
 
-impl Visitor<'_> for PartVisitor {
+impl Visitor<'_> for FractionVisitor {
     type Value = f64;
 
     fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -162,20 +162,20 @@ impl Visitor<'_> for PartVisitor {
 
 /// Elements along two directions; one number is both.
 pub(super) fn mesh<'de, D: Deserializer<'de>>(from: D) -> Result<Option<[u32; 2]>, D::Error> {
-    Ok(Option::<Elements>::deserialize(from)?.map(|Elements(counts)| counts))
+    Ok(Option::<MeshCounts>::deserialize(from)?.map(|MeshCounts(counts)| counts))
 }
 
-struct Elements([u32; 2]);
+struct MeshCounts([u32; 2]);
 
-impl<'de> Deserialize<'de> for Elements {
+impl<'de> Deserialize<'de> for MeshCounts {
     fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
-        from.deserialize_any(ElementsVisitor).map(Self)
+        from.deserialize_any(MeshCountsVisitor).map(Self)
     }
 }
 
-struct ElementsVisitor;
+struct MeshCountsVisitor;
 
-impl<'de> Visitor<'de> for ElementsVisitor {
+impl<'de> Visitor<'de> for MeshCountsVisitor {
     type Value = [u32; 2];
 
     fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
