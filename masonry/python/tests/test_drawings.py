@@ -52,6 +52,28 @@ def test_an_arch_stands_from_the_thickness_of_milankovitch():
     assert standing(0.109, turn=0.7) == "stands"
 
 
+#: Semicircular arches of compas_cra 0.8.0 (`Arch(height=5, span=10, depth=0.5, extra_support=True)`, mu = 0.7, density 1): number of
+#: voussoirs, thickness, and the normal force at a springing that `cra_solve` found, or None if it ended as infeasible.
+COMPAS_CRA = [
+    (20, 0.50, None), (20, 0.55, None), (20, 0.56, None), (20, 0.57, 2.3563), (20, 0.60, 2.4873), (20, 0.70, 2.9292),
+    (40, 0.60, 2.4950), (40, 0.80, 3.3894),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("count", "thickness", "springing"), COMPAS_CRA)
+def test_arches_of_compas_cra_have_its_answers(count, thickness, springing):
+    radius = 5.0 + 0.5 * thickness
+    bodies = [(radius * points, faces) for points, faces in voussoirs(thickness / radius, count)]
+    scene = masonry.from_compas(bodies, mu=0.7, density=1000).scene
+    outcome = scene.solve()
+    assert outcome.verdict == ("falls" if springing is None else "stands")
+    if springing is not None:
+        # The depth of the bodies grew with the radius, and a unit of weight is 9.81 kN.
+        points = outcome.contacts[outcome.contacts["a"] == "floor"]
+        first = points["b"] == "block 0"
+        assert points["t_n_kN"][first].sum() == pytest.approx(9.81 * radius * springing, rel=2e-4)
+
+
 def test_supports_names_and_depth_come_from_the_bodies():
     square = [[0, 0], [1, 0], [1, 1], [0, 1]]
     base = Body(prism(square), PRISM, "base", is_support=True)
