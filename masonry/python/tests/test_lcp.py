@@ -80,6 +80,30 @@ def test_certificates_hold_where_a_linear_program_finds_none():
     assert proved >= 10
 
 
+def test_verdicts_are_those_of_a_mixed_integer_program():
+    # z <= U b and w <= U (1 - b) with b of 0 or 1 are the choices of sides. A solution at a vertex is below U by Cramer's rule.
+    rng = np.random.default_rng(11)
+    n, U = 3, 200.0
+    eye = np.eye(n)
+    choice = scipy.optimize.LinearConstraint(np.hstack([eye, -U * eye]), ub=0.0)
+    counts = dict.fromkeys(("Solved", "Infeasible", "NoSolution"), 0)
+    for _ in range(150):
+        M = rng.integers(-2, 3, (n, n)).astype(float)
+        q = rng.integers(-2, 2, n).astype(float)
+        answer = lcp.solve(M, q)
+        w = scipy.optimize.LinearConstraint(np.hstack([M, 0 * eye]), lb=-q)
+        other = scipy.optimize.LinearConstraint(np.hstack([M, U * eye]), ub=U - q)
+        sides = scipy.optimize.milp(
+            np.zeros(2 * n),
+            integrality=np.repeat([0, 1], n),
+            bounds=scipy.optimize.Bounds(0, np.repeat([U, 1], n)),
+            constraints=[choice, w, other],
+        )
+        assert sides.status == (0 if answer.status == "Solved" else 2), (M, q, answer.status)
+        counts[answer.status] += 1
+    assert min(counts.values()) >= 5, counts
+
+
 def test_a_game_has_the_equilibrium_of_its_matrix():
     # Matching pennies: both play half and half.
     a = np.array([[2.0, 1.0], [1.0, 2.0]])
