@@ -1,11 +1,11 @@
-//! The data that modules pass to one another: plain, built on numbers of parts alone.
+//! Plain data that modules pass to one another, built on numbers of parts alone.
 //!
 //! | module | content |
 //! |---|---|
 //! | [`route`] | the routes to a solution |
-//! | [`info`] | how a state was found: work, routes and times |
+//! | [`info`] | records of a solve: work, routes and times |
 //! | [`state`] | displacements, contact forces, stresses, reactions |
-//! | [`statics`] | admissible forces, or the proof that there are none |
+//! | [`statics`] | admissible forces, or the proof that there are no such forces |
 //! | [`motion`] | motions of a structure that has no equilibrium |
 //! | [`verdict`] | whether a wall stands, with the evidence |
 //!

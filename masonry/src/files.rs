@@ -5,7 +5,7 @@ use std::io::Read;
 use std::path::Path;
 use std::{fs, io};
 
-/// Writes a file beside its place and moves it there, so that nobody finds a part of it.
+/// Writes a file beside its place and moves it there, so that no reader finds a part of the file.
 pub fn write_atomically(path: &Path, bytes: &[u8]) -> io::Result<()> {
     let mut temporary = OsString::from(path);
     temporary.push(format!(".{}.tmp", std::process::id()));
@@ -20,9 +20,9 @@ pub fn write_atomically(path: &Path, bytes: &[u8]) -> io::Result<()> {
 /// Reads a file of at most `largest` bytes. Devices and pipes, which may have no end or never begin, are refused.
 ///
 /// # Errors
-/// The message of the operating system, or that the file is none or too large.
+/// The message of the operating system, or that the path is not a file or the file is too large.
 pub fn read_bounded(path: &Path, largest: usize) -> io::Result<Vec<u8>> {
-    // A pipe must not even be opened: that waits for a writer.
+    // A pipe must not even be opened, since opening waits for a writer.
     let metadata = fs::metadata(path)?;
     if metadata.is_dir() {
         return Err(io::ErrorKind::IsADirectory.into());

@@ -13,7 +13,8 @@ pub(crate) use extent::Extent;
 pub use overlap::{SegmentOverlap, facing_normal, facing_overlap, length_inside, overlap_area};
 pub use shape::{PolygonError, check_convex, check_simple, edge_behind_centroid, without_straight};
 
-/// Lengths below this part of those around them are rounding errors: places that are as near to each other are one.
+/// Lengths below this part of the lengths around them are rounding errors: places as near to each other as this are
+/// one.
 pub(crate) const SAME_PLACE: f64 = 1e-9;
 
 /// Corners of a quadrilateral, counter-clockwise.
@@ -36,8 +37,8 @@ pub fn centroid(polygon: &[Point2<f64>]) -> Point2<f64> {
     polygon[0] + moment / (3.0 * twice)
 }
 
-/// The sides of the triangles that corner 0 makes with the edges. Relative to it a small block far from the origin loses
-/// no digits.
+/// The sides of the triangles that corner 0 makes with the edges. Vectors from corner 0 lose no digits of a small block
+/// far from the origin.
 fn fan(polygon: &[Point2<f64>]) -> impl Iterator<Item = [Vector2<f64>; 2]> {
     let pairs = polygon.get(1..).unwrap_or_default().windows(2);
     pairs.map(|pair| [pair[0] - polygon[0], pair[1] - polygon[0]])
@@ -78,16 +79,16 @@ pub(crate) fn snap(fraction: f64) -> f64 {
     }
 }
 
-/// The coordinates `[r, s]` of a point of a strictly convex quadrilateral: the place to which the bilinear map takes
-/// them, `r` along edge 0 and `s` along edge 3 from its end, both in 0..=1 for a point inside.
+/// The coordinates `[r, s]` that the bilinear map takes to a point of a strictly convex quadrilateral, `r` along edge 0
+/// and `s` along edge 3 from its end, both in 0..=1 for a point inside.
 pub fn reference(quad: &Quad, point: Point2<f64>) -> [f64; 2] {
-    // With h = e r + f s + g r s the cross product of h - f s and e + g s is zero: a quadratic equation in s. The map
-    // keeps its orientation inside, where the left side increases with s, so that the root is the larger one.
+    // The cross product of h - f s and e + g s is zero for h = e r + f s + g r s: a quadratic equation in s. The map
+    // keeps its orientation inside, and the left side increases with s there, so that the root is the larger one.
     let [e, f, h] = [quad[1] - quad[0], quad[3] - quad[0], point - quad[0]];
     let g = (quad[2] - quad[3]) - e;
     let (square, linear, constant) = (cross(g, f), cross(e, f) + cross(h, g), cross(h, e));
     let root = (linear * linear - 4.0 * constant * square).max(0.0).sqrt();
-    // The form of the root without a difference of like numbers.
+    // The form of the root without a difference of similar numbers.
     let s = if linear >= 0.0 {
         -2.0 * constant / (linear + root)
     } else {
@@ -137,7 +138,7 @@ pub fn outward_normal(polygon: &[Point2<f64>], k: usize) -> Vector2<f64> {
     turn_right((q - p).normalize())
 }
 
-/// Half the angle at its centre of an arc of a circle that rises so far over a span \[rad\].
+/// Half the central angle \[rad\] of an arc of a circle with this rise over a span.
 pub(crate) fn half_angle(rise: f64, span: f64) -> f64 {
     2.0 * (2.0 * rise / span).atan()
 }
@@ -162,7 +163,7 @@ pub fn polar_moment(polygon: &[Point2<f64>]) -> f64 {
     (0..polygon.len()).map(of_triangle).sum()
 }
 
-/// The parts of an interval outside of others; what is shorter than 1e-9 is left out.
+/// The parts of an interval outside of others; parts shorter than 1e-9 are left out.
 pub fn without(whole: [f64; 2], others: &[[f64; 2]]) -> Vec<[f64; 2]> {
     let mut left = vec![whole];
     for [from, to] in others {

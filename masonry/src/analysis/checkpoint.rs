@@ -20,7 +20,7 @@ const VERSION: u32 = 5;
 /// The text between the data and their checksum.
 const SEAL: &str = ",\"checksum\":\"";
 
-/// Why a checkpoint cannot be used.
+/// The reasons for which a checkpoint cannot be used.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum CheckpointError {
@@ -40,7 +40,7 @@ pub enum CheckpointError {
         /// The message of the system.
         source: std::io::Error,
     },
-    /// The text is no checkpoint.
+    /// The text is not a checkpoint.
     #[error(
         "{}, line {}, column {}: this is no checkpoint: {source}; solve from the first step",
         path.display(), source.line(), source.column()
@@ -57,7 +57,7 @@ pub enum CheckpointError {
         /// The file.
         path: PathBuf,
     },
-    /// It was written by another version of this program.
+    /// The file was written by another version of this program.
     #[error(
         "the checkpoint has format {found}, and this program reads {VERSION}: solve from the first step"
     )]
@@ -65,24 +65,24 @@ pub enum CheckpointError {
         /// The version of the file.
         found: u32,
     },
-    /// It belongs to another scene.
+    /// The checkpoint belongs to another scene.
     #[error(
         "the checkpoint belongs to another scene: only stages that are still to come, the solver and \
          the output may change; solve from the first step"
     )]
     OtherScene,
-    /// It belongs to other steps.
+    /// The checkpoint belongs to other steps.
     #[error(
         "the checkpoint has another step {step} of stage \"{stage}\" than the scene: stages that are \
          done must stay as they were; solve from the first step"
     )]
     OtherSteps {
-        /// The stage.
+        /// Name of the stage.
         stage: String,
-        /// The step in it, from 1.
+        /// Number of the step in the stage, from 1.
         step: usize,
     },
-    /// The scene has one step.
+    /// The scene has one step only.
     #[error("the scene has one step, so a checkpoint is of no use: solve without one")]
     OneStep,
     /// A number is not finite, or forces and displacements are not those of an equilibrium.
@@ -90,16 +90,16 @@ pub enum CheckpointError {
         "the state in the checkpoint is no equilibrium of the scene: solve from the first step"
     )]
     NoEquilibrium,
-    /// Lists of wrong lengths.
+    /// A list has a wrong length.
     #[error(
         "the checkpoint has {found} {what} and the scene has {wanted}: solve from the first step"
     )]
     Size {
         /// The name of the list that is too long or too short.
         what: String,
-        /// How many the checkpoint has.
+        /// The number of entries in the checkpoint.
         found: usize,
-        /// How many the scene has.
+        /// The number of entries that the scene needs.
         wanted: usize,
     },
 }
@@ -113,14 +113,15 @@ pub struct Checkpoint {
     pub(crate) origin: String,
     /// The results of the steps.
     pub records: Vec<StepRecord>,
-    /// How the last step was solved, without times: the file does not depend on the machine.
+    /// The record of the last solve, without times, so that the file does not depend on the machine.
     pub(crate) solve: SolveInfo,
     displacements: Vec<Vec<[f64; 2]>>,
     contacts: Vec<PointState>,
-    /// How far every contact point had slid where the slips of the last step are measured from \[m\].
+    /// The slip \[m\] of every contact point at the state from which the slips of the last step are measured.
     slips: Vec<f64>,
     strain_energy: f64,
-    /// The side of every pair that is basic, `t` or `y`, where pivots end: the next step starts there.
+    /// The basic side of every pair, `t` or `y`, after the last pivot: the basis from which the next step
+    /// starts.
     basis: Option<String>,
 }
 
@@ -158,7 +159,7 @@ impl Checkpoint {
         }
     }
 
-    /// How far every contact point had slid where the slips of the last step are measured from.
+    /// The slip of every contact point at the state from which the slips of the last step are measured.
     ///
     /// # Errors
     /// [`CheckpointError::Size`] or [`CheckpointError::NoEquilibrium`].

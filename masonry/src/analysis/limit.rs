@@ -1,9 +1,9 @@
 //! Limit analysis: the factor of a group of loads at which a structure fails.
 //!
-//! Loads that are not of the group act in full, and the stages of the scene are not looked at. There are two laws of
-//! friction. With associated flow blocks are rigid, which changes no limit load, and gaps are taken for closed; the answer is
-//! proved, and an upper bound for Coulomb's friction. With Coulomb's friction a path of states at rest is followed
-//! ([`Path`]), on blocks and gaps as they are. A group of accelerations has a [seismic check](SeismicCheck).
+//! Loads outside the group act in full, and the stages of the scene are ignored. There are two laws of friction. Blocks
+//! are rigid under associated flow, which changes no limit load, and gaps count as closed; the answer is proved, and is
+//! an upper bound for Coulomb's friction. A path of states at rest is followed under Coulomb's friction ([`Path`]), on
+//! blocks and gaps as they are. A group of accelerations has a [seismic check](SeismicCheck).
 //!
 //! ```
 //! use masonry::analysis::limit::{Answer, limit};
@@ -63,8 +63,8 @@ use crate::scene::{Load, Route, Scene};
 use crate::system::{self, System};
 use watch::Watch;
 
-/// Factors below this part of the one under which growing loads equal the others are zero. Chosen: between the gap of
-/// associated flow and a factor that matters.
+/// Factors below this part of the factor at which the growing loads are as large as the others count as zero. Chosen:
+/// between the gap of associated flow and a factor that matters.
 const NOTHING: f64 = 1e-6;
 
 /// The laws of friction of a limit load.
@@ -75,7 +75,7 @@ pub enum Laws {
     Associative,
     /// Coulomb's friction, in which joints slide without opening: a path of states at rest.
     Path,
-    /// Both.
+    /// Both laws.
     #[default]
     Both,
 }
@@ -86,7 +86,7 @@ pub enum Laws {
 pub struct Limit {
     /// Title of the scene.
     pub title: String,
-    /// The structure with rigid blocks, under the load factor; without one, under all loads in full.
+    /// The structure with rigid blocks, under the load factor, or under all loads in full if there is no load factor.
     pub model: Model,
     /// The load or the group of loads that grows.
     pub group: String,
@@ -96,11 +96,11 @@ pub struct Limit {
     pub path: Option<Path>,
     /// The seismic check, if accelerations grow and the limit and its mechanism are known.
     pub seismic: Option<SeismicCheck>,
-    /// Whether what grows is the weight, of which it is proved that forces within friction carry no part.
+    /// Whether the weight grows and is proved to fall: forces within friction carry no part of the weight.
     pub falls_by_weight: bool,
     /// The answer in the words of an engineer.
     pub sentence: String,
-    /// Warnings: what limits the meaning of the answer.
+    /// Warnings that limit the meaning of the answer.
     pub warnings: Vec<String>,
     /// Whether the observer has ended the search, so that less is known than could be.
     pub is_interrupted: bool,
@@ -137,7 +137,7 @@ impl Limit {
     }
 }
 
-/// The limit load of the group that the scene names, or of its only one, by both laws.
+/// The limit load of the group that the scene names, or of its only group, by both laws.
 ///
 /// # Errors
 /// [`LimitError`] when the scene is wrong or has no such group.
@@ -223,7 +223,7 @@ pub fn limit_observed<'a>(
     })
 }
 
-/// The group that grows: that which the scene names, else its only one, else the only one with a factor.
+/// The growing group: the group that the scene names, else its only group, else its only group with a factor.
 ///
 /// # Errors
 /// [`LimitError`] when the scene is wrong, or has several such groups.
@@ -258,7 +258,7 @@ struct LoadedStructure<'a> {
 }
 
 impl LoadedStructure<'_> {
-    /// The structure with these factors of gravity and of loads that do not grow, and of loads that do.
+    /// The structure with all loads that stay times `stays` and all loads that grow times `grows`, gravity included.
     fn under(&self, stays: f64, grows: f64) -> Model {
         let actions = Actions {
             gravity: if self.weight { grows } else { stays },
@@ -309,7 +309,7 @@ fn warnings(model: &Model, laws: Laws) -> Vec<String> {
     list
 }
 
-/// The part of its length that the points of a joint are on, of all joints the least.
+/// The least part of its length that the points of a joint span, over all joints.
 fn reached(model: &Model) -> f64 {
     let mut reached = vec![[f64::INFINITY, f64::NEG_INFINITY]; model.joints.len()];
     for point in &model.contacts {

@@ -14,8 +14,8 @@ use crate::verify::checks::Checks;
 
 /// Everything known about a scene after an attempt to solve it.
 ///
-/// `state` and `checks` are `None` if no solution was found; all else is kept. If a step of the load history could
-/// not be solved, they are those of the previous step, and `solve` has the reason.
+/// `state` and `checks` are `None` if no solution was found; all else is kept. If a step of the load history could not
+/// be solved, `state` and `checks` are those of the previous step, and `solve` has the reason.
 #[derive(Debug, Clone)]
 #[non_exhaustive]
 pub struct Outcome {

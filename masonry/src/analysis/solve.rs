@@ -1,4 +1,4 @@
-//! From a scene to an outcome: every stage in order, each timed.
+//! The way from a scene to an outcome: every stage in order, each timed.
 //!
 //! scene -> model -> plan -> system -> reduction or sparse form -> route -> recovery -> checks; from the
 //! reduction on, once for every step of the load history.
@@ -22,7 +22,7 @@ use crate::scene::{Route, Scene, SceneError};
 use crate::system::SystemError;
 use crate::system::rigid::{FreeMotion, RigidError};
 
-/// Why a scene could not be solved.
+/// The reasons for which a scene could not be solved.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum SolveError {
@@ -41,7 +41,7 @@ pub enum SolveError {
     Free {
         /// Name of the block that moves most.
         block: String,
-        /// How it moves.
+        /// The motion of the block.
         motion: FreeMotion,
         /// Number of independent motions that nothing resists.
         free: usize,
@@ -52,7 +52,7 @@ pub enum SolveError {
     /// The solver refused its settings or the data.
     #[error("the complementarity problem was refused: {0}")]
     Solver(#[from] lcp::Error),
-    /// A route that cannot treat the structure.
+    /// The route cannot treat the structure.
     #[error("{} cannot treat this problem: {reason}", .route.name())]
     NotTreated {
         /// The route.
@@ -65,13 +65,13 @@ pub enum SolveError {
     Step {
         /// Name of the stage.
         stage: String,
-        /// The step in it, from 1.
+        /// Number of the step in the stage, from 1.
         step: usize,
         /// The error.
         #[source]
         error: Box<SolveError>,
     },
-    /// A checkpoint does not fit.
+    /// The checkpoint does not fit.
     #[error(transparent)]
     Checkpoint(#[from] CheckpointError),
 }

@@ -65,13 +65,13 @@ pub struct Settings {
     pub routes: Vec<Route>,
     /// The tolerances \[-\], between 0 and 1.
     pub tolerances: Vec<f64>,
-    /// Factors by which the numbers of elements of all walls and blocks are multiplied, per direction. A
-    /// scene of rigid blocks has no elements, and then is studied as it is.
+    /// Factors by which the numbers of elements of all walls and blocks are multiplied, per direction. A scene of
+    /// rigid blocks has no elements, and is studied as it is.
     pub meshes: Vec<u32>,
     /// Names of the meshes in reports, in their order; missing ones are named by their factors.
     pub mesh_names: Vec<String>,
-    /// Wall-clock time of one solve. It is checked by the observer, so a single factorisation or program is never
-    /// interrupted: [`Record::overrun`] shows the solves that took longer.
+    /// Wall-clock time of one solve. The observer checks the limit, so that a single factorisation or program is
+    /// never interrupted: [`Record::overrun`] shows the solves that took longer.
     pub time_limit: Duration,
     /// Number of runs of a solve of less than a second; its time is the median.
     pub repeats: usize,
@@ -121,36 +121,36 @@ impl Settings {
     }
 }
 
-/// Why there is no study.
+/// The reasons for which a study is refused.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum StudyError {
     /// The scene is wrong.
     #[error(transparent)]
     Scene(#[from] SceneError),
-    /// Nothing to vary.
+    /// A list of the settings is empty.
     #[error("a study needs at least one {what}: name one, or leave the list out")]
     Empty {
-        /// The empty list.
+        /// Name of the empty list.
         what: &'static str,
     },
-    /// A tolerance out of its range.
+    /// A tolerance is out of its range.
     #[error("a tolerance lies between 0 and 1, and {0} does not: correct it")]
     Tolerance(f64),
-    /// A mesh without elements.
+    /// A mesh has no elements.
     #[error("a mesh factor is at least 1, and 0 leaves no elements: correct it")]
     NoElements,
 }
 
-/// How a solve ended.
+/// The end of a solve.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum End {
-    /// It ended with this status; [`Status::TimeLimit`] by [`Settings::time_limit`].
+    /// The solve ended with this status; [`Status::TimeLimit`] by [`Settings::time_limit`].
     Ended(Status),
     /// The route does not treat the scene, for this reason.
     Refused(String),
-    /// It was not tried, for this reason.
+    /// The solve was not tried, for this reason.
     Skipped(String),
 }
 
@@ -160,7 +160,7 @@ impl End {
         *self == Self::Ended(Status::Solved)
     }
 
-    /// One word.
+    /// The end in one word.
     pub fn name(&self) -> String {
         match self {
             Self::Ended(status) => status.to_string(),
@@ -169,7 +169,7 @@ impl End {
         }
     }
 
-    /// Why there was no solve.
+    /// The reason for which there was no solve.
     pub fn reason(&self) -> Option<&str> {
         match self {
             Self::Ended(_) => None,
@@ -187,13 +187,13 @@ pub struct Record {
     pub tolerance: f64,
     /// The factor of the mesh.
     pub mesh: u32,
-    /// How it ended.
+    /// The end of the solve.
     pub end: End,
     /// The residual reached \[-\], recomputed from the original data; of the last step of a load history.
     pub residual: Option<f64>,
     /// Wall-clock time from the scene to the checked solution, or to the failure \[s\].
     pub seconds: Option<f64>,
-    /// Whether that is more than the limit: one factorisation, reduction or program was not interrupted.
+    /// Whether `seconds` exceeds the limit: one factorisation, reduction or program was not interrupted.
     pub overrun: bool,
     /// Pivots by [`Route::Lemke`], iterations by the others; of the last step of a load history.
     pub iterations: Option<usize>,
@@ -212,7 +212,7 @@ pub struct Study {
     pub time_limit: Duration,
     /// The machine on which times were measured, if it was given.
     pub machine: Option<String>,
-    /// Whether the observer has ended it, so that solves were skipped.
+    /// Whether the observer has ended the study, so that solves were skipped.
     pub is_interrupted: bool,
     /// The records by mesh, route and tolerance, in the order of the settings.
     pub records: Vec<Record>,
@@ -255,7 +255,8 @@ pub struct StudyProgress {
     pub tolerance: f64,
 }
 
-/// Hears what is being solved, many times in each solve; after `Break` all further solves are skipped.
+/// A function that is called with the running solve, many times in each; all further solves are skipped after
+/// `Break`.
 pub type StudyObserver<'a> = dyn FnMut(StudyProgress) -> ControlFlow<()> + 'a;
 
 /// Studies a scene and reports to the observer what is being solved.
@@ -264,8 +265,8 @@ pub type StudyObserver<'a> = dyn FnMut(StudyProgress) -> ControlFlow<()> + 'a;
 /// are replaced.
 ///
 /// # Errors
-/// [`StudyError`] for a scene that is wrong and for settings out of range. A route or a mesh that fails is
-/// no error but a record.
+/// [`StudyError`] for a scene that is wrong and for settings out of range. A route or a mesh that fails gives a
+/// record and no error.
 pub fn study<'a>(
     scene: &Scene,
     settings: &'a Settings,

@@ -4,11 +4,11 @@ use serde::{Deserialize, Deserializer, Serialize};
 
 use crate::data::route::Route;
 
-/// How a state was found.
+/// The way in which a state was found.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Way {
-    /// One step from the state before, or from nothing, with Coulomb's law for its slips.
+    /// One step from the previous state, or without one, with Coulomb's law for its slips.
     Law,
     /// The motion of blocks with mass, with Coulomb's law in each of its steps.
     Motion,
@@ -24,22 +24,22 @@ impl Way {
     }
 }
 
-/// How the complementarity problem was solved.
+/// The record of the solution of the complementarity problem.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct SolveInfo {
-    /// `Solved`, or why not.
+    /// `Solved`, or the reason for the end.
     pub status: lcp::Status,
     /// The route whose result is reported.
     pub route: Route,
-    /// Why the route was tried at its place in the order.
+    /// The reason for which the route was tried at its place in the order.
     pub because: String,
     /// All routes that were tried, in order.
     pub routes: Vec<RouteRecord>,
     /// The form that was solved: `coulomb`, `stewart-trinkle` or `mixed`
     /// ([`FormKind`](crate::forms::FormKind)) of the pivoting route, `contact` of the others.
     pub form: String,
-    /// Order of the complementarity problem; of the augmented Lagrangian method, of its linear systems.
+    /// Order of the complementarity problem, or of the linear systems of the augmented Lagrangian method.
     pub order: usize,
     /// All attempts of all routes, in order.
     pub attempts: Vec<RouteAttempt>,
@@ -57,7 +57,7 @@ pub struct SolveInfo {
     pub proved: bool,
     /// The effect of the springs of the scene.
     pub soft: Option<SoftReport>,
-    /// How the state was found, and so which law of friction it obeys.
+    /// The way in which the state was found, which decides the law of friction that it obeys.
     pub way: Way,
     /// Dimensionless residuals recomputed from the original data.
     pub residuals: lcp::Residuals,
@@ -106,7 +106,7 @@ pub enum RouteAttempt {
     Sparse {
         /// The route.
         route: Route,
-        /// `Solved`, or why not.
+        /// `Solved`, or the reason for the end.
         status: lcp::Status,
         /// Steps, programs, rounds or iterations.
         iterations: usize,
@@ -118,14 +118,15 @@ pub enum RouteAttempt {
     },
     /// The motion of blocks that are loaded slowly.
     Motion {
-        /// How it ended.
+        /// The end of the motion.
         ending: lcp::Ending,
         /// Matrices factorised.
         factorisations: usize,
     },
     /// The search for forces within friction that balance the loads.
     Forces {
-        /// `Solved` if they are an answer, `Infeasible` if there are none, or what kept them from being one.
+        /// `Solved` if the forces are an answer, `Infeasible` if there are none, or the reason why they are not an
+        /// answer.
         status: lcp::Status,
         /// Whether there are such forces.
         are_found: bool,
@@ -142,7 +143,7 @@ pub enum RouteAttempt {
     Left {
         /// The route.
         route: Route,
-        /// The steps of the route up to there.
+        /// The steps of the route until it was left.
         iterations: usize,
     },
 }
@@ -156,8 +157,8 @@ pub struct AlmIteration {
     /// Largest unbalanced force after the projection, relative to the largest load \[-\].
     #[serde(deserialize_with = "or_infinite")]
     pub unbalance: f64,
-    /// Estimate of the distance from the solution, of displacements and of the forces in the blocks, relative
-    /// to the largest of them or what the loads alone would make \[-\]; infinite until the iteration contracts.
+    /// Estimate of the distance from the solution, of displacements and of the forces in the blocks, relative to the
+    /// largest of them or to the values under the loads alone \[-\]; infinite until the iteration contracts.
     #[serde(deserialize_with = "or_infinite")]
     pub distance: f64,
     /// Contacts that changed their state.
@@ -169,13 +170,13 @@ fn or_infinite<'de, D: Deserializer<'de>>(from: D) -> Result<f64, D::Error> {
     Ok(Option::deserialize(from)?.unwrap_or(f64::INFINITY))
 }
 
-/// How a route ended.
+/// The end of a route.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct RouteRecord {
     /// The route.
     pub route: Route,
-    /// Why the route was tried at its place in the order.
+    /// The reason for which the route was tried at its place in the order.
     pub because: String,
     /// The status and result of the route; or the reason of a refusal.
     pub end: String,
@@ -183,8 +184,8 @@ pub struct RouteRecord {
     pub seconds: f64,
 }
 
-/// Springs that hold the blocks while a scene is solved, and their effect before they were re-centred; the final
-/// result is without them.
+/// Springs that hold the blocks while a scene is solved, and their effect before they were re-centred; the springs do
+/// not act in the final result.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct SoftReport {
@@ -192,10 +193,10 @@ pub struct SoftReport {
     pub stiffness: f64,
     /// Number of re-centrings.
     pub rounds: usize,
-    /// The share of the load that they carried at first \[-\].
+    /// The share of the load that the springs carried at first \[-\].
     pub share: f64,
-    /// The error of the displacements that they caused at first, relative to these \[-\]; `None` if the error is unknown, for
-    /// example if nothing moves.
+    /// The error of the displacements that the springs caused at first, relative to the displacements \[-\]; `None` if
+    /// the error is unknown, for example if nothing moves.
     pub displacement_error: Option<f64>,
 }
 

@@ -7,8 +7,8 @@ use serde::{Deserialize, Serialize};
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(rename_all = "lowercase")]
 pub enum Route {
-    /// Forces within friction that balance the loads, by one convex program; for rigid blocks without gaps, or a
-    /// proof that there are none.
+    /// Forces within friction that balance the loads, by one convex program, or a proof that there are no such
+    /// forces; for rigid blocks without gaps.
     Forces,
     /// Lemke's method on the problem reduced to contact forces, with dense matrices.
     Lemke,

@@ -9,8 +9,8 @@ use crate::ids::{BlockId, ContactId, FilmId};
 /// The mechanical state of a model under its loads, in SI units.
 #[derive(Debug, Clone)]
 pub struct State {
-    /// Displacements \[m\] of the nodes of every block, in the order of the block's mesh; of the
-    /// corners for a rigid block.
+    /// Displacements \[m\] of the nodes of every block, in the order of the block's mesh, or of the corners of a
+    /// rigid block.
     pub displacements: Vec<Vec<Vector2<f64>>>,
     /// Force, gap and slip at every contact point.
     pub contacts: Vec<PointState>,
@@ -39,9 +39,9 @@ pub struct PointState {
     pub t_n: f64,
     /// Tangential contact force \[N\] on side `b` along `t`.
     pub t_t: f64,
-    /// Normal gap \[m\]; across a film, beyond its compression.
+    /// Normal gap \[m\]; the gap across a film is beyond its compression.
     pub y_n: f64,
-    /// Slip \[m\] of side `b` relative to `a` along `t`; across a film, beyond its shear.
+    /// Slip \[m\] of side `b` relative to `a` along `t`; the slip across a film is beyond its shear.
     pub y_t: f64,
     /// Open, stick or slip.
     pub status: PointStatus,

@@ -1,15 +1,15 @@
-//! Forces that balance the loads, or the proof that there are none.
+//! Forces that balance the loads, or the proof that there are no such forces.
 
 use nalgebra::Vector2;
 
 /// The decision on forces that balance the loads.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Statics {
-    /// These do: of all rows of the system \[N\].
+    /// Forces of all rows of the system \[N\] that balance the loads.
     Admissible(Vec<f64>),
-    /// There are none.
+    /// No forces balance the loads.
     Impossible(Proof),
-    /// Undecided.
+    /// The decision is open.
     Open,
 }
 
@@ -21,7 +21,7 @@ pub struct Proof {
     /// Work of the loads on the motion, less that of cohesion and tensile strength, relative to the sum of all these
     /// forces \[-\].
     pub work: f64,
-    /// The largest work that a contact force of one could do against it, relative to the force \[-\]: rounding errors.
+    /// The largest work of a unit contact force against the motion, relative to the force \[-\]: rounding errors.
     pub error: f64,
 }
 
@@ -35,8 +35,8 @@ pub enum Extreme {
         /// The bound by a motion.
         bound: f64,
     },
-    /// Forces that balance one another make it as large as one likes.
+    /// Forces that balance one another make the value as large as one likes.
     Unlimited,
-    /// Neither came out.
+    /// Neither bounds nor unlimited forces were found.
     Open,
 }

@@ -1,4 +1,4 @@
-//! A verdict: whether a wall stands, falls or this is undecided, with the evidence.
+//! A verdict: whether a wall stands, falls or is undecided, with the evidence.
 
 use serde::Serialize;
 
@@ -30,14 +30,14 @@ pub enum Evidence {
     /// Forces within friction that balance the loads: sufficient for rigid blocks at rest only.
     #[serde(rename = "admissible forces")]
     AdmissibleForces,
-    /// There are no such forces, with a checked proof.
+    /// A checked proof that there are no such forces.
     #[serde(rename = "no admissible forces")]
     NoAdmissibleForces,
-    /// A slow motion under the loads that does not come to rest. If forces within
-    /// friction balance the loads, this is no proof that the wall falls under every order of loading.
+    /// A slow motion under the loads that does not come to rest. The motion does not prove that the
+    /// wall falls under every order of loading if forces within friction balance the loads.
     #[serde(rename = "motion")]
     Motion,
-    /// Nothing.
+    /// No evidence.
     #[serde(rename = "none")]
     None,
 }
@@ -50,7 +50,7 @@ pub struct Judgement {
     pub verdict: Verdict,
     /// The evidence.
     pub evidence: Evidence,
-    /// Both in one sentence; for a load history also how far it went.
+    /// Verdict and evidence in one sentence; for a load history also the last step that was reached.
     pub sentence: String,
     /// Limitations of the result.
     pub warnings: Vec<String>,

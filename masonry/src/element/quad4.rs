@@ -27,7 +27,7 @@ fn reference_gradients([xi, eta]: [f64; 2]) -> [Vector2<f64>; 4] {
 
 /// The Jacobian of the map from the reference square: entry `(i, j)` is `d x_j / d xi_i`.
 fn jacobian(nodes: &Nodes, place: [f64; 2]) -> Matrix2<f64> {
-    // Differences to node 0: elements far from the origin lose no digits.
+    // Differences to node 0, so that elements far from the origin lose no digits.
     let origin = nodes[0];
     reference_gradients(place)
         .iter()
@@ -84,7 +84,7 @@ pub fn body_load(nodes: &Nodes, force: Vector2<f64>, thickness: f64) -> SVector<
     load
 }
 
-/// Stress at the centre \[Pa\] for the displacements of the nodes \[m\]; `None` when folded there.
+/// Stress at the centre \[Pa\] for the displacements of the nodes \[m\]; `None` if the element is folded there.
 pub fn stress_at_centre(
     nodes: &Nodes,
     d: &Matrix3<f64>,

@@ -1,10 +1,10 @@
 //! Forms of the contact problem as a linear complementarity problem `A t + B y = c`.
 //!
 //! Every form has pairs `(t_i, y_i)` of nonnegative, complementary variables: forces on the `t` side and
-//! displacements on the `y` side, unless a form says otherwise. All are dimensionless: forces are
-//! divided by [`FormScale::force`] and displacements by [`FormScale::length`], so that the coefficients of `A`
-//! are of order one whatever the units and moduli. [`DenseForm::rows`] leads back to forces and
-//! relative displacements in SI units.
+//! displacements on the `y` side, unless a form says otherwise. All are dimensionless: forces are divided by
+//! [`FormScale::force`] and displacements by [`FormScale::length`], so that the coefficients of `A` are of order
+//! one whatever the units and moduli. [`DenseForm::rows`] converts back to forces and relative displacements in SI
+//! units.
 //!
 //! The pairs of a problem of `m` points, `m_f` of them with friction, come in groups: first
 //! `(t_n, y_n)` of all points, then, group by group, those of the points with friction.
@@ -21,22 +21,22 @@ use crate::system::System;
 mod mixed;
 mod reduced;
 
-/// Which variables are used.
+/// The choice of the variables.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum FormKind {
     /// The paper's (3.27), order `m + 2 m_f`: pairs `(t_n, y_n)`, `(p+, y+)`, `(p-, y-)`, where
     /// `p+ = mu t_n + t_t`, `p- = mu t_n - t_t`, `y_t = y+ - y-`. Not copositive: a solver may end on
     /// a ray although there is a solution.
     Coulomb,
-    /// Friction forces split in two, order `m + 3 m_f`: pairs `(t_n, y_n)`, `(b+, s+)`, `(b-, s-)`,
-    /// `(lambda, w)`, where `t_t = b+ - b-`, `s+ = lambda + y_t`, `s- = lambda - y_t` and
-    /// `w = mu t_n - b+ - b-` (a force, while `lambda` is a displacement).
+    /// Friction forces split in two, order `m + 3 m_f`: pairs `(t_n, y_n)`, `(b+, s+)`, `(b-, s-)`, `(lambda, w)`
+    /// with `t_t = b+ - b-`, `s+ = lambda + y_t`, `s- = lambda - y_t` and `w = mu t_n - b+ - b-` (a force, while
+    /// `lambda` is a displacement).
     StewartTrinkle,
-    /// The same with the rigid amplitudes `alpha = alpha+ - alpha-` as unknowns and equilibrium
-    /// as complementary rows, and with the forces of the `s` bars of mortar strips, order
-    /// `m + 3 m_f + 6 r + 2 s` for `r` blocks: a standard problem, `B = 1`,
-    /// with a copositive `-A`. A ray of it is a motion of the blocks that no contact stops and on
-    /// which the loads do work.
+    /// The variables of [`StewartTrinkle`](Self::StewartTrinkle) with the rigid amplitudes
+    /// `alpha = alpha+ - alpha-` as unknowns and equilibrium as complementary rows, and with the forces of the `s`
+    /// bars of mortar strips, order `m + 3 m_f + 6 r + 2 s` for `r` blocks: a standard problem, `B = 1`, with a
+    /// copositive `-A`. A ray of this form is a motion of the blocks that no contact stops and on which the loads
+    /// do work.
     Mixed,
 }
 
@@ -78,7 +78,7 @@ pub struct DenseForm {
     /// The units of force and of displacement.
     pub scale: FormScale,
     /// Start bases for Lemke's method, the most promising first; empty if `y` itself is the natural start. Any of
-    /// them may be singular for a certain `mu`.
+    /// these bases may be singular for a certain `mu`.
     pub starts: Vec<Start>,
     layout: Layout,
 }
@@ -93,8 +93,8 @@ struct Equations {
 }
 
 impl Equations {
-    /// The form, with zeros for the coefficients and right-hand sides that are only rounding errors: to who sees no
-    /// more than the equations, they are couplings and loads.
+    /// The form, with zeros for the coefficients and right-hand sides that are only rounding errors: a solver that
+    /// has only the equations would treat them as couplings and loads.
     fn into_form(self, kind: FormKind, starts: Vec<Start>) -> Result<DenseForm, lcp::Error> {
         let Self { mut a, mut b, mut c, scale, layout } = self;
         let rows: Vec<f64> =
@@ -166,9 +166,8 @@ impl DenseForm {
         }
     }
 
-    /// The dimensionless variables `(t, y)` of given forces and relative displacements of all rows, and
-    /// the rigid amplitudes \[m\] and forces of bars \[N\] that go with them (only the mixed form looks at
-    /// these).
+    /// The dimensionless variables `(t, y)` of given forces and relative displacements of all rows, and of the
+    /// matching rigid amplitudes \[m\] and forces of bars \[N\] (used by the mixed form only).
     ///
     /// # Panics
     /// If there are fewer values than rows.
@@ -229,8 +228,8 @@ impl FormKind {
         }
     }
 
-    /// The factors in `t_t = factor (t+ - t-)` and `y_t = factor (y+ - y-)`, where `t+`, `y+` are the
-    /// variables of the second group of pairs and `t-`, `y-` those of the third.
+    /// The factors in `t_t = factor (t+ - t-)` and `y_t = factor (y+ - y-)`; `t+`, `y+` are the variables of the
+    /// second group of pairs and `t-`, `y-` those of the third.
     fn tangential_weights(self) -> (f64, f64) {
         match self {
             Self::Coulomb => (0.5, 1.0),

@@ -1,14 +1,14 @@
 //! Elimination of the displacements: from the equilibrium system to contact forces alone.
 //!
-//! Equilibrium of all blocks, with isostatic rows `I` and the others `E`, is
-//! `t_I = R t_E + t_0` (3.18), and the relative displacements follow from
-//! `y_E = A t_E - R^T y_I + c` (3.23), where `A = W^T F W`, `W` is the identity on `E` and `R` on `I`,
-//! and `F = C K^+ C^T`, with the compliance of joints and of mortar films on the diagonal. Any generalised inverse `K^+`
-//! gives the same `A` and `c`, because the columns of `W` and the loads with `t_0` balance on every block.
+//! Equilibrium of all blocks, with isostatic rows `I` and the others `E`, is `t_I = R t_E + t_0` (3.18), and the
+//! relative displacements are `y_E = A t_E - R^T y_I + c` (3.23) with `A = W^T F W`; `W` is the identity on `E` and `R`
+//! on `I`, and `F = C K^+ C^T`, with the compliance of joints and of mortar films on the diagonal. Any generalised
+//! inverse `K^+` gives the same `A` and `c`, because the columns of `W` and the loads with `t_0` balance on every
+//! block.
 //!
-//! Strips of mortar couple blocks. With their elongations `e = L u` and stiffnesses `D`, equilibrium is
-//! `(K + L^T D L) u = f + C^T t`. No rigid motion stretches a strip, so that the rows of `L` balance on every block, and
-//! with the forces `q = -D L u` of the bars on the blocks `u = K^+ (f + C^T t + L^T q) + N alpha` as before, and
+//! Strips of mortar couple blocks. Equilibrium with their elongations `e = L u` and stiffnesses `D` is
+//! `(K + L^T D L) u = f + C^T t`. No rigid motion stretches a strip, so that the rows of `L` balance on every block,
+//! and with the forces `q = -D L u` of the bars on the blocks `u = K^+ (f + C^T t + L^T q) + N alpha` as before, and
 //!
 //! ```text
 //!  H q + F_LC t + L K^+ f = 0,      H = D^-1 + F_LL,    F_LC = L K^+ C^T,    F_LL = L K^+ L^T,
@@ -35,8 +35,8 @@ pub struct Reduction {
     pub r: Mat<f64>,
     /// `t_0` of (3.18): forces of the isostatic rows that balance the loads \[N\].
     pub t0: Vec<f64>,
-    /// `A = W^T F W` \[m/N\], symmetric and positive semidefinite; empty if nothing deforms: rigid blocks in joints
-    /// that do not give way only have `R`.
+    /// `A = W^T F W` \[m/N\], symmetric and positive semidefinite; empty if nothing deforms: rigid blocks in stiff
+    /// joints have only `R`.
     pub a: Mat<f64>,
     /// `c` of (3.23) \[m\].
     pub c: Vec<f64>,
@@ -121,8 +121,8 @@ impl Reduction {
         h.solve(rhs).col_as_slice(0).to_vec()
     }
 
-    /// The rigid amplitudes \[m\], three per block, for the forces `t` \[N\] and the relative
-    /// displacements `y` \[m\] of all rows: those of the isostatic rows decide.
+    /// The rigid amplitudes \[m\], three per block, for the forces `t` \[N\] and the relative displacements `y` \[m\]
+    /// of all rows; the isostatic rows determine the amplitudes.
     pub fn amplitudes(&self, t: &[f64], y: &[f64]) -> Vec<f64> {
         let elastic = self.elastic_gaps(t);
         let rigid = self.isostatic.iter().map(|row| y[*row] - elastic[*row]);
@@ -146,7 +146,8 @@ fn eliminate_bars(f: &mut Mat<f64>, rows: usize) -> Option<PartialPivLu<f64>> {
     Some(h)
 }
 
-/// How forces at the rows of a system, and at the bars of mortar strips after them, deform blocks, joints and films.
+/// The deformation of blocks, joints and films by forces at the rows of a system, and at the bars of mortar strips
+/// after them.
 #[derive(Debug, Clone)]
 pub(super) struct Flexibility {
     blocks: Vec<Compliance>,

@@ -13,13 +13,13 @@ use crate::system::{BodySystem, System, displaced_nodes};
 /// A [`System`] as a sparse contact problem in SI units, and back.
 #[derive(Debug, Clone)]
 pub struct Sparse {
-    /// `K u = f + C^T t` (3.2) with the contact law. The displacements are those of the nodes, block by block; for a
-    /// rigid block the amplitudes of its three motions. Joints with a stiffness and films are the compliance of their
+    /// `K u = f + C^T t` (3.2) with the contact law. The displacements are those of the nodes, block by block, or the
+    /// amplitudes of the three motions of a rigid block. Joints with a stiffness and films are the compliance of their
     /// points. Strips of mortar couple their blocks by `L^T D L` in `K`.
     ///
-    /// Then follow the deformations of the tangential rows that friction and cohesion share, for their two points have
-    /// one: displacements of the free face relative to the block, with the stiffness `1 / c` and loaded by the contact
-    /// force only, `u = c t`. Cohesion comes last, with its own points and displacements.
+    /// The deformations of the tangential rows that friction and cohesion share follow, because the two points of such
+    /// a row have one deformation: displacements of the free face relative to the block, with the stiffness `1 / c` and
+    /// loaded by the contact force only, `u = c t`. Cohesion comes last, with its own points and displacements.
     pub problem: Contact2d,
     /// The first displacement of every block, and one past the last.
     starts: Vec<usize>,
@@ -30,10 +30,10 @@ pub struct Sparse {
 }
 
 /// The points of the problem that share a tangential force: `|t_t| <= mu t_n + C_0` is the sum of a part that friction
-/// carries and of one that does not depend on the normal force.
+/// carries and of a part that does not depend on the normal force.
 ///
-/// The second is the friction, with a coefficient of one, of a point of its own with the same slip, which a force `C_0` presses:
-/// the load of a displacement that only this point knows and that it holds at zero.
+/// The second part is the friction, with a coefficient of one, of an extra point with the same slip that a force `C_0`
+/// presses. This force is the load of a displacement that acts on the extra point only and is held at zero there.
 #[derive(Debug, Clone, Copy)]
 struct Carriers {
     friction: Option<usize>,
@@ -49,7 +49,7 @@ impl Carriers {
         self.friction.into_iter().chain(self.constant)
     }
 
-    /// The sum over both of what each point has.
+    /// The sum of the values of both points.
     fn sum(self, of: &[f64]) -> f64 {
         self.points().map(|point| of[point]).sum()
     }
@@ -73,7 +73,7 @@ impl Sparse {
         Self::of(system, |_| true)
     }
 
-    /// The form with displacements for the deformations of the rows that these carriers have.
+    /// The form with displacements for the deformations of the rows with these carriers.
     fn of(system: &System, is_free: impl Fn(Carriers) -> bool) -> Result<Self, lcp::Error> {
         let mut starts = vec![0];
         for body in &system.bodies {
@@ -199,13 +199,14 @@ impl Sparse {
         RowState { t, y }
     }
 
-    /// Slips of the tangential rows of the system from those of the points of the problem: all points of a row have one.
+    /// Slips of the tangential rows of the system from those of the points of the problem: all points of a row have one
+    /// slip.
     pub(crate) fn by_rows(&self, slips: &[f64]) -> Vec<f64> {
         let first = |carriers: &Carriers| carriers.points().next().map(|i| slips[i]);
         self.carriers.iter().filter_map(first).collect()
     }
 
-    /// Displacements and forces of the problem from those of the structure, the way back of
+    /// Displacements and forces of the problem from those of the structure: the inverse of
     /// [`recover::from_displacements`](crate::recover::from_displacements).
     ///
     /// # Panics
@@ -228,8 +229,8 @@ impl Sparse {
         self.with_forces(system, u, &normal, &tangential)
     }
 
-    /// The state with these displacements of the blocks, or of everything, and with the forces of the normal and of the
-    /// tangential rows of the system.
+    /// The state with these displacements of the blocks, or of the whole problem, and with the forces of the normal and
+    /// of the tangential rows of the system.
     pub(crate) fn with_forces(
         &self,
         system: &System,
@@ -262,8 +263,8 @@ impl Sparse {
         self.problem.state(u, t_n, t_t)
     }
 
-    /// A start with the states that forces of the rows of the system show: points without a normal force are open, and those
-    /// with forces on the cone slide.
+    /// A start with the contact states of given forces of the rows of the system: points without a normal force are
+    /// open, and points with forces on the cone slide.
     pub(crate) fn start_of(&self, system: &System, forces: &[f64]) -> WarmStart {
         let (normal, tangential) = forces.split_at(system.points());
         let rest = vec![0.0; self.problem.displacements()];
@@ -284,8 +285,8 @@ impl Sparse {
         self.problem.points() - of_cohesion
     }
 
-    /// The state on the statuses of the contacts of another one, solved anew with twice the digits; `None` if
-    /// that is no solution to this tolerance either.
+    /// The state with the contact statuses of another one, solved anew with twice the digits; `None` if the new state
+    /// is not a solution to this tolerance either.
     pub fn refined(
         &self,
         state: &ContactState,
@@ -311,8 +312,8 @@ impl Sparse {
     }
 }
 
-/// The stiffnesses of the displacements of cohesion, from the first of its points and displacements on. Held at zero they
-/// need none, but methods that begin with open contacts do: as stiff as what slides there.
+/// The stiffnesses of the displacements of cohesion, from the first of its points and displacements on. Held at zero
+/// they need none, but methods that begin with open contacts do: as stiff as the sliding parts there.
 fn pressing(
     k: &[Triplet<usize, usize, f64>],
     c_t: &[Triplet<usize, usize, f64>],

@@ -2,7 +2,7 @@
 
 use nalgebra::Point2;
 
-/// The smallest rectangle along the axes around points; inside out around none.
+/// The smallest rectangle along the axes around points; inside out if there are no points.
 #[derive(Clone, Copy)]
 pub(crate) struct Extent {
     pub(crate) low: Point2<f64>,
@@ -30,7 +30,7 @@ impl Extent {
         (0..2).all(|k| self.low[k] <= other.high[k] && other.low[k] <= self.high[k])
     }
 
-    /// The length of its longer side.
+    /// The length of the longer side.
     pub(crate) fn longer_side(&self) -> f64 {
         (self.high - self.low).max()
     }

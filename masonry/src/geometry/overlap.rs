@@ -9,9 +9,9 @@ const ROUNDING: f64 = 8.0 * f64::EPSILON;
 
 /// Area of the intersection of two simple, counter-clockwise polygons \[m^2\].
 ///
-/// The first is clipped by the half planes of the second (Sutherland and Hodgman), so that only the second needs to be convex.
-/// Parts of the first that fall apart stay joined by edges without area. If neither is convex, the second is divided into
-/// triangles with signs, which cancel outside of it.
+/// The first is clipped by the half planes of the second (Sutherland and Hodgman), so that only the second needs to be
+/// convex. Separate parts of the first stay joined by edges without area. If neither is convex, the second is divided
+/// into triangles with signs, which cancel outside of it.
 pub fn overlap_area(a: &[Point2<f64>], b: &[Point2<f64>]) -> f64 {
     let is_convex = |polygon| check_convex(polygon).is_ok();
     let total = if is_convex(b) {
@@ -32,7 +32,7 @@ pub fn overlap_area(a: &[Point2<f64>], b: &[Point2<f64>]) -> f64 {
     total.max(0.0)
 }
 
-/// Area of the part of a polygon in a convex one \[m^2\].
+/// Area of the part of a polygon inside a convex one \[m^2\].
 fn clipped_area(polygon: &[Point2<f64>], convex: &[Point2<f64>]) -> f64 {
     let mut part = polygon.to_vec();
     for k in 0..convex.len() {
@@ -44,7 +44,7 @@ fn clipped_area(polygon: &[Point2<f64>], convex: &[Point2<f64>]) -> f64 {
 
 /// Length of the part of a segment that is in a simple polygon, deeper than `depth` \[m\].
 ///
-/// The segment is cut by the lines of all edges, and each piece is as deep as its middle.
+/// The segment is cut by the lines of all edges, and the depth of each piece is that of its middle.
 pub fn length_inside(segment: [Point2<f64>; 2], polygon: &[Point2<f64>], depth: f64) -> f64 {
     let [from, to] = segment;
     let along = to - from;
@@ -79,7 +79,7 @@ fn clip(polygon: &[Point2<f64>], inside: impl Fn(Point2<f64>) -> f64) -> Vec<Poi
     kept
 }
 
-/// Where two facing segments overlap, as places on both of them.
+/// The overlap of two facing segments, as places on both of them.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SegmentOverlap {
     /// Fractions of the first segment at the two ends of the overlap, increasing.
@@ -93,8 +93,8 @@ pub struct SegmentOverlap {
     pub gap: [f64; 2],
 }
 
-/// Unit normal from the first of two segments that look at each other to the second, the mean of the right-hand normal of
-/// the first and the left-hand normal of the second; `None` for segments that do not run in opposite directions.
+/// Unit normal from the first of two facing segments to the second, the mean of the right-hand normal of the first and
+/// the left-hand normal of the second; `None` for segments that do not run in opposite directions.
 pub fn facing_normal(first: [Point2<f64>; 2], second: [Point2<f64>; 2]) -> Option<Vector2<f64>> {
     let [e1, e2] = [first, second].map(|[from, to]| (to - from).normalize());
     (e1.dot(&e2) < 0.0).then(|| turn_right((e1 - e2).normalize()))
@@ -103,10 +103,10 @@ pub fn facing_normal(first: [Point2<f64>; 2], second: [Point2<f64>; 2]) -> Optio
 /// Overlap of two segments that run in opposite directions and face each other, the second on the
 /// right-hand side of the first: two edges of counter-clockwise blocks, say.
 ///
-/// `slack` \[m\] is the distance that counts as touching and `limit` \[m\] the largest gap that
-/// still counts as facing. If there is a limit, gaps below the slack are kept, too, and only those are zero that are as
-/// small as the rounding errors of the coordinates. `None` when the segments are not antiparallel, lie apart, penetrate by
-/// more than `slack`, or share no more than `slack` of length.
+/// `slack` \[m\] is the distance that counts as touching and `limit` \[m\] the largest gap that still counts as facing.
+/// Gaps below the slack are kept, too, if there is a limit; only gaps within the rounding errors of the coordinates are
+/// zero then. `None` when the segments are not antiparallel, lie apart, penetrate by more than `slack`, or share no
+/// more than `slack` of length.
 pub fn facing_overlap(
     first: [Point2<f64>; 2],
     second: [Point2<f64>; 2],
@@ -116,7 +116,7 @@ pub fn facing_overlap(
     let (d1, d2) = (first[1] - first[0], second[1] - second[0]);
     let (l1, l2) = (d1.norm(), d2.norm());
     let (e1, e2) = (d1 / l1, d2 / l2);
-    // Over its whole length the shorter segment may turn away by no more than the admitted gap.
+    // The shorter segment may turn away over its whole length by no more than the admitted gap.
     let turned = cross(e1, e2).abs() * l1.min(l2);
     if e1.dot(&e2) >= 0.0 || turned > slack + limit {
         return None;
@@ -139,7 +139,7 @@ pub fn facing_overlap(
     if gap.iter().any(|g| *g < -slack || *g > slack + limit) {
         return None;
     }
-    // Where gaps are allowed they are kept, down to what rounding makes of the coordinates.
+    // Allowed gaps are kept, down to the rounding errors of the coordinates.
     let ends = first.iter().chain(&second).flat_map(|p| [p.x, p.y]);
     let rounding = ROUNDING * ends.fold(0.0, |largest: f64, x| largest.max(x.abs()));
     let touching = if limit > 0.0 { rounding.min(slack) } else { slack };

@@ -1,4 +1,4 @@
-//! Whether corners are those of a block: a polygon that is simple, convex, or seen from its centroid.
+//! Checks that corners are those of a block: a polygon that is simple, convex, or seen from its centroid.
 
 use std::f64::consts::PI;
 
@@ -6,11 +6,11 @@ use nalgebra::Point2;
 
 use super::{SAME_PLACE, area, centroid, cross, edge, nearest_on_segment, size};
 
-/// Why corners are not those of a polygon in counter-clockwise order.
+/// The reasons for which corners are not those of a polygon in counter-clockwise order.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum PolygonError {
-    /// So many corners, two or less.
+    /// The number of corners is two or less.
     TooFew(usize),
     /// A coordinate is not a finite number.
     NotFinite,
@@ -18,7 +18,7 @@ pub enum PolygonError {
     Clockwise(f64),
     /// The interior angle at this corner, from 0, is 180 degrees or more, or two corners coincide.
     NotConvex(usize),
-    /// Both edges at this corner, from 0, lie on each other, or it coincides with a corner beside it.
+    /// Both edges at this corner, from 0, lie on each other, or the corner coincides with one beside it.
     NoWidth(usize),
     /// Edges cross or touch, such as those of a star that is drawn in one stroke.
     Crossing,
@@ -40,7 +40,7 @@ pub fn without_straight(polygon: &[Point2<f64>]) -> Vec<Point2<f64>> {
 /// A corner counts as convex when twice the area of its triangle exceeds `1e-9` times the square of the polygon's size.
 ///
 /// # Errors
-/// [`PolygonError`] tells what is wrong with which corner.
+/// [`PolygonError`] has the error and the corner.
 pub fn check_convex(polygon: &[Point2<f64>]) -> Result<(), PolygonError> {
     let count = polygon.len();
     check_corners(polygon)?;
@@ -66,10 +66,10 @@ pub fn check_convex(polygon: &[Point2<f64>]) -> Result<(), PolygonError> {
 
 /// Checks that the corners are finite, run counter-clockwise, and that edges meet in their common corners only.
 ///
-/// Corners may point inwards or lie on a straight line. What is nearer than `1e-9` of the polygon's size touches.
+/// Corners may point inwards or lie on a straight line. Parts nearer than `1e-9` of the polygon's size touch.
 ///
 /// # Errors
-/// [`PolygonError`] tells what is wrong; never [`PolygonError::NotConvex`].
+/// [`PolygonError`] has the error; never [`PolygonError::NotConvex`].
 pub fn check_simple(polygon: &[Point2<f64>]) -> Result<(), PolygonError> {
     if check_convex(polygon).is_ok() {
         return Ok(());
@@ -94,7 +94,7 @@ pub fn check_simple(polygon: &[Point2<f64>]) -> Result<(), PolygonError> {
     if area < 0.0 { Err(PolygonError::Clockwise(area)) } else { Ok(()) }
 }
 
-/// Finds the first edge that cannot be seen from the centroid; `None` if all can.
+/// Finds the first edge that cannot be seen from the centroid; `None` if all can be seen.
 pub fn edge_behind_centroid(polygon: &[Point2<f64>]) -> Option<usize> {
     let (centre, least) = (centroid(polygon), SAME_PLACE * size(polygon).powi(2));
     let is_behind = |k: &usize| {

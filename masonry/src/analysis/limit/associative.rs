@@ -30,7 +30,7 @@ pub enum Answer {
     Undecided,
 }
 
-/// The limit load of associated flow: an upper bound for Coulomb's friction, and what ideal plasticity carries.
+/// The limit load of associated flow: the limit of ideal plasticity, and an upper bound for Coulomb's friction.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct Associative {
@@ -38,21 +38,21 @@ pub struct Associative {
     pub answer: Answer,
     /// The largest factor \[-\] for which forces were found that balance the loads.
     pub load_factor: Option<f64>,
-    /// The smallest factor \[-\] for which it is proved that there are none.
+    /// The smallest factor \[-\] at which it is proved that no forces balance the loads.
     pub bound: Option<f64>,
-    /// Whether the answer is proved by forces and a motion, both recomputed from the geometry, with a small gap
-    /// between their factors.
+    /// Whether forces and a motion, recomputed from the geometry, prove the answer with a small gap between their
+    /// factors.
     pub proved: bool,
     /// The forces under [`load_factor`](Self::load_factor), point by point; gaps and slips are zero.
     pub forces: Option<Vec<PointState>>,
     /// The reactions to these forces.
     pub reactions: Vec<Reaction>,
-    /// The factor \[-\] under which growing loads equal the others, or the largest factor, if that is larger.
+    /// The factor \[-\] at which the growing loads are as large as the others, or the largest factor if that is larger.
     pub(super) size: f64,
     /// The motion that proves the bound: displacement rates of the corners of every block, the largest component one.
     pub mechanism: Option<Vec<Vec<Vector2<f64>>>>,
-    /// The factors of the other blocks while those that move in the mechanism are held: if one block or at most a tenth
-    /// of them move, and the group acts on others.
+    /// The factors of the other blocks while the blocks of the mechanism are held, if only one block or at most a tenth
+    /// of all blocks move in the mechanism, and the group acts on others.
     pub rest: Option<Rest>,
 }
 
@@ -61,7 +61,7 @@ pub struct Associative {
 pub struct Rest {
     /// The largest factor for which forces were found that balance the loads on the other blocks.
     pub load_factor: Option<f64>,
-    /// The smallest factor for which a motion of the other blocks proves that there are none.
+    /// The smallest factor at which a motion proves that no forces balance the loads on the other blocks.
     pub bound: Option<f64>,
 }
 
@@ -80,7 +80,7 @@ impl Associative {
         }
     }
 
-    /// Whether it is proved that no part of the group is carried: some rounding errors of it are left open.
+    /// Whether it is proved that no part of the group is carried, except for rounding errors.
     pub fn carries_nothing(&self) -> bool {
         self.proved && self.bound.is_some_and(|bound| bound <= NOTHING * self.size)
     }

@@ -1,4 +1,4 @@
-//! A limit load in both directions of the load that grows, from both of which an earthquake comes.
+//! Limit loads in both directions of the growing load, since an earthquake acts in both.
 
 use serde::Serialize;
 
@@ -9,13 +9,13 @@ use crate::scene::Scene;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Governs {
-    /// That of the scene.
+    /// The direction of the scene.
     Given,
-    /// The opposite one.
+    /// The opposite direction.
     Opposite,
     /// Both directions carry the same, as far as their limits are known.
     Both,
-    /// One of the two was not decided.
+    /// The limit of one of the directions was not decided.
     Unknown,
 }
 
@@ -68,7 +68,7 @@ impl Directions {
         Self { given, opposite, governs }
     }
 
-    /// The limit of the direction that governs; that of the scene if none does.
+    /// The limit of the direction that governs, or of the direction of the scene if none does.
     pub fn governing(&self) -> &Limit {
         if self.governs == Governs::Opposite { &self.opposite } else { &self.given }
     }

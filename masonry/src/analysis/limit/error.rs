@@ -1,10 +1,10 @@
-//! Why a limit load cannot be computed.
+//! Errors of limit analysis.
 
 use crate::plan::TooLarge;
 use crate::scene::{Known, SceneError};
 use crate::system::SystemError;
 
-/// Why a limit load cannot be computed.
+/// The reasons for which a limit load cannot be computed.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum LimitError {
@@ -20,29 +20,29 @@ pub enum LimitError {
     /// The data overflow.
     #[error("the program was refused: {0}")]
     Solver(#[from] lcp::Error),
-    /// Nothing can grow.
+    /// There is no load that can grow.
     #[error("the scene has no loads of which a factor could grow: add [[loads]], or `gravity`")]
     NoLoads,
-    /// Several groups, and none was named.
+    /// The scene has several groups, and none was named.
     #[error(
         "the scene has several groups of loads, {}: say which one grows, by `[limit] group = \"{}\"` or `--group \"{}\"`",
         listed(groups), groups[0], groups[0]
     )]
     WhichGroup {
-        /// Their names.
+        /// Names of the groups.
         groups: Vec<String>,
     },
-    /// An arch that is not there.
+    /// The scene has no arch of this name.
     #[error(
         "there is no arch \"{name}\" in the scene; {known}: correct the name or add it under [[arches]]"
     )]
     NoArch {
-        /// The name.
+        /// The name that was given.
         name: String,
-        /// The names that there are.
+        /// The names of the arches in the scene.
         known: Known,
     },
-    /// An arch whose joints are given.
+    /// The joints of the arch are given.
     #[error(
         "the joints of arch \"{name}\" are given, so that it has no `thickness`: choose another `shape`"
     )]
@@ -50,23 +50,23 @@ pub enum LimitError {
         /// Name of the arch.
         name: String,
     },
-    /// A crossing without a train.
+    /// The scene has no train.
     #[error("the scene has no train: add `[limit.train]` with `over`, `axles`, `from` and `to`")]
     NoTrain,
-    /// A train that stands on nothing, wherever it is.
+    /// No axle of the train is on the bridge at any position.
     #[error(
         "no axle of the train stands on \"{over}\" at any of its positions: correct `from`, `to` or `over` of [limit.train]"
     )]
     NoAxle {
-        /// What should carry it.
+        /// The name of the bridge, `over`.
         over: String,
     },
-    /// Blocks without weight, which was to grow.
+    /// The blocks have no weight that could grow.
     #[error(
         "the blocks have no weight of which a factor could grow: give their materials a `density`, or name a group of loads"
     )]
     NoWeight,
-    /// A group of loads that are zero.
+    /// The loads of the group are zero.
     #[error(
         "the loads of \"{group}\" are zero, so that no factor changes anything: give them a value, or name another group"
     )]

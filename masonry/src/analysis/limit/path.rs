@@ -22,28 +22,29 @@ use crate::system::{System, mass};
 /// Steps up to the bound of associated flow. Measured on the walls of Ferris and Tin-Loi, whose published limits are met to
 /// 2e-3.
 const STEPS: f64 = 16.0;
-/// Relative difference of the factors that stand and fall at which the search ends.
+/// The search ends at this relative difference between the factors at which blocks rest and at which they flow.
 const NEAR: f64 = 5e-5;
-/// The same difference if blocks take long to fall, and for events. Chosen: three digits.
+/// The difference at which the search ends if blocks take long to fall, and of events. Chosen: three digits.
 const NEAR_ENOUGH: f64 = 1e-3;
-/// Steps of the solver in a long fall. Measured on walls: a few blocks fall within 100, a hundred within some hundred.
+/// Steps of the solver in a long fall. Measured: walls of a few blocks fall within 100, walls of a hundred within some
+/// hundred.
 const LONG: usize = 200;
-/// Relative difference up to which both factors are one number. Chosen: far below what another path may change.
+/// Relative difference up to which these factors count as one number. Chosen: far below the change by another path.
 const ONE_NUMBER: f64 = 5e-3;
 /// Steps of a structure that never falls; each is twice as long as the one before. Chosen.
 const DOUBLED: usize = 10;
 
 /// The limit load of Coulomb's friction, in which joints do not open when they slide.
 ///
-/// The factor grows from zero in steps. In each the blocks come to rest, or flow; the limit is found by bisection.
-/// Other paths may end elsewhere if there is friction. Joints between rigid blocks have the [stiffness of dry
-/// ones](crate::model::DRY_JOINT), unless their class has another.
+/// The factor grows from zero in steps, in each of which the blocks come to rest or flow; the limit is found by
+/// bisection. Other paths may end elsewhere if there is friction. Joints between rigid blocks have the [stiffness of
+/// dry joints](crate::model::DRY_JOINT), unless their class has another.
 #[derive(Debug, Clone)]
 #[non_exhaustive]
 pub struct Path {
     /// The largest factor \[-\] at which the blocks rest; `None` if they do not rest without the group.
     pub load_factor: Option<f64>,
-    /// The smallest factor \[-\] at which they flow, or for which it is proved that no forces balance the loads.
+    /// The smallest factor \[-\] at which the blocks flow, or for which it is proved that no forces balance the loads.
     pub falls: Option<f64>,
     /// Whether the two factors are close to each other, or the structure stands at every factor that was tried.
     /// Otherwise neither rest nor flow was found between them.
@@ -54,7 +55,7 @@ pub struct Path {
     pub contacts: Option<Vec<PointState>>,
     /// The reactions of the last state at rest.
     pub reactions: Vec<Reaction>,
-    /// The motion of the blocks above that factor: displacement rates of their corners, scaled to a largest component
+    /// The motion of the blocks above `load_factor`: displacement rates of their corners, scaled to a largest component
     /// of one.
     pub mechanism: Option<Vec<Vec<Vector2<f64>>>>,
     /// Joints that opened or slid for the first time along the path.
@@ -74,7 +75,7 @@ impl Path {
         }
     }
 
-    /// Warnings: what limits the meaning of the answer.
+    /// A warning that limits the meaning of the answer.
     pub(super) fn warning(&self) -> String {
         let way = "With friction other paths may end at other factors.";
         let sentences = [self.model.of_dry_joints(), mass::of_unit_density(&self.model)];
@@ -87,8 +88,8 @@ impl Path {
 pub struct Stand {
     /// The load factor \[-\].
     pub load_factor: f64,
-    /// The largest displacement \[m\] since the factor was zero; for rigid blocks it is that of the springs and has
-    /// no meaning by itself.
+    /// The largest displacement \[m\] since the factor was zero; the displacement of rigid blocks comes from the
+    /// springs and has no meaning by itself.
     pub displacement: f64,
     /// Contact points that are open, stick and slide.
     pub contacts: [usize; 3],
@@ -113,7 +114,7 @@ pub(super) fn of(
     let loads = with_growth.problem.loads().iter().zip(sparse.problem.loads());
     let growth: Vec<f64> = loads.map(|(grown, stays)| grown - stays).collect();
     let mass = mass::lumped(&stays, &system);
-    // That of scenes without a tolerance.
+    // The tolerance of scenes that set none.
     let SolverSettings { tolerance, .. } = SolverSettings::default();
     let steps = Steps {
         sparse: &sparse,
@@ -138,7 +139,7 @@ pub(super) fn of(
     climb.run()?;
     let Climb { steps, watch, rests, falls, motion, .. } = climb;
     let flows = motion.and_then(|motion| recover::flow(&stays, &system, &sparse, &motion));
-    // At the bound of associated flow its motion is one that nothing stops.
+    // Nothing stops the motion of associated flow at the bound.
     let is_bound = falls.is_some() && falls == associative.bound;
     let proved = associative.mechanism.as_ref().filter(|_| is_bound);
     let mechanism = flows.or_else(|| proved.cloned());
@@ -166,7 +167,7 @@ pub(super) fn of(
     })
 }
 
-/// Whether a factor that falls is hardly larger than one that stands; or there is none.
+/// Whether the factor that falls is hardly larger than the one that stands, or there is no factor that falls.
 fn is_near(falls: Option<f64>, stands: Option<f64>, size: f64) -> bool {
     match (falls, stands) {
         (Some(falls), Some(stands)) => falls - stands <= (ONE_NUMBER * falls).max(NOTHING * size),
@@ -175,17 +176,17 @@ fn is_near(falls: Option<f64>, stands: Option<f64>, size: f64) -> bool {
     }
 }
 
-/// The way up.
+/// The search along growing factors.
 struct Climb<'a, 'b> {
     steps: Steps<'a>,
     watch: &'a mut Watch<'b>,
-    /// The factor under which what grows is as large as what stays.
+    /// The factor at which the growing loads are as large as the others.
     size: f64,
     rests: Vec<(f64, AtRest)>,
-    /// The least factor at which no rest was found, and the least at which it is known that there is none.
+    /// The least factor at which no rest was found, and the least at which it is known that there is no rest.
     end: Option<f64>,
     falls: Option<f64>,
-    /// The part by which the two factors may differ.
+    /// The relative difference that the two factors may have.
     near: f64,
     motion: Option<Vec<f64>>,
 }
@@ -197,7 +198,7 @@ impl Climb<'_, '_> {
             return Ok(());
         }
         let mut step = self.end.map_or(1.0, |end| end / STEPS);
-        // A structure that no factor leaves at rest has an end too.
+        // The search also ends for a structure that is at rest under no factor.
         let least = (NEAR * NEAR * self.end.unwrap_or(1.0)).max(NOTHING * self.size);
         let mut doubled = 0;
         loop {

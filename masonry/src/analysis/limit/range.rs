@@ -1,4 +1,4 @@
-//! How much reactions can differ from one set of admissible forces to another.
+//! Ranges of the reactions over all sets of admissible forces.
 
 use std::cell::Cell;
 use std::ops::ControlFlow;

@@ -1,18 +1,19 @@
 //! The seismic check of a limit load under accelerations, by linear kinematic analysis.
 //!
-//! The mechanism of the limit gives every weight `P_i` a virtual displacement `d_i` along the acceleration. By Circolare
-//! 7/2019, C8.7.1.2.1, with the mechanism as a system of one degree of freedom,
+//! The mechanism of the limit gives every weight `P_i` a virtual displacement `d_i` along the acceleration. The
+//! formulas of Circolare 7/2019, C8.7.1.2.1, for the mechanism as a system of one degree of freedom are
 //!
 //! ```text
 //! M* = (sum P d)^2 / (g sum P d^2),   e* = g M* / sum P,   a_0* = alpha_0 g / (e* FC)  >=  a_g S / q,
 //! ```
 //!
-//! and `alpha_0` is the component of the acceleration across gravity at the limit, over gravity; `d` is along this component. Sums
-//! are over the weights of the blocks that [move](crate::verify::moving), each in its centroid, and over loads with a mass on these
-//! blocks, each in its place. A weight at rest has no part in the mechanism, and would only make `e*` smaller.
+//! `alpha_0` is the component of the acceleration across gravity at the limit, over gravity; `d` is along this
+//! component. Sums are over the weights of the blocks that [move](crate::verify::moving), each in its centroid, and
+//! over loads with a mass on these blocks, each in its place. A weight at rest has no part in the mechanism, and would
+//! only make `e*` smaller.
 //!
-//! Several mechanisms may belong to one limit: if all bed joints slide alike, any of them may. No `e*` is above one, so that
-//! `a_0* >= alpha_0 g / FC` for all of them.
+//! Several mechanisms may belong to one limit: any bed joint may slide if all slide alike. No `e*` is above one, so
+//! that `a_0* >= alpha_0 g / FC` for all mechanisms.
 
 use nalgebra::{Point2, Vector2};
 
@@ -25,11 +26,11 @@ use crate::verify::moving::moving;
 
 /// The seismic check of a limit load by linear kinematic analysis (Circolare 7/2019, C8.7.1.2.1).
 ///
-/// The scene has its data as `[limit.seismic]`; the reference on limit loads has its formulas.
+/// The data are in `[limit.seismic]` of the scene, and the formulas in the reference on limit loads.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct SeismicCheck {
-    /// Whether factor and mechanism are those of the path with Coulomb's law; else they are those of associated flow.
+    /// Whether factor and mechanism are those of the path with Coulomb's law, and not those of associated flow.
     pub is_of_path: bool,
     /// The component of the acceleration across gravity at the limit, over gravity, `alpha_0` \[-\].
     pub multiplier: f64,
@@ -52,8 +53,8 @@ pub struct SeismicCheck {
 }
 
 impl SeismicCheck {
-    /// Whether all mechanisms of the limit meet the demand, or the one that was found does not. `None` if it does and others may not,
-    /// and without a demand.
+    /// `true` if all mechanisms of the limit meet the demand, `false` if the mechanism that was found does not. `None`
+    /// if that mechanism meets the demand and others may not, and without a demand.
     pub fn is_satisfied(&self) -> Option<bool> {
         let demand = self.demand?;
         if self.least_capacity >= demand {
@@ -67,8 +68,8 @@ impl SeismicCheck {
 }
 
 impl Limit {
-    /// Whether the seismic check of this limit is worse than that of another: its answer, or, if the answers are equal, `a_0*` up to
-    /// the factor that is not carried.
+    /// Whether the seismic check of this limit is worse than that of another: by its answer, or, if the answers are
+    /// equal, by `a_0*` up to the factor that is not carried.
     pub fn has_worse_check(&self, other: &Self) -> bool {
         let rank = |it: &SeismicCheck| match it.is_satisfied() {
             Some(false) => 0,
@@ -85,7 +86,7 @@ impl Limit {
         }
     }
 
-    /// Warns of a seismic check that is worse than that of this limit, which governs: that of another direction or combination.
+    /// Warns if another direction or combination has a worse seismic check than this limit, which governs.
     pub fn compare_check(&mut self, name: &str, other: &Self) {
         if other.has_worse_check(self) {
             self.warnings.push(format!(
@@ -95,7 +96,7 @@ impl Limit {
     }
 }
 
-/// The check by the law that [carries](super::Limit::carried), or why there is none.
+/// The check by the law that [carries](super::Limit::carried), or the reason why there is no check.
 pub(super) fn of(
     scene: &Scene,
     structure: &LoadedStructure<'_>,

@@ -126,7 +126,7 @@ fn at_most(it: f64) -> String {
     outwards(it, BoundSide::Above, factor)
 }
 
-/// A load factor with four decimals, if these say enough.
+/// A load factor with four decimals, if four are enough.
 fn factor(it: f64) -> String {
     match it.abs() {
         0.0 => "0".to_owned(),

@@ -15,13 +15,13 @@ use crate::rounding::{BoundSide, outwards};
 use crate::scene::{Known, Scene, SceneError};
 use crate::system::System;
 
-/// Relative difference of the thicknesses on both sides of the least one at which the search ends.
+/// The search ends at this relative difference between the thicknesses on both sides of the least one.
 const NEAR: f64 = 1e-6;
-/// Times that a thickness is doubled or halved to find one that falls and one that stands.
+/// The number of times that a thickness is doubled or halved to find one that falls and one that stands.
 const DOUBLED: u32 = 10;
 
-/// The least thickness at which an arch stands, between one that falls and one that stands; the span and the rise of its
-/// intrados stay, and so do all other parts of the scene.
+/// The least thickness at which an arch stands, between one that falls and one that stands; the span and the rise of
+/// its intrados and all other parts of the scene stay.
 #[derive(Debug, Clone)]
 #[non_exhaustive]
 pub struct Thickness {
@@ -35,11 +35,11 @@ pub struct Thickness {
     pub falls: Option<f64>,
     /// The smallest thickness \[m\] at which forces were found that balance the loads.
     pub stands: Option<f64>,
-    /// Whether the two are so near to each other that they are one number.
+    /// Whether `falls` and `stands` are so near to each other that they are one number.
     pub proved: bool,
     /// Whether the observer has ended the search.
     pub is_interrupted: bool,
-    /// The structure that stands, or that of the scene if none does.
+    /// The structure that stands, or the structure of the scene if none stands.
     pub model: Model,
     /// The forces of the structure that stands, point by point; gaps and slips are zero.
     pub forces: Option<Vec<PointState>>,
@@ -52,7 +52,8 @@ pub struct Thickness {
 /// The least thickness of an arch under the loads of the scene in full.
 ///
 /// # Errors
-/// [`LimitError`] when the scene is wrong, or has no such arch. Thicknesses at which it is wrong end the search.
+/// [`LimitError`] when the scene is wrong, or has no such arch. A thickness at which the scene is wrong ends the
+/// search.
 pub fn least_thickness(scene: &Scene, arch: &str) -> Result<Thickness, LimitError> {
     least_thickness_observed(scene, arch, &mut |_| ControlFlow::Continue(()))
 }
@@ -90,7 +91,7 @@ struct Bisection<'a> {
     watch: Watch<'a>,
     falls: Option<(f64, Vec<Vec<Vector2<f64>>>)>,
     stands: Option<(f64, Model, Vec<PointState>)>,
-    /// The thickness that does not fit into the rest of the scene, and why.
+    /// The thickness that does not fit into the rest of the scene, and the error.
     unfit: Option<(f64, SceneError)>,
 }
 
@@ -117,7 +118,7 @@ impl Bisection<'_> {
         Ok(())
     }
 
-    /// Whether it came out if the arch stands at a thickness.
+    /// Tries a thickness; whether the arch was found to stand or to fall.
     fn tried(&mut self, thickness: f64) -> Result<bool, LimitError> {
         if self.watch.ask().is_break() {
             return Ok(false);

@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 use super::{Answer, Laws, Limit, LimitError, LimitObserver, Path, limit_observed};
 use crate::scene::Scene;
 
-/// What the worst position means if the path was followed there alone.
+/// The warning if the path was followed at the worst position only.
 const OF_ONE_POSITION: &str = "The position is the one at which associated flow carries least; Coulomb's friction may \
                                carry less at another. `--law path` follows the load at every position, which takes \
                                longer.";
@@ -54,7 +54,8 @@ pub struct CrossingTrain {
     pub limit: Limit,
 }
 
-/// The limit loads of the train of the scene by associated flow, and by both laws at the position where these are least.
+/// The limit loads of the train of the scene by associated flow, and by both laws at the position with the least of
+/// these loads.
 ///
 /// ```
 /// use masonry::analysis::limit::train;
@@ -83,8 +84,8 @@ pub fn train(scene: &Scene) -> Result<CrossingTrain, LimitError> {
 
 /// The limit loads of the train with an observer that may end the search by `Break`.
 ///
-/// The law of all positions is that of paths if it alone is chosen, and else associated flow, which is far quicker. The
-/// second law of [`Laws::Both`] is asked at the worst position only, which a warning tells.
+/// All positions are computed along paths if this law alone is chosen, and else by associated flow, which is far
+/// quicker. [`Laws::Both`] follows a path at the worst position only, and adds a warning.
 ///
 /// # Errors
 /// [`LimitError`] when the scene is wrong, has no train, or has a train that is never on the bridge.

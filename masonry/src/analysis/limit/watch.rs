@@ -1,4 +1,4 @@
-//! The observer of a search for a limit, who may end it.
+//! The observer of a search for a limit, who may end the search.
 
 use std::ops::ControlFlow;
 
@@ -13,10 +13,10 @@ pub struct Bracket {
     pub falls: Option<f64>,
 }
 
-/// Called with the bounds many times during the search, which ends with them after `Break`.
+/// A function that is called with the bounds many times during the search; `Break` ends the search.
 pub type LimitObserver<'a> = dyn FnMut(Bracket) -> ControlFlow<()> + 'a;
 
-/// An observer, what it is told, and whether it has ended the search.
+/// An observer, the bounds for it, and whether it has ended the search.
 pub(super) struct Watch<'a> {
     observer: &'a mut LimitObserver<'a>,
     pub(super) known: Bracket,

@@ -1,4 +1,4 @@
-//! One route after the other, each with what it is built on, until one has the answer.
+//! Routes one after another, each on its own form of the problem, until one has the answer.
 
 use std::cmp::Ordering;
 use std::ops::ControlFlow;
@@ -31,9 +31,9 @@ use crate::verify::checks::Checks;
 use crate::verify::step::{LoadingEnd, StepResult};
 use crate::verify::verdict::Drift;
 
-/// The begin of a step of a load history.
+/// The start of a step of a load history.
 pub(super) struct Before<'a> {
-    /// The loads, gaps and supports there, with slips measured from the state.
+    /// The loads, gaps and supports at the start, with slips measured from the state.
     pub(super) problem: Contact2d,
     pub(super) state: &'a State,
     /// The basis at which pivots ended.
@@ -50,9 +50,9 @@ pub(super) struct Chain<'a> {
     pub(super) observer: &'a mut dyn FnMut(Event) -> ControlFlow<()>,
     pub(super) before: Option<Before<'a>>,
     sparse: Option<Sparse>,
-    /// Whether there are admissible forces; asked at most once.
+    /// The decision whether there are admissible forces; made at most once.
     decision: Option<Decision>,
-    /// Whether the proof that there are none would end the route at hand.
+    /// Whether a proof that there are no admissible forces would end the current route.
     may_be_cut: bool,
 }
 
@@ -79,7 +79,8 @@ impl<'a> Chain<'a> {
         }
     }
 
-    /// The route that says most, with the attempts of all of them; and the sparse problem, if it was built.
+    /// The most conclusive result of the routes, with the attempts of all of them; and the sparse problem, if it was
+    /// built.
     pub(super) fn run(
         mut self,
         routes: &[PlannedRoute],
@@ -108,7 +109,7 @@ impl<'a> Chain<'a> {
             ends.push(RouteRecord { route: *route, because: because.clone(), end, seconds });
             let mut tried = match tried {
                 Ok(tried) => tried,
-                // The next route may treat what this one does not.
+                // The next route may treat a structure that this one does not.
                 Err(error) => {
                     refusal = refusal.or(Some(error));
                     continue;
@@ -137,14 +138,14 @@ impl<'a> Chain<'a> {
         Ok((best, self.sparse))
     }
 
-    /// Whether any forces balance the loads, if the verdict needs it.
+    /// Adds the decision whether any forces balance the loads, if the verdict needs it.
     fn add_statics(&mut self, best: &mut StepResult) {
         let is_far =
             best.state.as_ref().is_some_and(|state| Drift::of(self.model, state).is_large());
         if !auto::needs_statics(best.info.status, is_far, self.system.is_at_rest()) {
             return;
         }
-        // Data that overflow leave it open.
+        // The decision stays open if data overflow.
         best.statics = self.statics().ok().map(|decision| decision.statics.clone());
         if let Some(Statics::Impossible(proof)) = &best.statics {
             best.mechanism.get_or_insert_with(|| proof.rates.clone());
@@ -187,7 +188,7 @@ impl<'a> Chain<'a> {
         Ok(())
     }
 
-    /// Whether there are admissible forces.
+    /// The decision whether there are admissible forces.
     fn statics(&mut self) -> Result<&Decision, lcp::Error> {
         if self.decision.is_none() {
             let (model, system, observer) = (self.model, self.system, &mut *self.observer);
@@ -241,7 +242,7 @@ impl<'a> Chain<'a> {
     }
 
     /// Solves a result anew on the states of its contacts, with all displacements as unknowns: the reduced forms lose
-    /// digits of flat bricks, and of huge friction. The given result stays if that is not better.
+    /// digits of flat bricks, and of huge friction. The given result stays if the new one is not better.
     fn refine(&mut self, result: &mut StepResult) -> Result<(), SolveError> {
         let Self { model, system, .. } = *self;
         let Some(state) = &result.state else { return Ok(()) };
@@ -333,9 +334,9 @@ impl<'a> Chain<'a> {
         }
     }
 
-    /// Takes the steps to a state of rest again, to half of what the checks ask for: they exceed their tolerance so many
-    /// times. Errors of steps that fine are rounding errors, so that no finer ones follow; and the first state is kept
-    /// if the second is no better.
+    /// Repeats the steps to a state of rest with a finer tolerance, half of the usual one over `excess`, the factor by
+    /// which the checks exceed their tolerance. Errors of such steps are rounding errors, so that no finer steps
+    /// follow. The first state is kept if the second is not better.
     fn finer(&mut self, route: Route, excess: f64, rough: StepResult) -> StepResult {
         if self.request.step_tolerance < loading::STEP_TOLERANCE {
             return rough;
@@ -357,7 +358,7 @@ impl<'a> Chain<'a> {
         best
     }
 
-    /// How many times the checks exceed their tolerance.
+    /// The factor by which the checks exceed their tolerance.
     fn excess(&self, tried: &StepResult) -> Option<f64> {
         tried.checks.as_ref().map(|checks| checks.excess(self.request.tolerance))
     }
@@ -371,7 +372,7 @@ impl<'a> Chain<'a> {
         slips
     }
 
-    /// The state that an answer on the sparse problem is.
+    /// The state of an answer on the sparse problem.
     fn recovered(&mut self, model: &Model, sparse: &Sparse, answer: &RouteAnswer) -> Option<State> {
         let Self { system, with_stresses, .. } = *self;
         let (rows, u) = answer.rows.as_ref().zip(answer.displacements.as_deref())?;
@@ -381,7 +382,7 @@ impl<'a> Chain<'a> {
         }))
     }
 
-    /// The sparse problem, built once; who takes it gives it back.
+    /// The sparse problem, built once; the caller gives it back after use.
     fn sparse(&mut self) -> Result<Sparse, lcp::Error> {
         let system = self.system;
         match self.sparse.take() {

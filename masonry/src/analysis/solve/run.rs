@@ -57,11 +57,11 @@ use crate::verify::verdict::{self, Findings};
 /// ```
 #[derive(Debug)]
 pub struct Run {
-    /// What a sentence calls it.
+    /// The noun for the structure in sentences.
     structure: &'static str,
     title: String,
-    /// The model under the only step; if there are several, with all loads in full and all supports in
-    /// their places.
+    /// The model under the only step; if there are several steps, with all loads in full and all supports in their
+    /// places.
     model: Model,
     plan: Plan,
     system: System,
@@ -81,7 +81,7 @@ pub struct Run {
     solved: Option<StepResult>,
     /// The situation of the last state that was kept; `None` if there is only one step.
     reached: Option<Situation>,
-    /// The step after it, if that was tried and not solved.
+    /// The step after the last solved one, if that step was tried and not solved.
     failed: Option<StepResult>,
     /// The sparse problem of the last step that was tried, if it was built.
     sparse: Option<Sparse>,
@@ -93,12 +93,12 @@ pub struct Run {
 struct Situation {
     /// The model under the actions of the step.
     model: Model,
-    /// How far every contact point had slid where slips are measured from \[m\].
+    /// The slip \[m\] of every contact point at the state from which slips are measured.
     slips: Vec<f64>,
 }
 
 impl Run {
-    /// Builds what all steps have in common.
+    /// Builds the parts that all steps have in common.
     ///
     /// # Errors
     /// [`SolveError`] when the scene is wrong or too large.
@@ -149,12 +149,12 @@ impl Run {
 
     /// Goes on from the last step of a checkpoint.
     ///
-    /// Route, tolerance, output, and stages that are still to come may differ from those of the run that
-    /// wrote it.
+    /// Route, tolerance, output, and stages that are still to come may differ from those of the run that wrote the
+    /// checkpoint.
     ///
     /// # Errors
-    /// [`CheckpointError`] when it belongs to another scene, to steps that are not those of this one, when a state
-    /// in it does not hold, and for scenes of one step.
+    /// [`CheckpointError`] if the checkpoint belongs to another scene or to other steps, if a state in it is not an
+    /// equilibrium, and for scenes of one step.
     pub fn resume(mut self, checkpoint: &Checkpoint) -> Result<Self, SolveError> {
         if !self.has_history() {
             return Err(CheckpointError::OneStep.into());
@@ -242,7 +242,7 @@ impl Run {
         }
     }
 
-    /// A step as it follows the last one that was solved.
+    /// The situation of a step after the last one that was solved.
     fn situation(&self, step: &HistoryStep) -> Situation {
         let state = self.solved.as_ref().and_then(|solved| solved.state.as_ref());
         let slips: Vec<f64> = match state {
@@ -252,7 +252,8 @@ impl Run {
         Situation { model: self.model.under(&step.actions, &slips), slips }
     }
 
-    /// The problem of the last step that was solved, with slips measured from its state, and what tells the work to the next.
+    /// The problem of the last step that was solved, with slips measured from its state, and its state as a snapshot
+    /// for works.
     fn before(&mut self, slips: &[f64]) -> Result<Option<(Contact2d, Snapshot)>, SolveError> {
         let state = self.solved.as_ref().and_then(|solved| solved.state.as_ref());
         let Some((record, state)) = self.records.last().zip(state) else { return Ok(None) };
@@ -262,13 +263,13 @@ impl Run {
         Ok(Some((Sparse::new(&self.system)?.problem, snapshot)))
     }
 
-    /// The result of a step that no route was asked about, or whose routes were refused.
+    /// The result of a step without an answer: no route ran, or the routes refused the step.
     fn without_state(&self, status: Status) -> StepResult {
         let info = SolveInfo::new(self.plan.routes[0].route, status, UNKNOWN);
         StepResult::new(SolveInfo { because: "planned; no route has ended".to_owned(), ..info })
     }
 
-    /// Keeps a result. An only step has nothing else to remember.
+    /// Keeps a result. Nothing else is remembered of an only step.
     fn take(
         &mut self,
         step: HistoryStep,
@@ -279,15 +280,15 @@ impl Run {
         if let Some(situation) = situation {
             self.remember(step, situation, before, &mut tried);
         } else if let Some(moved) = &tried.moved {
-            // The state is judged with slips from where the blocks came to.
+            // The state is judged with slips measured from the places that the blocks have reached.
             self.model = self.model.slid(moved);
         }
         let place = if tried.is_solved() { &mut self.solved } else { &mut self.failed };
         *place = Some(tried);
     }
 
-    /// Keeps the record of a solved step, and the situation of its state. The state of an unsolved step counts only
-    /// if there is no earlier one.
+    /// Keeps the record of a solved step, and the situation of its state. The state of an unsolved step counts only if
+    /// there is no earlier state.
     fn remember(
         &mut self,
         step: HistoryStep,
@@ -365,12 +366,12 @@ impl Run {
         self.steps.len() > 1
     }
 
-    /// How many steps were solved.
+    /// The number of steps that were solved.
     pub fn solved_steps(&self) -> usize {
         if self.has_history() { self.records.len() } else { usize::from(self.solved.is_some()) }
     }
 
-    /// How many steps there are.
+    /// The number of steps of the scene.
     pub fn steps(&self) -> usize {
         self.steps.len()
     }
@@ -456,7 +457,7 @@ fn largest_displacement(state: &State) -> f64 {
     state.displacements.iter().flatten().map(nalgebra::Matrix::amax).fold(0.0, f64::max)
 }
 
-/// What sentences call the structure of a scene.
+/// The noun for the structure of a scene in sentences.
 fn noun(scene: &Scene) -> &'static str {
     if scene.walls.is_empty() && !scene.arches.is_empty() { "arch" } else { "wall" }
 }

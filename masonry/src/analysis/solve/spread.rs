@@ -1,4 +1,4 @@
-//! A second loading of a load history, and how far its answer is from that of the first.
+//! A second loading of a load history, and the distance of its answer from that of the first.
 
 use std::ops::ControlFlow;
 
@@ -6,17 +6,19 @@ use super::{Event, Run, SolveError};
 use crate::history::{SecondLoading, Spread};
 use crate::scene::Scene;
 
-/// How much faster the second loading is: the part of the loads that its drag may carry, by that of the first. Chosen: far
-/// enough to matter, and still slow.
+/// The speed of the second loading over that of the first: the ratio of the parts of the loads that their drag may
+/// carry. Chosen: large enough to matter, and still slow.
 const FASTER: f64 = 10.0;
 
-/// How many steps of the first loading are one of the second. Chosen: the answers of twenty and of eighty steps differ by less
-/// than those of the two loadings do (docs/scaling.md), and a second loading takes half the time of the first.
+/// The number of steps of the first loading per step of the second. Chosen: the answers of twenty and of eighty steps
+/// differ by less than those of the two loadings (docs/scaling.md), and a second loading takes half the time of the
+/// first.
 const COARSER: u32 = 4;
 
 impl Run {
-    /// Loads the scene a second time, with a quarter of the steps in every stage (at least two) and ten times as fast, and
-    /// keeps what that [came to](SecondLoading). Nothing is done for a scene of one step, or if steps of it are not solved.
+    /// Loads the scene a second time, with a quarter of the steps in every stage (at least two) and ten times as fast,
+    /// and keeps the [outcome](SecondLoading). Nothing is done for a scene of one step, or if some steps are not
+    /// solved.
     ///
     /// # Errors
     /// As [`Run::new`]. A step of the second loading that fails ends it.

@@ -12,11 +12,12 @@ use crate::rounding::largest;
 /// Errors of an answer relative to a reference \[-\]; `None` if the reference has only zeros.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Errors {
-    /// Largest error of a component of the contact forces, as the blocks feel them, relative to the
-    /// largest one: their sum at every node of an elastic block, their resultant on a rigid one. Forces
-    /// that circulate between blocks around one place are not unique and not in it.
+    /// Largest error of a component of the contact forces on the blocks, relative to the largest
+    /// component: of their sum at every node of an elastic block, of their resultant on a rigid one.
+    /// Forces that circulate between blocks around one place are not unique and not included.
     pub force: Option<f64>,
-    /// Largest error of a component of stress in the centre of an element, relative to the largest one.
+    /// Largest error of a component of stress in the centre of an element, relative to the largest
+    /// component.
     pub stress: Option<f64>,
     /// Error of the strain energy.
     pub energy: Option<f64>,
@@ -34,11 +35,11 @@ impl Errors {
     }
 }
 
-/// Numbers of an answer that are unique as far as displacements are.
+/// The values of an answer that are unique as far as displacements are.
 #[derive(Debug, Clone)]
 pub(super) struct Figures {
-    /// Contact forces \[N\] on every block: at the nodes of an elastic one, or force and moment over its
-    /// size on a rigid one.
+    /// Contact forces \[N\] on every block: at the nodes of an elastic block; force, and moment over the
+    /// size of the block, on a rigid one.
     forces: Vec<Vec<f64>>,
     /// Components of stress \[Pa\] of all elements.
     stresses: Vec<f64>,
@@ -67,7 +68,7 @@ impl Figures {
         }
     }
 
-    /// Which blocks carry anything; one that hangs in its gaps has no unique place.
+    /// Whether each block carries anything; a block that hangs in its gaps has no unique place.
     pub(super) fn loaded_blocks(&self) -> Vec<bool> {
         let most: Vec<f64> = self.forces.iter().map(largest).collect();
         let all = largest(&most);

@@ -1,9 +1,9 @@
-//! Where times were measured.
+//! The machine on which times are measured.
 
 use std::thread::available_parallelism;
 
-/// The processor and the number of its threads that there are, for tables and pictures; the kind of processor
-/// if the system does not tell its model.
+/// The model of the processor and the number of its threads, for tables and pictures; the kind of processor
+/// if the model is unknown.
 ///
 /// ```
 /// assert!(masonry::analysis::study::machine().contains("thread"));

@@ -1,4 +1,4 @@
-//! Finer meshes of a scene, and what they change.
+//! Finer meshes of a scene, and the change of its results on them.
 
 use nalgebra::Vector2;
 use serde::Serialize;
@@ -16,7 +16,7 @@ use crate::scene::Scene;
 pub struct Mesh {
     /// The factor of the numbers of elements in the scene, per direction.
     pub factor: u32,
-    /// Its name in reports.
+    /// The name of the mesh in reports.
     pub name: String,
     /// Blocks.
     pub blocks: usize,
@@ -24,14 +24,14 @@ pub struct Mesh {
     pub elements: usize,
     /// Contact points.
     pub contact_points: usize,
-    /// Why the mesh cannot be made: too many elements, for instance.
+    /// The reason for which the mesh cannot be made: too many elements, for instance.
     pub refusal: Option<String>,
     /// The most accurate solution; `None` if no route found one within the time limit.
     pub reference: Option<Reference>,
-    /// Its values.
+    /// The values of the reference.
     pub values: Option<Values>,
-    /// Errors of the mesh: distances of its values from those of the finest mesh with a reference, which itself has
-    /// none.
+    /// Errors of the mesh: distances of its values from those of the finest mesh with a reference. That mesh has no
+    /// errors itself.
     pub errors: Option<MeshErrors>,
     /// Displacements of the corners of blocks that carry load.
     #[serde(skip)]
@@ -45,7 +45,7 @@ pub struct Values {
     pub strain_energy: f64,
     /// Horizontal force \[N\] of all supports left of the middle on the structure.
     pub thrust: f64,
-    /// Displacement \[m\] of that corner of a loaded block that moves most on the finest mesh.
+    /// Displacement \[m\] of the corner of a loaded block that moves most on the finest mesh.
     pub displacement: [f64; 2],
 }
 
@@ -70,7 +70,7 @@ impl MeshErrors {
 /// A thrust below this part of all forces of the supports is rounding.
 const NO_THRUST: f64 = 1e-9;
 
-/// The scene with so many times the elements in every direction.
+/// The scene with `factor` times the elements in every direction.
 pub fn refined(scene: &Scene, factor: u32) -> Scene {
     let mut scene = scene.clone();
     let meshes = scene.walls.iter_mut().map(|wall| &mut wall.mesh);
@@ -184,7 +184,7 @@ fn corners(model: &Model, state: &State, figures: &Figures) -> Vec<Option<Vec<Ve
     corners.zip(loaded).map(|(corners, is_loaded)| is_loaded.then_some(corners)).collect()
 }
 
-/// Block and corner.
+/// Block and corner with the largest displacement.
 fn most_moved(corners: &[Option<Vec<Vector2<f64>>>]) -> Option<(usize, usize)> {
     let places =
         corners.iter().enumerate().filter_map(|(block, corners)| Some((block, corners.as_ref()?)));

@@ -10,12 +10,12 @@ use crate::analysis::outcome::Outcome;
 use crate::scene::{Route, Scene};
 use crate::verify::checks::Checks;
 
-/// Routes that end on a basis, and so at rounding; and one that does not, for what is too large for the
-/// others. The first two that have an answer are compared.
+/// Routes that end on a basis, and so at rounding errors; and a last one that does not, for scenes that are too
+/// large for the others. The first two routes with an answer are compared.
 const ROUTES: [Route; 4] = [Route::Interior, Route::Lemke, Route::Alm, Route::Qp];
 /// Tolerances of a reference: the first that is reached.
 const TOLERANCES: [f64; 4] = [1e-13, 1e-12, 1e-11, 1e-10];
-/// That of a route that converges to a residual: enough to tell the states of the contacts.
+/// The tolerance of a route that converges to a residual: enough to decide the states of the contacts.
 const CONVERGED: [f64; 1] = [1e-10];
 
 /// The most accurate solution on a mesh.
@@ -31,10 +31,10 @@ pub struct Reference {
     pub balance: f64,
     /// Wall-clock time \[s\].
     pub seconds: f64,
-    /// Its verification in double-double arithmetic. Errors are relative to the refined solution if that [is
-    /// better](Verification::is_better).
+    /// The verification in double-double arithmetic. Errors are relative to the refined solution if that
+    /// solution [is better](Verification::is_better).
     pub verified: Option<Verification>,
-    /// The solution of another route; `None` if no other has one.
+    /// The solution of another route; `None` if no other route has one.
     pub confirmed: Option<Confirmation>,
 }
 
@@ -43,13 +43,14 @@ pub struct Reference {
 pub struct Confirmation {
     /// The other route.
     pub route: Route,
-    /// Its distance from the reference. With friction there may be several equilibria, and then it may be large.
+    /// The distance from the reference; it may be large with friction, since there may be several equilibria.
     pub errors: Errors,
-    /// The distance of both, each refined from the states of its own contacts, in the forces on the nodes \[-\].
+    /// The distance of both solutions, each refined from the states of its own contacts, in the forces on the
+    /// nodes \[-\].
     pub refined: Option<f64>,
 }
 
-/// A reference with what is compared with it.
+/// A reference with the values that are compared with it.
 pub(super) struct FoundReference {
     pub(super) reference: Reference,
     pub(super) outcome: Outcome,
@@ -127,7 +128,7 @@ fn tightest(
             };
             return Some(RankedReference { reference, ran, exact });
         }
-        // A looser tolerance helps if the residual was too large, and not otherwise.
+        // A looser tolerance helps only if the residual was too large.
         let End::Ended(status) = ran.end else { return None };
         if !matches!(status, Status::AlmostSolved | Status::Stalled | Status::IterationLimit) {
             return None;

@@ -27,7 +27,7 @@ const LARGEST_DENSE: usize = 4000;
 pub(super) struct Ran {
     pub(super) end: End,
     pub(super) seconds: Option<f64>,
-    /// The outcome, unless it was refused or skipped.
+    /// The outcome, unless the solve was refused or skipped.
     pub(super) outcome: Option<Outcome>,
 }
 
@@ -36,7 +36,7 @@ impl Ran {
         Self { end: End::Skipped(reason), seconds: None, outcome: None }
     }
 
-    /// Why it would end no better to a tighter tolerance.
+    /// The limit for which a tighter tolerance would end no better.
     fn is_beyond(&self) -> Option<Beyond> {
         match self.end {
             End::Ended(Status::TimeLimit) => Some(Beyond::Time),
@@ -66,12 +66,12 @@ impl Ran {
 /// An exceeded limit.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Beyond {
-    /// Nor will it be on finer meshes.
+    /// A limit of time, which finer meshes exceed too.
     Time,
     Iterations,
 }
 
-/// Solves scenes, and remembers for which time or iterations were not enough.
+/// A runner of solves that remembers which of them ran out of time or iterations.
 pub(super) struct Runner<'a> {
     settings: &'a Settings,
     observer: &'a mut StudyObserver<'a>,
@@ -133,8 +133,8 @@ impl<'a> Runner<'a> {
         record
     }
 
-    /// Pivots are the same to every tolerance that their residual is below: only what is called solved
-    /// depends on it.
+    /// Pivots are the same for every tolerance above their residual: the tolerance decides only whether the
+    /// end counts as solved.
     fn same_pivots(&self, at: StudyProgress) -> Option<Record> {
         let StudyProgress { mesh, route, tolerance } = at;
         let (last, checks) = self.pivots.as_ref()?;
@@ -144,8 +144,8 @@ impl<'a> Runner<'a> {
             .then(|| Record { tolerance, ..last.clone() })
     }
 
-    /// Solves a scene, several times if that is quick. Skips it if the time ran out at a looser tolerance or
-    /// on a coarser mesh, or if the iterations ran out at a looser tolerance.
+    /// Solves a scene, several times if the solve is quick. Skips the scene if the time ran out at a looser
+    /// tolerance or on a coarser mesh, or if the iterations ran out at a looser tolerance.
     pub(super) fn run(&mut self, scene: &Scene, at: StudyProgress) -> Ran {
         let is_easier = |(beyond, other): &&(Beyond, StudyProgress)| {
             let on_mesh = other.mesh == at.mesh || *beyond == Beyond::Time && other.mesh <= at.mesh;

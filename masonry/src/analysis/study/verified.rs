@@ -11,8 +11,8 @@ use crate::model::Model;
 use crate::recover;
 use crate::system::System;
 
-/// The verification of a solution in double-double arithmetic: see [`lcp::Contact2d::verify`]. For a load history it
-/// is that of the last step, with the slips of the previous ones.
+/// The verification of a solution in double-double arithmetic: see [`lcp::Contact2d::verify`]. The last step of a
+/// load history is verified, with the slips of the previous steps.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Verification {
     /// The largest residual of an equation of the refined solution, relative to the terms of its row \[-\].
@@ -23,22 +23,22 @@ pub struct Verification {
     /// The smallest margin of the inequalities of the contact law (gaps, slips, forces and distances from the edge of
     /// the cone), relative to the largest displacement or force \[-\]; `None` without contacts.
     pub margin: Option<f64>,
-    /// Whether all of them hold, up to rounding errors of `f64`.
+    /// Whether all these inequalities hold, up to rounding errors of `f64`.
     pub holds: bool,
     /// Decimal digits of the refined solution that are certain.
     pub digits: f64,
-    /// Distance of the route's solution from it: the largest difference of the forces on the nodes, relative to the
-    /// largest force \[-\].
+    /// Distance between the route's solution and the refined one: the largest difference of the forces on the nodes,
+    /// relative to the largest force \[-\].
     pub distance: Option<f64>,
     /// Solves with one factorisation.
     pub passes: usize,
-    /// Wall-clock time of the factorisation and of these \[s\].
+    /// Wall-clock time of the factorisation and of these solves \[s\].
     pub seconds: f64,
 }
 
-/// Residuals up to this are those of answers that are exact to the usual digits.
+/// Answers with residuals up to this one are exact to the usual digits.
 const EXACT: f64 = f64::EPSILON;
-/// Inequalities violated by less are rounded.
+/// Violations of inequalities below this one are rounding errors.
 const ROUNDED: f64 = 4.0 * f64::EPSILON;
 
 impl Verification {
@@ -59,7 +59,7 @@ pub struct Exact {
     pub statuses: Vec<ContactStatus>,
     /// The solution of the equations of these states.
     pub refined: Refined,
-    /// The same in `f64`.
+    /// The solution in `f64`.
     pub state: State,
 }
 

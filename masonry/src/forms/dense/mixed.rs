@@ -1,14 +1,12 @@
 //! The standard problem `w = M z + q` with the rigid amplitudes as unknowns.
 //!
-//! `z = (t_n, b+, b-, lambda, alpha+, alpha-)`,
-//! `w = (y_n, lambda + y_t, lambda - y_t, mu t_n + C_0 - b+ - b-, e, -e)`, where
-//! `y = F t + G alpha + C K^+ f + x` and `e = -(G^T t + N^T f)` are the unbalanced forces. `F` is positive
-//! semidefinite, `G` enters skew, and of the friction rows only `mu lambda t_n` is left in `z.M z`: `M` is
-//! copositive.
+//! `z = (t_n, b+, b-, lambda, alpha+, alpha-)`, `w = (y_n, lambda + y_t, lambda - y_t, mu t_n + C_0 - b+ - b-, e, -e)`,
+//! where `y = F t + G alpha + C K^+ f + x` and `e = -(G^T t + N^T f)` are the unbalanced forces. `F` is positive
+//! semidefinite, `G` enters skew, and the friction rows leave only `mu lambda t_n` in `z.M z`: `M` is copositive.
 //!
-//! The forces `q = q+ - q-` of the bars of mortar strips are unknowns as well, at the end: `y` has the
-//! term `F_CL q` too, and their rows are `+-(H q + F_LC t + L K^+ f)`. Eliminated, they would couple
-//! all blocks, the farther the less, and pivots would choose between numbers that are next to nothing.
+//! The forces `q = q+ - q-` of the bars of mortar strips are unknowns as well, at the end: `y` has the term `F_CL q`
+//! too, and their rows are `+-(H q + F_LC t + L K^+ f)`. Elimination of `q` would couple all blocks, the farther the
+//! less, and pivots would choose between numbers that are almost zero.
 
 use faer::Mat;
 
@@ -28,8 +26,8 @@ pub(super) fn build(system: &System, reduction: &Reduction) -> Result<DenseForm,
     let mut m = Mat::zeros(order, order);
     let mut q = vec![0.0; order];
 
-    // A tangential row of the system acts on two rows of w, +y_t and -y_t, and takes its force from the same two places of z;
-    // and so does a bar.
+    // A tangential row of the system acts on two rows of w, +y_t and -y_t, and takes its force from the same two places
+    // of z. A bar does the same.
     let of_rows = (0..rows).map(|row| layout.terms(row, 1.0));
     let of_bars = (0..layout.bars).map(|k| vec![(bars + k, 1.0), (bars + layout.bars + k, -1.0)]);
     let places: Vec<Vec<(usize, f64)>> = of_rows.chain(of_bars).collect();

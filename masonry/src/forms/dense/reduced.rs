@@ -85,8 +85,8 @@ impl Equations {
         a[(row, minus)] = 1.0;
     }
 
-    /// A start in which all points with friction slide forwards, along `t`, and one in which they slide backwards; the only
-    /// one if nothing has friction.
+    /// A start in which all points with friction slide forwards, along `t`, and one in which they slide backwards; a
+    /// single start if no point has friction.
     fn starts(&self, kind: FormKind, reduction: &Reduction) -> Vec<Start> {
         let ways: &[_] = if self.layout.friction.is_empty() {
             &[("isostatic normals", true)]

@@ -13,11 +13,12 @@ use crate::model::Model;
 use crate::rounding::largest;
 use crate::system::System;
 
-/// Gaps below this part of the largest displacement are closed, and forces nearer to the bound of friction than this part of
-/// the largest are at it. Chosen: far above the errors of states, far below what they mean.
+/// Gaps below this part of the largest displacement count as closed, and forces within this part of the largest force
+/// from the bound of friction count as at the bound. Chosen: far above the errors of states, far below values that
+/// matter.
 const ZERO: f64 = 1e-7;
-/// Steps between states by contact points. Chosen: for some dozen blocks all events are located, and for hundreds the first,
-/// in a part of the time of the path.
+/// The number of steps between states times the number of contact points. Chosen: all events of some dozen blocks are
+/// located, and the first events of hundreds, in a part of the time of the path.
 const STEPS_BY_POINTS: usize = 5000;
 
 /// A change of a joint.
@@ -33,7 +34,7 @@ pub enum JointChange {
 }
 
 impl JointChange {
-    /// Whether a joint does more than before. One that was open and meets at one end has no hinge there.
+    /// Whether a joint does more than before. A joint that was open and closes at one end has no hinge there.
     fn is_after(self, before: Option<Self>) -> bool {
         before != Some(self) && (self, before) != (Self::Hinges, Some(Self::Opens))
     }
@@ -48,7 +49,7 @@ pub struct JointEvent {
     pub change: JointChange,
     /// The load factor \[-\] of the last state at rest before the change.
     pub after: f64,
-    /// The load factor \[-\] of the first state at rest after it.
+    /// The load factor \[-\] of the first state at rest after the change.
     pub before: f64,
 }
 
@@ -62,7 +63,8 @@ pub(super) struct EventSearch<'a> {
 }
 
 impl EventSearch<'_> {
-    /// Follows the states, and puts others between two of them if joints open or slide there, as far as that is quick.
+    /// Follows the states, and adds others between two of them if joints open or slide there, as long as the search is
+    /// quick.
     pub(super) fn follow(
         &self,
         mut rests: Vec<(f64, AtRest)>,

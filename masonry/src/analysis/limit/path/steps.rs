@@ -5,23 +5,23 @@ use lcp::{Contact2d, ContactState, Ending, Observer, Solver, WarmStart};
 use crate::forms::Sparse;
 use crate::method::loading::{self, Loading};
 
-/// The blocks where they rest.
+/// A state of the blocks at rest.
 #[derive(Debug, Clone)]
 pub(super) struct AtRest {
     /// Displacements of the sparse problem.
     pub(super) u: Vec<f64>,
     /// Forces and gaps; slips of the last part of the step.
     pub(super) state: ContactState,
-    /// The loads under which they rest, with slips measured from the state.
+    /// The problem with the loads of the state, and with slips measured from the state.
     under: Contact2d,
 }
 
 /// How a step ended.
 pub(super) enum StepEnd {
     Rests(Box<AtRest>),
-    /// It flows, with the velocities of all displacements.
+    /// The blocks flow, with these velocities of all displacements.
     Flows(Vec<f64>),
-    /// Neither came out.
+    /// Neither rest nor flow was found.
     Open,
 }
 
@@ -37,7 +37,7 @@ pub(super) struct Steps<'a> {
 }
 
 impl Steps<'_> {
-    /// From a state at rest, or from nothing, to a load factor.
+    /// Advances to a load factor, from a state at rest or without one.
     pub(super) fn advance(
         &self,
         from: Option<&AtRest>,
