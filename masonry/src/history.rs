@@ -1,14 +1,14 @@
-//! The load history: the steps of a scene, what acts in each, and the energy that it takes.
+//! The load history: the steps of a scene, the actions in each, and their energy.
 //!
-//! The solution depends on the load path if there is friction. In a step the law holds with the slip of the previous step
-//! subtracted,
+//! The solution depends on the load path if there is friction. The law holds in a step with the slip of the previous
+//! step subtracted,
 //!
 //! ```text
 //! 0 <= p+ _|_ y+ >= 0,   0 <= p- _|_ y- >= 0,   y+ - y- = y_t^k - y_t^(k-1)
 //! ```
 //!
-//! and everything else is as in one step: the previous slip enters `s_0`, the movement of a support `x_0` and `s_0`
-//! of its joints. So every step has its own [`Model`], that of the scene [under](Model::under) the actions of the
+//! and everything else is as in one step: the previous slip enters `s_0`, the movement of a support `x_0` and `s_0` of
+//! its joints. So every step has its own [`Model`], the model of the scene [under](Model::under) the actions of the
 //! step.
 //!
 //! | module | content |
@@ -37,7 +37,7 @@ pub struct Actions {
     pub gravity: f64,
     /// Factors of the loads \[-\], in addition to their own, in the order of the scene.
     pub loads: Vec<f64>,
-    /// The places of the supports, in the order of the scene; lengths in metres.
+    /// The movements of the supports, in the order of the scene; lengths in metres.
     pub movements: Vec<Movement>,
 }
 
@@ -51,7 +51,7 @@ impl Actions {
         }
     }
 
-    /// The actions before the first stage: all that no stage names.
+    /// The actions before the first stage: all actions that no stage names.
     fn before(scene: &Scene) -> Self {
         let mut actions = Self::full(scene);
         let named = |is_named: &dyn Fn(&Stage) -> bool| scene.stages.iter().any(is_named);
@@ -66,7 +66,7 @@ impl Actions {
         actions
     }
 
-    /// The actions at the end of a stage that begins with these.
+    /// The actions at the end of a stage that starts from `self`.
     fn after(&self, stage: &Stage, scene: &Scene) -> Self {
         let mut actions = self.clone();
         actions.gravity = stage.gravity.unwrap_or(self.gravity);
@@ -96,15 +96,15 @@ impl Actions {
 pub struct HistoryStep {
     /// Name of the stage; empty for a scene without stages.
     pub stage: String,
-    /// The step within its stage, from 1.
+    /// Number of the step in the stage, from 1.
     pub number: usize,
-    /// The steps of the stage.
+    /// Number of steps of the stage.
     pub of: usize,
     /// The actions at the end of the step.
     pub actions: Actions,
 }
 
-/// The steps of all stages; one with everything in full for a scene without stages.
+/// The steps of all stages, or one step with everything in full for a scene without stages.
 ///
 /// ```
 /// use masonry::history;
@@ -124,7 +124,7 @@ pub fn steps(scene: &Scene) -> Vec<HistoryStep> {
         let end = actions.after(stage, scene);
         let of = stage.steps as usize;
         steps.extend((1..=of).map(|number| {
-            // The end of a stage is exactly what the scene says.
+            // The end of a stage has exactly the factors of the scene.
             let fraction = number as f64 / of as f64;
             let within = || actions.towards(&end, fraction);
             let actions = if number == of { end.clone() } else { within() };
@@ -141,8 +141,9 @@ pub fn steps(scene: &Scene) -> Vec<HistoryStep> {
 impl Model {
     /// This model with the actions of a step and previous slips \[m\] at its contact points, one for each.
     ///
-    /// Gravity and loads are multiplied by their factors. For a movement `u_s` of a support, `u_s.n` is subtracted
-    /// from the gaps and `u_s.t` from the slips of its joints. Previous slips are subtracted at points with friction.
+    /// Gravity and loads are multiplied by their factors. The products `u_s.n` and `u_s.t` of the movement `u_s` of a
+    /// support are subtracted from the gaps and the slips of its joints. Previous slips are subtracted at points with
+    /// friction.
     #[must_use]
     pub fn under(&self, actions: &Actions, slips: &[f64]) -> Self {
         let mut model = self.slid(slips);
@@ -162,7 +163,7 @@ impl Model {
         model
     }
 
-    /// Puts the actions of the only step on a model that has none yet.
+    /// Puts the actions of the only step on a model that has no actions yet.
     pub(crate) fn act(&mut self, actions: &Actions) {
         self.gravity *= actions.gravity;
         for load in self.blocks.iter_mut().flat_map(|block| &mut block.loads) {
@@ -193,9 +194,9 @@ impl Model {
 pub struct StepRecord {
     /// The step.
     pub step: HistoryStep,
-    /// The route that solved it.
+    /// The route that solved the step.
     pub route: Route,
-    /// How the state at rest was found.
+    /// The way in which the state at rest was found.
     pub way: Way,
     /// Number of factorised matrices.
     pub factorisations: usize,
@@ -206,12 +207,12 @@ pub struct StepRecord {
     /// Energy dissipated by sliding in this step \[J\], `-t_t . (increment of y_t)`; plus the energy
     /// of opening joints with tensile strength, which is recovered when they close.
     pub dissipation: f64,
-    /// Work of friction relative to its largest possible value on these slips, the sum of `-t_t ds` by that of
-    /// `(mu t_n + C) |ds|`: one by Coulomb's law. `None` if nothing slid.
+    /// Work of friction relative to its largest possible value on these slips: the sum of `-t_t ds` over the sum of
+    /// `(mu t_n + C) |ds|`, which is one by Coulomb's law. `None` if nothing slid.
     pub friction_power: Option<f64>,
-    /// Energy that friction released in this step \[J\]: zero by Coulomb's law.
+    /// Energy that friction released in this step \[J\]; zero by Coulomb's law.
     pub energy_created: f64,
-    /// Energy that the drag of slow motions took in this step \[J\].
+    /// Energy taken by the drag of slow motions in this step \[J\].
     pub dragged: f64,
     /// Strain energy of blocks and films after the step \[J\].
     pub strain_energy: f64,
@@ -229,7 +230,7 @@ pub struct StepRecord {
 pub struct History {
     /// The steps that were solved.
     pub records: Vec<StepRecord>,
-    /// The step that could not be solved, if there is one: the state is that of the step before.
+    /// The step that could not be solved, if there is one: the state is then that of the previous step.
     pub failed: Option<HistoryStep>,
     /// Number of steps of the scene.
     pub steps: usize,
@@ -246,12 +247,12 @@ impl StepRecord {
     }
 }
 
-/// The part of its capacity that friction has to take for the law to be called kept. Chosen: steps by the law have one, to
-/// many digits, and others mostly much less.
+/// The least part of the largest work of friction at which the law counts as kept. Chosen: steps by the law have a part
+/// of one, to many digits, and others mostly much less.
 const KEPT: f64 = 0.99;
 
 impl History {
-    /// How many of the steps keep Coulomb's law along the way only in part.
+    /// The number of steps that keep Coulomb's law along the way only in part.
     pub fn steps_against_law(&self) -> usize {
         self.records.iter().filter(|record| !record.keeps_law()).count()
     }

@@ -11,23 +11,24 @@
 //! not lost after the joint has slid or opened: the law is ideally plastic. It needs `mu T <= C`, so that the force
 //! `-T` lies inside the cone.
 //!
-//! A change of variable gives the law of a joint without tension. With `t_n' = t_n + T`,
+//! A change of variable gives the law of a joint without tension:
 //!
 //! ```text
 //!   t_n' >= 0,   |t_t| <= mu t_n' + C_0,   C_0 = C - mu T
 //! ```
 //!
-//! and `-T` along the normal is a load on both sides. So [`System`](crate::system::System) and everything built on it
-//! use `t_n'`; [`State`](crate::data::state::State) has `t_n` again. These forces are a [`Cone`]: edges, along which forces have
-//! any size, and caps, which bound a force in both directions. Only the forms write the bound as equations. A strength in
-//! compression would be a cap along the normal.
+//! with `t_n' = t_n + T`, and `-T` along the normal is a load on both sides. [`System`](crate::system::System) and
+//! everything built on it use `t_n'`; [`State`](crate::data::state::State) has `t_n` again. These forces are a
+//! [`Cone`]: edges, along which forces have any size, and caps, which bound a force in both directions. Only the forms
+//! write the bound as equations. A strength in compression would be a cap along the normal.
 //!
-//! The faces of a joint may give way before it opens or slides: with a stiffness `k_n` and `k_t` \[Pa/m\] they are springs
-//! in series with this law, of the compliance `1 / (k A)` \[m/N\] at a point. Gap and slip are what is left beyond these.
+//! The faces of a joint may give way before it opens or slides: springs with a stiffness `k_n` and `k_t` \[Pa/m\] act
+//! in series with this law, of the compliance `1 / (k A)` \[m/N\] at a point. Gap and slip are the parts beyond these
+//! springs.
 
 use crate::ids::ContactId;
 
-/// Resistance of a class of joints to sliding and opening, and to being compressed and sheared.
+/// Resistance of a class of joints to sliding and opening, and to compression and shear.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct JointLaw {
     /// Coefficient of Coulomb friction \[-\].
@@ -41,7 +42,7 @@ pub struct JointLaw {
 }
 
 impl JointLaw {
-    /// Friction and nothing else.
+    /// A law of friction only.
     pub fn friction(mu: f64) -> Self {
         Self { mu, ..Self::default() }
     }
@@ -82,12 +83,12 @@ pub struct PointLaw {
 }
 
 impl PointLaw {
-    /// Friction and nothing else.
+    /// A law of friction only.
     pub fn friction(mu: f64) -> Self {
         Self { mu, ..Self::default() }
     }
 
-    /// Whether the point resists sliding: only then it has a tangential unknown.
+    /// Whether the point resists sliding: only such a point has a tangential unknown.
     pub fn resists_sliding(&self) -> bool {
         self.mu > 0.0 || self.cohesion > 0.0
     }
@@ -98,7 +99,7 @@ impl PointLaw {
         Cone { mu: self.mu, base }
     }
 
-    /// The largest tangential force \[N\] at a normal force.
+    /// The largest tangential force \[N\] under a normal force.
     ///
     /// ```
     /// use masonry::law::PointLaw;
@@ -109,13 +110,12 @@ impl PointLaw {
         self.cone().bound(t_n + self.tension)
     }
 
-    /// The violation \[N\] of the law by a force; zero or negative if there is none.
+    /// The violation \[N\] of the law by a force; zero or negative if the force obeys the law.
     pub fn violation(&self, t_n: f64, t_t: f64) -> f64 {
         (-self.tension - t_n).max(t_t.abs() - self.mu * t_n - self.cohesion)
     }
 
-    /// The work \[J\] of cohesion and tensile strength in a motion in which no force of the cone does work against
-    /// it.
+    /// The work \[J\] taken by cohesion and tensile strength in a motion against which no force of the cone does work.
     pub fn strength(&self, opens: f64, slides: f64) -> f64 {
         self.tension * opens + self.cone().base * slides.abs()
     }
@@ -131,13 +131,13 @@ impl PointLaw {
 pub struct Friction {
     /// The contact point.
     pub contact: ContactId,
-    /// The forces that it can carry.
+    /// The forces that the point can carry.
     pub cone: Cone,
 }
 
-/// The forces that a point can carry: `t_n' >= 0` and `|t_t| <= mu t_n' + C_0`. They are the sums of nonnegative forces along
-/// the [edges](Self::edges), and of a tangential force no larger than the [cap](Self::cap). By default there is one edge,
-/// that of contact without friction.
+/// The forces that a point can carry: `t_n' >= 0` and `|t_t| <= mu t_n' + C_0`. They are the sums of nonnegative forces
+/// along the [edges](Self::edges), and of a tangential force no larger than the [cap](Self::cap). The default has one
+/// edge, that of contact without friction.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Cone {
     /// Coefficient of Coulomb friction \[-\].
@@ -156,13 +156,13 @@ pub struct Edge {
 }
 
 impl Cone {
-    /// Friction and nothing else.
+    /// A cone of friction only.
     pub fn friction(mu: f64) -> Self {
         Self { mu, base: 0.0 }
     }
 
-    /// The edges: one along the normal without friction; with friction the one of positive tangential forces, and its mirror
-    /// image.
+    /// The edges: one along the normal without friction; the edge of positive tangential forces and its mirror image
+    /// with friction.
     ///
     /// ```
     /// use masonry::law::{Cone, Edge};
@@ -195,7 +195,8 @@ impl Cone {
         self.mu * normal.max(0.0) + self.base
     }
 
-    /// The distances of a force from the two sides, `p+ = mu t_n' + C_0 + t_t` and `p- = mu t_n' + C_0 - t_t` (3.24).
+    /// The distances of a force from the two sides of the cone, `p+ = mu t_n' + C_0 + t_t` and
+    /// `p- = mu t_n' + C_0 - t_t` (3.24).
     pub fn distances(&self, normal: f64, tangential: f64) -> [f64; 2] {
         [1.0, -1.0].map(|sign| self.mu * normal + self.base + sign * tangential)
     }
@@ -207,12 +208,12 @@ impl Cone {
         [friction, tangential - friction]
     }
 
-    /// The change of a tangential force at its bound by that of the normal force \[-\].
+    /// The change of a tangential force at its bound, per change of the normal force \[-\].
     pub(crate) fn slope(&self, tangential: f64) -> f64 {
         self.mu.copysign(tangential)
     }
 
-    /// How many times the bound has the errors of the normal force; one at least.
+    /// The factor by which the bound magnifies errors of the normal force; one at least.
     pub(crate) fn sensitivity(&self) -> f64 {
         self.mu.max(1.0)
     }

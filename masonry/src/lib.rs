@@ -2,7 +2,7 @@
 //!
 //! Blocks, elastic (four-node elements) or rigid, meet in joints that slide by Coulomb's law, with optional cohesion
 //! and tensile strength. The result is a contact problem in displacements and contact forces, or a linear
-//! complementarity problem in the contact forces alone; [`lcp`] solves both. [`solve`] does it all:
+//! complementarity problem in the contact forces alone; [`lcp`] solves both. [`solve`] runs all stages:
 //!
 //! ```
 //! use masonry::scene::{Brick, Joint, Load, Material, Scene, Support, Wall};
@@ -24,13 +24,13 @@
 //! ```
 //!
 //! # Data flow
-//! Every stage is a module; each imports only modules above it. Those without a link are internal: tests, benches and
-//! `masonry-report` see them, and they may change in any version.
+//! Every stage is a module; each imports only modules above it. Modules without a link are internal: tests, benches
+//! and `masonry-report` see them, and they may change in any version.
 //!
-//! | module | what it holds |
+//! | module | content |
 //! |---|---|
 //! | [`units`], [`ids`], `geometry`, [`material`], `element` | used by all others |
-//! | [`data`] | what modules tell one another: states, routes, proofs, verdicts |
+//! | [`data`] | data that modules pass to one another: states, routes, proofs, verdicts |
 //! | [`law`] | the law of a joint: friction, cohesion, tensile strength |
 //! | [`scene`] | the input in its own units: text, checks, builders, bonds of bricks |
 //! | [`model`] | blocks, joints, contact points and meshes, in SI units |
@@ -41,7 +41,7 @@
 //! | `paper` | with the feature of this name: augmented Lagrangian method, films with nodes, for comparison |
 //! | [`history`] | loads and support positions of every step |
 //! | [`verify`] | checks of a state: balances and contact law; the verdict: stands, falls or undecided |
-//! | [`plan`] | the effects that the scene uses, and why |
+//! | [`plan`] | the effects that the scene uses, with reasons |
 //! | [`analysis`] | one solution, load histories, limit loads, studies of accuracy |
 //!
 //! Numbers in brackets are equations of N.M. Auciello and A. Ercolano, *Numerical simulation of

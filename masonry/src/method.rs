@@ -2,15 +2,17 @@
 //!
 //! | route | problem | method |
 //! |---|---|---|
-//! | [`forces`] | [`System`](crate::system::System) | admissible forces, by one convex program, or the proof that there are none |
+//! | [`forces`] | [`System`](crate::system::System) | admissible forces, by one convex program, or the proof that there
+//! are no such forces |
 //! | [`lemke`] | [`Reduction`](crate::forms::reduction::Reduction), dense | Lemke's method |
 //! | [`interior`] | [`Sparse`](crate::forms::Sparse) | interior-point method, with evidence if there is no equilibrium |
 //! | [`qp`] | [`Sparse`](crate::forms::Sparse) | convex quadratic programs, with proofs if there is no equilibrium |
 //! | [`pgs`] | [`Sparse`](crate::forms::Sparse) | projected Gauss-Seidel on the contacts of blocks on springs |
 //! | `paper::alm` | [`Sparse`](crate::forms::Sparse), or whole films | the augmented Lagrangian method of the paper |
 //!
-//! All of them give a [`RouteAnswer`] to a [`Request`], and the error of the solver for a tolerance out of range, for data that are
-//! not finite, and for a problem that the method does not treat. The [`Plan`](crate::plan::Plan) says which ones a scene uses.
+//! Each route gives a [`RouteAnswer`] to a [`Request`], and the error of the solver for a tolerance out of range, for
+//! data that are not finite, and for a problem that the method does not treat. The [`Plan`](crate::plan::Plan) has the
+//! routes of a scene.
 
 use std::ops::ControlFlow;
 
@@ -37,21 +39,21 @@ pub struct Request {
     pub tolerance: f64,
     /// The form of the reduced problem.
     pub form: Form,
-    /// Pivots of one attempt; `None` leaves it to the solver.
+    /// Pivots of one attempt at most; the solver chooses if `None`.
     pub max_pivots: Option<usize>,
-    /// Steps of the interior points of one attempt; `None` leaves it to the route.
+    /// Steps of the interior points of one attempt at most; the route chooses if `None`.
     pub max_steps: Option<usize>,
     /// Stiffness of springs on all displacements, relative to that of the blocks, for the routes that
     /// have them.
     pub soft: Option<f64>,
-    /// The part of the loads that the drag may carry while blocks move: how slowly they are loaded.
+    /// The part of the loads that the drag may carry while blocks move: the smaller, the slower they are loaded.
     pub slowness: f64,
     /// The largest tolerance of steps in time, relative to the largest force \[-\].
     pub step_tolerance: f64,
 }
 
 impl Request {
-    /// A request with this tolerance and nothing else.
+    /// A request with this tolerance and default values.
     pub fn new(tolerance: f64) -> Self {
         Self {
             tolerance,
@@ -68,7 +70,7 @@ impl Request {
 /// The result of a route.
 #[derive(Debug, Clone)]
 pub struct RouteAnswer {
-    /// How it was found.
+    /// The record of the solve.
     pub info: SolveInfo,
     /// Contact forces and relative displacements, when solved.
     pub rows: Option<RowState>,
@@ -76,10 +78,10 @@ pub struct RouteAnswer {
     pub displacements: Option<Vec<f64>>,
     /// The basis of Lemke's method, when solved: a start for the next step of a load history.
     pub basis: Option<Start>,
-    /// A motion that nothing seems to stop, when not solved.
+    /// A motion that no contact seems to stop, when not solved.
     pub motion: Option<Motion>,
-    /// How far every point with friction, in the order of the system, slid \[m\] before the slip in `rows`, if a motion led to
-    /// the solution.
+    /// The slip \[m\] of every point with friction, in the order of the system, before the slip in `rows`, if a motion
+    /// led to the solution.
     pub moved: Option<Vec<f64>>,
     /// Works and energies on the way, if blocks moved.
     pub account: Option<lcp::Account>,
@@ -100,14 +102,14 @@ impl RouteAnswer {
     }
 }
 
-/// How far a solve has come.
+/// The progress of a solve.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Event {
     /// A step of the load history begins.
     Step {
-        /// The step, from 1.
+        /// Number of the step, from 1.
         number: usize,
-        /// The steps of the scene.
+        /// Number of steps of the scene.
         of: usize,
     },
     /// A phase begins.

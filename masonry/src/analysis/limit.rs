@@ -96,7 +96,7 @@ pub struct Limit {
     pub path: Option<Path>,
     /// The seismic check, if accelerations grow and the limit and its mechanism are known.
     pub seismic: Option<SeismicCheck>,
-    /// Whether the weight grows and is proved to fall: forces within friction carry no part of the weight.
+    /// Whether the weight grows and forces within friction are proved to carry no part of the weight.
     pub falls_by_weight: bool,
     /// The answer in the words of an engineer.
     pub sentence: String,

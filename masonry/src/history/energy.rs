@@ -1,13 +1,13 @@
 //! Work and dissipation between two states.
 //!
-//! The blocks store strain energy `U`, sliding dissipates `D`, and both come from the work `W` of loads and of
-//! supports that move. `D` is a sum over contact points of `-t_t` at the end of the step times the slip in it; no
-//! single term is negative, for friction opposes slip. `W` is a trapezoidal sum, exact if forces
-//! change linearly with displacements. So `W - U - D` tends to zero as steps become shorter,
-//! and is zero if no point slides with a force that changes.
+//! The blocks store strain energy `U`, sliding dissipates `D`, and both come from the work `W` of loads and of supports
+//! that move. `D` is a sum over contact points of `-t_t` at the end of the step times the slip in it; no single term is
+//! negative, because friction opposes slip. `W` is a trapezoidal sum, exact if forces change linearly with
+//! displacements. So `W - U - D` tends to zero as steps become shorter, and is zero if no point slides with a force
+//! that changes.
 //!
-//! Several steps of blocks that move lead from one state to the next. `D` is the sum over all of them, and the drag takes
-//! a small part of the work, too.
+//! Blocks that move go from one state to the next in several steps. `D` is the sum over all these steps, and the drag
+//! takes a small part of the work, too.
 
 use nalgebra::Vector2;
 
@@ -26,12 +26,12 @@ pub(crate) struct Snapshot {
     displacements: Vec<f64>,
     /// Force \[N\] of a support on the structure at each contact point, zero between blocks.
     pushes: Vec<Vector2<f64>>,
-    /// Movement \[m\] of the support there.
+    /// Movement \[m\] of the support at each contact point.
     movements: Vec<Vector2<f64>>,
 }
 
 impl Snapshot {
-    /// The state of a model that has its loads.
+    /// The data of a state, for a model under the loads of the state.
     pub(crate) fn of(model: &Model, state: &State) -> Self {
         let (mut loads, mut displacements) = (Vec::new(), Vec::new());
         for (block, moved) in model.blocks.iter().zip(&state.displacements) {
@@ -58,8 +58,8 @@ impl Snapshot {
         Self { loads, displacements, pushes, movements }
     }
 
-    /// Work \[J\] of loads and supports on the way to this state from one before, or from rest without loads, by the trapezoidal
-    /// rule.
+    /// Work \[J\] of loads and supports on the way from a previous state, or from rest without loads, to this one, by
+    /// the trapezoidal rule.
     ///
     /// # Panics
     /// If the states are not of one structure.
@@ -80,18 +80,18 @@ impl Snapshot {
 /// The work of friction in one step or in several.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) struct FrictionWork {
-    /// Energy \[J\] that it took, `-t_t . (increment of y_t)`.
+    /// Energy \[J\] dissipated by friction, `-t_t . (increment of y_t)`.
     pub(crate) dissipation: f64,
     /// The work relative to its largest value; `None` if nothing slid.
     power: Option<f64>,
     /// Energy \[J\] that friction released: the negative part of the dissipation.
     pub(crate) created: f64,
-    /// Energy \[J\] that the drag of slow motions took.
+    /// Energy \[J\] taken by the drag of slow motions.
     pub(crate) dragged: f64,
 }
 
 impl FrictionWork {
-    /// The friction of one step, in which `y_t` of the contacts is their slip.
+    /// The friction of one step; `y_t` of the contacts is the slip of the step.
     pub(crate) fn of_step(model: &Model, contacts: &[PointState]) -> Self {
         let (mut sum, mut capacity) = (Self::default(), 0.0);
         for (point, contact) in model.contacts.iter().zip(contacts) {
@@ -107,7 +107,7 @@ impl FrictionWork {
         sum
     }
 
-    /// The friction of all steps on a way.
+    /// The friction of all steps of a motion.
     pub(crate) fn of_way(account: &lcp::Account) -> Self {
         let lcp::Account { dissipation, created, dragged, .. } = *account;
         Self { dissipation, power: account.friction_power(), created, dragged }
@@ -119,8 +119,8 @@ impl FrictionWork {
     }
 }
 
-/// Energy \[J\] that the tensile strength of open joints holds, `T y_n`: what opening them took, and what they give
-/// back when they close.
+/// Energy \[J\] that the tensile strength of open joints holds, `T y_n`: their opening took this energy, and their
+/// closing gives it back.
 pub(crate) fn held(model: &Model, contacts: &[PointState]) -> f64 {
     let points = model.contacts.iter().zip(contacts);
     points.map(|(point, contact)| point.law.tension * contact.y_n.max(0.0)).sum()

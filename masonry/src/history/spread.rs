@@ -1,25 +1,25 @@
-//! How far the answers of two loadings differ, of which neither is more right than the other.
+//! The difference between the answers of two loadings, of which neither is more right than the other.
 
 use serde::Serialize;
 
 use crate::data::state::State;
 use crate::model::Model;
 
-/// How much two loadings have to differ for an answer to be called not unique. Chosen: engineers compare widths of cracks to
-/// a few per cent.
+/// The difference between two loadings above which an answer counts as not unique. Chosen: engineers compare widths of
+/// cracks to a few per cent.
 const UNIQUE: f64 = 0.05;
 
 /// The outcome of another loading of the same history.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum SecondLoading {
-    /// The end, this far from that of the first.
+    /// The loading reached its end, with this distance from the end of the first.
     Ended(Spread),
-    /// No further than so many of its steps: whether the answer is unique is not known.
+    /// The loading stopped before its end: whether the answer is unique is not known.
     Stopped {
-        /// Steps that were solved.
+        /// Number of steps that were solved.
         solved: usize,
-        /// Steps of this loading.
+        /// Number of steps of this loading.
         steps: usize,
     },
 }
@@ -28,7 +28,7 @@ pub enum SecondLoading {
 /// squares over all nodes, contacts and supports \[-\].
 ///
 /// The other loading has a quarter of the steps in every stage, at least two, and is ten times as fast. Friction may
-/// admit several equilibria, and these differences are the distance of two.
+/// admit several equilibria, and these differences are the distance between two of them.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct Spread {
@@ -40,7 +40,7 @@ pub struct Spread {
     pub openings: f64,
     /// The difference of the reactions.
     pub reactions: f64,
-    /// The difference of the energy that friction has taken.
+    /// The difference of the energy dissipated by friction.
     pub dissipation: f64,
 }
 
@@ -73,7 +73,7 @@ impl Spread {
         }
     }
 
-    /// The largest difference of what can be seen or measured: displacements, cracks and reactions.
+    /// The largest difference of the values that can be seen or measured: displacements, cracks and reactions.
     pub fn largest(&self) -> f64 {
         self.displacements.max(self.openings).max(self.reactions)
     }
@@ -84,7 +84,7 @@ impl Spread {
     }
 }
 
-/// The root of the squares of all differences, relative to that of the numbers.
+/// The norm of all differences, relative to the norm of the numbers.
 fn difference(one: &[f64], other: &[f64]) -> f64 {
     let squares = |values: &mut dyn Iterator<Item = f64>| values.map(|v| v * v).sum::<f64>();
     let size = squares(&mut one.iter().copied());

@@ -1,17 +1,16 @@
-//! The rules of `auto`: which routes a scene uses and in which order, how long each may take, when a result is final,
-//! and what is asked besides. Nothing else in the crate chooses routes: [`Plan::routes`](crate::plan::Plan::routes) has
+//! The rules of `auto`: the routes of a scene and their order, the time that each may take, the results that are final,
+//! and additional questions. Nothing else in the crate chooses routes: [`Plan::routes`](crate::plan::Plan::routes) has
 //! the list with its reasons, and [`analysis`](crate::analysis::solve) runs it.
 //!
-//! The cheapest method that can decide runs first; slower ones follow only for what they alone can decide:
+//! The cheapest method that can decide runs first; slower ones follow only to decide what no other method can:
 //!
 //! 1. Rigid blocks without gaps, in joints that do not give way: the program of admissible forces
 //!    ([`statics`](crate::method::statics)) decides either way.
 //! 2. All other walls: the interior-point method, at every size. If it has no solution after [`STEPS_BEFORE_PROOF`],
-//!    that program checks whether any forces balance the loads at all; if it proves that none do, this is the result.
-//! 3. Lemke's method, for a second opinion, if its dense matrices take about a second.
+//!    that program checks whether any forces balance the loads at all; a proof that none do is the result.
 //!
-//! A result is final if it is a checked equilibrium, or a proof that there is none. With friction a secondary ray of
-//! Lemke's method is no proof, and the next route follows, as it does after a route that refuses the scene.
+//! A result is final if it is a checked equilibrium, or a proof that there is no equilibrium. A secondary ray of
+//! Lemke's method is not a proof if there is friction: the next route follows, as after a route that refuses the scene.
 
 use lcp::Status;
 
@@ -22,7 +21,7 @@ use crate::scene::{Form, RouteSetting, SolverSettings};
 
 /// Pivots on dense matrices of this order take about a second; the time grows with the cube.
 const FEW: usize = 2000;
-/// Most walls are solved in so many steps of the interior points.
+/// Steps of the interior points that suffice for most walls.
 pub(crate) const STEPS_BEFORE_PROOF: usize = 40;
 
 /// The facts that decide between the routes.
@@ -30,7 +29,7 @@ pub(crate) const STEPS_BEFORE_PROOF: usize = 40;
 pub(crate) struct Facts {
     /// All blocks are rigid, no joint gives way, and all gaps are closed before supports move.
     pub(crate) at_rest: bool,
-    /// Order of the largest dense matrix that pivots would turn to.
+    /// Order of the largest dense matrix of the pivots.
     pub(crate) largest_dense: usize,
 }
 
@@ -106,48 +105,48 @@ pub(crate) fn forms(form: Form) -> &'static [FormKind] {
     }
 }
 
-/// Pivots of one attempt, in multiples of the order: two to three are usual.
+/// Pivots of one attempt at most, in multiples of the order: two to three are usual.
 const PIVOTS: usize = 5;
 
-/// How many pivots an attempt on a problem of this order may take, if other routes follow.
+/// The largest number of pivots of an attempt on a problem of this order, if other routes follow.
 pub(crate) fn max_pivots(route: Route, order: usize, routes: usize) -> Option<usize> {
     (route == Route::Lemke && routes > 1).then_some(PIVOTS * order)
 }
 
-/// Whether a route may say more than is known.
+/// Whether a route may decide more than is known.
 pub(crate) fn is_asked(route: Route, known: Rank) -> bool {
-    // Forces that balance the loads are none that the loading leads to; that there are none is a proof.
+    // Forces that balance the loads need not result from the loading, but a proof that there are none decides.
     known != Rank::Motion || route == Route::Forces
 }
 
-/// Whether a route that takes many steps is asked to wait for the proof that there is no equilibrium, since the routes
-/// after it would look for one.
+/// Whether a proof that there is no equilibrium may end a route that takes many steps: one of the routes after it would
+/// look for this proof.
 pub(crate) fn may_be_cut(mut later: impl Iterator<Item = Route>) -> bool {
     later.any(|route| route == Route::Forces)
 }
 
-/// Whether the verdict needs to know if any forces balance the loads: if there is no answer, if the answer is far away, or if
-/// blocks are at rest. Such forces are all there is to know of blocks at rest, at whatever tolerance another route found them.
+/// Whether the verdict depends on forces that balance the loads: if there is no answer, if the answer is far away, or
+/// if blocks are at rest. Such forces decide blocks at rest, at whatever tolerance another route found them.
 pub(crate) fn needs_statics(status: Status, is_far: bool, at_rest: bool) -> bool {
     status != Status::Cancelled && (status != Status::Solved || is_far || at_rest)
 }
 
-/// Whether the verdict needs to know if loading from a state without stresses leads to rest: a prestress that nothing brings
-/// about may hold blocks at rest with friction.
+/// Whether the verdict depends on the loading from a state without stresses: a prestress that no loading causes may
+/// hold blocks at rest with friction.
 pub(crate) fn needs_loading(status: Status, at_rest: bool, has_friction: bool) -> bool {
     status == Status::Solved && at_rest && has_friction
 }
 
-/// How much an attempt says; what comes first says more.
+/// The rank of an attempt by what it decides, the most decisive first.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Rank {
     Solved,
-    /// There is none, with a proof.
+    /// There is no equilibrium, with a proof.
     Proved,
     /// Blocks with mass move on under their loads.
     Motion,
     Mechanism,
-    /// Something was found that does not hold.
+    /// A state was found that does not hold.
     Almost,
     Open,
 }
@@ -164,7 +163,7 @@ impl Rank {
         }
     }
 
-    /// Whether no other route has more to say. Without friction a ray is as good as a proof.
+    /// Whether no other route can decide more. A ray is as good as a proof without friction.
     pub(crate) fn is_final(self, has_friction: bool) -> bool {
         match self {
             Self::Solved | Self::Proved => true,

@@ -1,7 +1,7 @@
-//! The route by statically admissible forces: one convex program, which knows neither stiffness nor gaps.
+//! The route by statically admissible forces: one convex program without stiffness and gaps.
 //!
 //! Rigid blocks without gaps, in joints that do not give way, are at rest under any such forces, which are the answer.
-//! All other scenes get no more than the decision whether such forces exist, with a proof if they do not.
+//! All other scenes get only the decision whether such forces exist, with a proof if they do not.
 
 use lcp::{ContactState, Residuals, Status};
 
@@ -16,7 +16,7 @@ use crate::system::System;
 /// The name of the problem in reports.
 const FORM: &str = "admissible forces";
 
-/// The answer that a decision is, to this tolerance.
+/// The answer of a decision, to this tolerance.
 pub fn answer(
     system: &System,
     sparse: &Sparse,
@@ -54,7 +54,7 @@ pub fn answer(
     }
 }
 
-/// The state at rest under forces of all rows; brought to the last digit if that is needed.
+/// The state at rest under forces of all rows; refined to the last digit if necessary.
 fn rested(
     system: &System,
     sparse: &Sparse,

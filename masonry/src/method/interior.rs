@@ -1,8 +1,8 @@
 //! The interior-point route, for walls of many blocks: every step factorises one sparse matrix.
 //!
 //! If there is friction and the path has no answer, blocks with mass move under their loads until they rest or fall
-//! ([`Evolution`](lcp::Evolution)). In a load history they always do, from where the step before has left them. Without
-//! friction soft springs tell whether there is an equilibrium.
+//! ([`Evolution`](lcp::Evolution)). They always move in a load history, from the end of the previous step. Soft springs
+//! decide whether there is an equilibrium without friction.
 
 use lcp::{
     Contact2d, ContactState, InteriorPoint, InteriorPointSettings, Iteration, Solver, Status,
@@ -21,18 +21,18 @@ use crate::scene::Route;
 pub struct Interior<'a> {
     /// The problem.
     pub sparse: &'a Sparse,
-    /// Loads, gaps and supports before, and the state in which the blocks rest there.
+    /// Loads, gaps and supports before the step, and the state in which the blocks rest under them.
     pub before: Option<(&'a Contact2d, &'a ContactState)>,
     /// The mass of every displacement \[kg\].
     pub mass: &'a [f64],
-    /// How far blocks may move \[m\].
+    /// The distance that blocks may move \[m\].
     pub reach: f64,
     /// States of the contacts that are tried before the path.
     pub start: &'a WarmStart,
 }
 
 impl Interior<'_> {
-    /// Looks for a solution, or for where the loading leads.
+    /// Looks for a solution, or for the end of the loading.
     ///
     /// # Errors
     /// As [`InteriorPoint`] and [`Evolution`](lcp::Evolution).
@@ -61,7 +61,7 @@ impl Interior<'_> {
         if is_over || !may_move { Ok(path) } else { self.led(Some(path), request, observer) }
     }
 
-    /// Follows the loading, after a path that has no answer.
+    /// Follows the loading, after a path without an answer.
     fn led(
         &self,
         path: Option<RouteAnswer>,
@@ -108,7 +108,7 @@ impl Interior<'_> {
     }
 }
 
-/// A step after so many others.
+/// The event of a step after `before` earlier ones.
 fn step(at: &Iteration, before: usize) -> Event {
     Event::Iteration { number: before + at.iteration, residual: at.residual }
 }

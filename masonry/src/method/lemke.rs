@@ -1,10 +1,10 @@
 //! The route `lemke`: Lemke's method on the forms of the contact problem.
 //!
 //! The paper's form (3.27) comes first. It is not copositive, and for large friction the method may end on a ray
-//! although there is an equilibrium. So a ray is followed by other start bases and covering vectors, and then by the
-//! copositive mixed form. The ray of that form is a motion of the blocks that no contact stops. Even this is no proof
-//! that there is no equilibrium: a rigid block that just fits between two walls may fall, or may be jammed. A
-//! solution of the mixed form is also measured in the paper's form.
+//! although there is an equilibrium. Other start bases and covering vectors, and then the copositive mixed form,
+//! follow after a ray. The ray of the mixed form is a motion of the blocks that no contact stops. Even such a ray is
+//! not a proof that there is no equilibrium: a rigid block that just fits between two walls may fall, or may be
+//! jammed. A solution of the mixed form is also measured in the paper's form.
 
 use lcp::lemke::{self, AttemptStart};
 use lcp::{Basis, Covering, Lemke, LemkeSettings, Residuals, Side, Status, WarmStart};
@@ -22,7 +22,7 @@ use crate::system::System;
 const ATTEMPTS_PER_START: usize = 2;
 /// Attempts on the mixed form.
 const MIXED_ATTEMPTS: usize = 3;
-/// How far the covering vector opens the friction cone, in units of force.
+/// The opening of the friction cone by the covering vector, in units of force.
 const COHESION: f64 = 100.0;
 
 /// Displacements below this, in the dimensionless units of a form, are rounding errors.
@@ -79,7 +79,7 @@ struct Pivoting<'a> {
     attempts: Vec<RouteAttempt>,
     pivots: usize,
     factorisations: usize,
-    /// The paper's form, once it was tried: any answer is measured against it.
+    /// The paper's form, once it was tried: any answer is measured in it.
     coulomb: Option<DenseForm>,
 }
 
@@ -100,7 +100,7 @@ impl Pivoting<'_> {
                 start: start.filter(|_| is_given(path)).map(str::to_owned),
                 path: path.clone(),
             }));
-            // A singular start was replaced by one that the solver found; so would the next be.
+            // A singular start was replaced by one that the solver found; the next start would be replaced, too.
             let is_own = start.is_some_and(|name| name != Start::LAST);
             let replaced = is_own && !solution.info.attempts.iter().any(is_given);
             let stop = replaced || matches!(solution.status, Status::Solved | Status::Cancelled);
@@ -171,9 +171,9 @@ fn basis(start: &Start) -> Basis {
     Basis::new(start.t_basic.iter().map(side).collect())
 }
 
-/// A covering vector with a meaning: the artificial variable prestresses the isostatic contacts,
-/// opens the others, and, much more, gives cohesion, which opens the friction cone. The paper's form
-/// with ones nearly always ends on a ray after a few pivots if `mu` is large.
+/// A covering vector with a mechanical meaning: the artificial variable prestresses the isostatic contacts, opens the
+/// others, and gives a much larger cohesion, which opens the friction cone. The paper's form with ones nearly always
+/// ends on a ray after a few pivots if `mu` is large.
 fn covering(form: &DenseForm, start: &Start) -> Vec<f64> {
     let cone = |pair: usize| start.t_basic[pair] && pair >= form.points();
     (0..form.order()).map(|pair| if cone(pair) { COHESION } else { 1.0 }).collect()

@@ -1,4 +1,4 @@
-//! The outcome of a loading: rest, or a fall. The one function that solve, histories and limit loads call.
+//! The outcome of a loading: rest, or a fall. Solves, histories and limit loads call this one function.
 
 use std::ops::ControlFlow;
 
@@ -11,35 +11,37 @@ use crate::geometry;
 use crate::model::Model;
 use crate::rounding;
 
-/// The part of the loads that the drag may carry while blocks move: how slowly they do. Measured on settlements of 100 to
-/// 1000 bricks: the drag takes about a hundredth of the work of friction.
+/// The part of the loads that the drag may carry while blocks move: the smaller, the slower they move. Measured on
+/// settlements of 100 to 1000 bricks: the drag takes about a hundredth of the work of friction.
 pub(crate) const SLOWNESS: f64 = 1e-2;
-/// The first drag of blocks that start from nothing, relative to the stiffness of what they rest on; without any they move by
-/// this part of their reach. Chosen: drag decreases by itself.
+/// The first drag of blocks that start unloaded, relative to the stiffness of their supports; blocks without stiffness
+/// move by this part of their reach. Chosen: drag decreases by itself.
 const FIRST_DRAG: f64 = 1e-2;
 /// Displacements above this part of the median size of blocks, plus twice the movement of supports, invalidate the
 /// contacts of the scene. Theory: a brick in running bond has then lost half of its bed.
 const REACH: f64 = 0.25;
-/// Steps of the path before blocks move. Measured on walls of 1000 bricks: what its first start solves it solves in up to 60.
+/// Steps of the path before blocks move. Measured on walls of 1000 bricks: its first start solves in up to 60 steps, or
+/// not.
 const STEPS_BEFORE_MOTION: usize = 60;
-/// The largest tolerance of steps: forces are judged against the largest of all there, and in the end, to 1e-9, against those on
-/// each block. Measured on walls of 100 to 1000 bricks: these are up to some hundred times smaller. Finer steps cost 5 % more, so
-/// that they are taken only if blocks need them.
+/// The largest tolerance of steps: forces are judged against the largest of all forces in steps, and at the end, to
+/// 1e-9, against those on each block. Measured on walls of 100 to 1000 bricks: the latter are up to some hundred times
+/// smaller. Finer steps cost 5 % more, so that they are taken only if blocks need them.
 pub(crate) const STEP_TOLERANCE: f64 = 1e-11;
-/// Factorisations of one loading. Measured on walls of 1000 bricks: those that fall slowly take up to 14 351, settlements in a
+/// Factorisations of one loading. Measured on walls of 1000 bricks: slow falls take up to 14 351, settlements in a
 /// single step up to 15 917.
 const FACTORISATIONS: usize = 20_000;
 
-/// Blocks on their way.
+/// The loading of blocks from one state to the next.
 #[derive(Clone, Copy)]
 pub(crate) struct Loading<'a> {
-    /// Loads, gaps and supports before, with the state in which the blocks rest there. Without them nothing has acted yet.
+    /// Loads, gaps and supports before, with the state in which the blocks rest under them. `None` if nothing has acted
+    /// yet.
     pub(crate) before: Option<(&'a Contact2d, &'a ContactState)>,
     /// Loads, gaps and supports at the end; slips are measured from the state before.
     pub(crate) problem: &'a Contact2d,
     /// The mass of every displacement \[kg\].
     pub(crate) mass: &'a [f64],
-    /// How far blocks may have moved from where the scene has them \[m\].
+    /// The distance that blocks may have moved from their places in the scene \[m\].
     pub(crate) reach: f64,
     /// The part of the loads that the drag may carry.
     pub(crate) slowness: f64,
@@ -55,8 +57,8 @@ pub(crate) struct Led {
     pub(crate) iterations: usize,
 }
 
-/// The method before blocks move, if nothing has acted on them yet: from these states, or else the path of interior points from
-/// its first start, in at most so many steps.
+/// The method before blocks move, if nothing has acted on them yet: from these contact states, or along the path of
+/// interior points from its first start, in at most `max_steps`.
 pub(crate) fn path(tolerance: f64, max_steps: Option<usize>, start: &WarmStart) -> InteriorPoint {
     let start = start.clone();
     let mut settings =
@@ -67,7 +69,7 @@ pub(crate) fn path(tolerance: f64, max_steps: Option<usize>, start: &WarmStart) 
     InteriorPoint::new(settings)
 }
 
-/// How far blocks of a model may have moved from where the scene has them \[m\].
+/// The distance that blocks of a model may have moved from their places in the scene \[m\].
 pub(crate) fn reach(model: &Model) -> f64 {
     let sizes = median(model.blocks.iter().map(|block| geometry::size(&block.corners)).collect());
     let ends = model
@@ -78,7 +80,7 @@ pub(crate) fn reach(model: &Model) -> f64 {
 }
 
 impl Loading<'_> {
-    /// Takes the blocks to the loads at the end, slowly, and leaves them there until they rest or fall.
+    /// Moves the blocks slowly to the loads at the end, and keeps these loads until the blocks rest or fall.
     pub(crate) fn lead(
         &self,
         observer: &mut dyn FnMut(&Iteration) -> ControlFlow<()>,
@@ -100,18 +102,18 @@ impl Loading<'_> {
         };
         let h = self.pace();
         let mut evolution = if let Some((before, state)) = before {
-            // The gaps are those under the loads and supports before.
+            // The gaps are those under the previous loads and supports.
             let state = before.state(state.u.clone(), state.t_n.clone(), state.t_t.clone());
             Evolution::new(before, matrix, settings)?.at(state, vec![0.0; problem.points()])?
         } else {
-            // Loads that grow from nothing.
+            // Loads that grow from zero.
             Evolution::new(&problem.with_loads(vec![0.0; n])?, matrix, settings)?
         };
         let ending = evolution.lead_observed(problem, h, observer)?;
         Ok(Led { ending, evolution, iterations })
     }
 
-    /// The time of the way, for a drag of one: as long as the drag is to be a small part of the loads.
+    /// The time of the way, for a drag of one: so long that the drag is a small part of the loads.
     fn pace(&self) -> f64 {
         let drag = match self.distance() {
             Some(distance) => self.slowness * self.gravity() / distance,
@@ -123,7 +125,8 @@ impl Loading<'_> {
         if drag > 0.0 && drag.is_finite() { 1.0 / drag } else { 1.0 }
     }
 
-    /// How far blocks will move: as far as supports do, or as the loads change of what they have moved before.
+    /// The expected distance of the blocks: the movement of supports, or the previous displacement times the change of
+    /// the loads.
     fn distance(&self) -> Option<f64> {
         let (before, state) = self.before?;
         let largest = |a: &[f64], b: &[f64]| {
@@ -139,13 +142,13 @@ impl Loading<'_> {
         (distance > 0.0).then_some(distance)
     }
 
-    /// The loads by the mass \[m/s^2\].
+    /// The loads over the mass \[m/s^2\].
     fn gravity(&self) -> f64 {
         let load: f64 = self.problem.loads().iter().map(|f| f.abs()).sum();
         load / self.mass.iter().sum::<f64>()
     }
 
-    /// The stiffness of blocks and of the joints that they rest on by their mass \[1/s^2\]: the median over all
+    /// The stiffness of blocks and of the joints below them over their mass \[1/s^2\]: the median over all
     /// displacements with both.
     fn stiffness(&self) -> Option<f64> {
         let (problem, compliance) = (self.problem, self.problem.compliance());

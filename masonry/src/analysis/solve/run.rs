@@ -252,8 +252,8 @@ impl Run {
         Situation { model: self.model.under(&step.actions, &slips), slips }
     }
 
-    /// The problem of the last step that was solved, with slips measured from its state, and its state as a snapshot
-    /// for works.
+    /// The problem of the last step that was solved, with slips measured from its state, and a snapshot for the work of
+    /// the next step.
     fn before(&mut self, slips: &[f64]) -> Result<Option<(Contact2d, Snapshot)>, SolveError> {
         let state = self.solved.as_ref().and_then(|solved| solved.state.as_ref());
         let Some((record, state)) = self.records.last().zip(state) else { return Ok(None) };

@@ -36,7 +36,7 @@ impl Ran {
         Self { end: End::Skipped(reason), seconds: None, outcome: None }
     }
 
-    /// The limit for which a tighter tolerance would end no better.
+    /// The exceeded limit, which a solve to a tighter tolerance would exceed too.
     fn is_beyond(&self) -> Option<Beyond> {
         match self.end {
             End::Ended(Status::TimeLimit) => Some(Beyond::Time),
@@ -66,7 +66,7 @@ impl Ran {
 /// An exceeded limit.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Beyond {
-    /// A limit of time, which finer meshes exceed too.
+    /// The limit of time, which finer meshes exceed too.
     Time,
     Iterations,
 }

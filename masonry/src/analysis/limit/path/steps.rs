@@ -30,7 +30,7 @@ pub(super) struct Steps<'a> {
     pub(super) sparse: &'a Sparse,
     /// The loads that grow, for a factor of one.
     pub(super) growth: &'a [f64],
-    /// The mass of every displacement \[kg\], and how far blocks may move \[m\].
+    /// The mass of every displacement \[kg\], and the distance that blocks may move, `reach` \[m\].
     pub(super) mass: &'a [f64],
     pub(super) reach: f64,
     pub(super) tolerance: f64,
