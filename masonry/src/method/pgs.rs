@@ -1,10 +1,10 @@
 //! The route by projected Gauss-Seidel on the contacts of blocks on springs.
 //!
-//! The method needs a definite stiffness, and blocks that only touch have none. So springs hold all displacements,
-//! and are re-centred at the last solution, round after round (proximal steps, Rockafellar 1976), until forces and
-//! displacements solve the problem without them. Every round starts from the forces of the previous one and is solved
-//! only slightly more accurately than the rounds have converged. When they stop converging, the equations of the
-//! states of the contacts are solved once, which is exact if these are right.
+//! The method needs a definite stiffness, and blocks that only touch have none. So springs hold all displacements, and
+//! are re-centred at the last solution, round after round (proximal steps, Rockafellar 1976), until forces and
+//! displacements solve the problem without the springs. Every round starts from the forces of the previous one and is
+//! solved only slightly more accurately than the rounds have converged. When the rounds stop converging, the equations
+//! of the contact states are solved once; the solution is exact if these states are right.
 
 use std::ops::ControlFlow;
 
@@ -25,22 +25,22 @@ pub const SOFT: f64 = 1e-3;
 const MAX_ROUNDS: usize = 2000;
 /// Sweeps of one round at most.
 const SWEEPS: usize = 2000;
-/// How much better than the last round the sweeps of the next one have to be; after a round that was not, by this factor
-/// more, and never more than by the least.
+/// The residual of the sweeps of a round, relative to that of the last round. It is multiplied by the same factor after
+/// every round that did not reduce the residual, down to `LEAST`.
 const BETTER: f64 = 0.1;
 const LEAST: f64 = 1e-6;
-/// How accurate the sweeps are at first, and at most: relative to the tolerance, since the springs' forces may be
-/// much larger than the loads, and as far as rounding allows.
+/// The tolerance of the sweeps at first, and the least, relative to the tolerance of the route, since the springs'
+/// forces may be much larger than the loads; `ROUNDING` bounds it from below.
 const FIRST: f64 = 0.1;
 const LAST: f64 = 1e-4;
 const ROUNDING: f64 = 1e-14;
-/// Rounds converge by a factor, and what is left of the displacements may be several times the last residual: so
-/// they go on to this part of the tolerance, unless they have come to rest below it, for so many rounds.
+/// Rounds converge by a factor, and the error of the displacements may be several times the last residual: so the
+/// rounds go on to this part of the tolerance, unless they have settled below the tolerance for `SETTLED` rounds.
 const NEARER: f64 = 0.1;
 const SETTLED: usize = 3;
-/// Rounds in which the residual must fall by a tenth.
+/// Rounds within which the residual must fall by a tenth.
 const PATIENCE: usize = 200;
-/// After so many that did not, the states of the contacts may be those of a solution.
+/// Rounds without such a fall after which the states of the contacts may be those of a solution.
 const IDLE: usize = 20;
 
 /// The route on a sparse problem.
@@ -121,18 +121,18 @@ impl<'a> Rounds<'a> {
         Event::Iteration { number: self.done, residual: self.residual() }
     }
 
-    /// The worst residual, or what the springs still carry.
+    /// The worst residual, or the share of the springs if larger.
     fn residual(&self) -> f64 {
         self.residuals.worst().max(self.share)
     }
 
-    /// How far the rounds have come, or what the springs still carry.
+    /// The merit of the residuals, or the share of the springs if larger.
     fn lack(&self) -> f64 {
         self.residuals.merit().max(self.share)
     }
 
-    /// Takes the same forces with all bodies at rest, if that is nearer to a solution: if nothing is
-    /// elastic, motions are rounding errors, which residuals would compare with each other.
+    /// Takes the same forces with all bodies at rest, if that state is nearer to a solution: motions are rounding
+    /// errors if nothing is elastic, and residuals would compare them with each other.
     fn rest(&mut self) {
         let ContactState { u, t_n, t_t, .. } = &self.state;
         let rest = self.problem.state(vec![0.0; u.len()], t_n.clone(), t_t.clone());
@@ -193,7 +193,7 @@ impl<'a> Rounds<'a> {
         Ok(ControlFlow::Continue(()))
     }
 
-    /// Solves the equations of the states that the contacts have come to, and takes the answer if it is a solution.
+    /// Solves the equations of the reached contact states, and takes the answer if it is a solution.
     fn finish(&mut self) -> bool {
         let refined = self.sparse.refined(&self.state, self.tolerance);
         let is_solved = refined.is_some();

@@ -1,7 +1,7 @@
-//! The route by convex quadratic programs; with friction a fixed-point iteration of programs with fixed bounds of the
-//! friction forces (Tresca).
+//! The route by convex quadratic programs: a fixed-point iteration of programs with fixed bounds of the friction
+//! forces (Tresca) if there is friction.
 //!
-//! On request soft springs hold the blocks and are re-centred at the last solution until they carry nothing. Their
+//! Soft springs hold the blocks on request, and are re-centred at the last solution until they carry nothing. Their
 //! effect before the first re-centring is reported as their bias.
 
 use std::ops::ControlFlow;

@@ -11,7 +11,7 @@ use crate::scene::Route;
 /// The name of the problem in reports, in the place of a form.
 const FORM: &str = "contact";
 
-/// Residuals of what was never tried.
+/// Residuals if no solve was tried.
 pub(crate) const UNKNOWN: Residuals = Residuals {
     equation: f64::INFINITY,
     feasibility: f64::INFINITY,
@@ -20,10 +20,11 @@ pub(crate) const UNKNOWN: Residuals = Residuals {
     loads: f64::INFINITY,
 };
 
-/// The answer that a solution is.
+/// The answer of a solution.
 pub(crate) fn solved(route: Route, sparse: &Sparse, solution: Solution<Contact2d>) -> RouteAnswer {
     let problem = &sparse.problem;
-    // In the rows of the displacements a proof is a motion on which the loads do more work than the contacts can take.
+    // In the rows of the displacements, a proof is a motion on which the loads do more work than the contacts can
+    // take.
     let motion =
         solution.farkas().map(|it| it.iter().take(problem.displacements()).copied().collect());
     let info = SolveInfo {
@@ -37,7 +38,7 @@ pub(crate) fn solved(route: Route, sparse: &Sparse, solution: Solution<Contact2d
     RouteAnswer { motion: motion.map(Motion::Displacements), ..answer(sparse, info, state) }
 }
 
-/// The answer that a state is, with what is known of its route.
+/// The answer of a state, with the record of its route.
 pub(crate) fn answer(sparse: &Sparse, info: SolveInfo, state: ContactState) -> RouteAnswer {
     let attempt = RouteAttempt::Sparse {
         route: info.route,

@@ -6,7 +6,7 @@ use lcp::{InteriorPoint, InteriorPointSettings, MixedLcp, Observer, Solution, So
 pub(super) const TOLERANCE: f64 = 1e-12;
 /// Steps of a program. Forces and proofs take ten to forty. Chosen: far more.
 pub(super) const MAX_STEPS: usize = 200;
-/// Residual of a point inside: beyond it many walls take as many steps again.
+/// Residual of a point inside: many walls take twice as many steps to smaller residuals.
 const INSIDE: f64 = 1e-8;
 
 /// The point at which interior points end.
@@ -14,12 +14,13 @@ const INSIDE: f64 = 1e-8;
 pub(super) enum Target {
     /// A point near the solution: the first choice, since there may be many solutions.
     Inside,
-    /// The vertex that the path leads to.
+    /// The vertex at the end of the path.
     Vertex,
 }
 
 impl Target {
-    /// One after the other. Measured on a wall of 1000 bricks: the first gives no proof there, and the second does.
+    /// The targets in their order. Measured on a wall of 1000 bricks: the first gives no proof there, and the
+    /// second does.
     pub(super) const ALL: [Self; 2] = [Self::Inside, Self::Vertex];
 
     /// The best point that was found.

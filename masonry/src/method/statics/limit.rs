@@ -1,10 +1,10 @@
 //! The largest factor of a group of loads that statically admissible forces carry.
 //!
-//! The resultants of a factor of one on the blocks are `g`; `max l` subject to `E p + r + l g = 0`, `p >= 0`, `l >= 0` is a
-//! linear program. Its multipliers are a motion `x` of rigid blocks with `E^T x >= 0` and `g.x = 1`, the mechanism of
-//! associated flow, in which joints that slide open by `mu` times the slip; on it `l = -r.x`. So the program has both sides
-//! of the theorems of limit analysis (Drucker, Prager and Greenberg 1952; of blocks, Livesley 1978): its forces are a
-//! bound from below, and its motion is one from above, which the [`Proof`] checks in the geometry.
+//! The resultants of a factor of one on the blocks are `g`; `max l` subject to `E p + r + l g = 0`, `p >= 0`, `l >= 0`
+//! is a linear program. Its multipliers are a motion `x` of rigid blocks with `E^T x >= 0` and `g.x = 1`, the mechanism
+//! of associated flow, in which joints that slide open by `mu` times the slip, with `l = -r.x`. So the program has both
+//! sides of the theorems of limit analysis (Drucker, Prager and Greenberg 1952; of blocks, Livesley 1978): its forces
+//! are a bound from below, and its motion is a bound from above, which the [`Proof`] checks in the geometry.
 
 use lcp::{Observer, Status};
 
@@ -16,11 +16,12 @@ use crate::model::Model;
 use crate::rounding;
 use crate::system::System;
 
-/// Beyond the factor that forces carry by one of these parts of it, a motion proves that there are none.
+/// Relative distances above the factor of the forces at which a motion is tried as a proof that no forces balance the
+/// loads.
 const BEYOND: [f64; 6] = [1e-9, 1e-8, 1e-7, 1e-6, 1e-5, 1e-4];
 /// Bounds that are nearer to each other than this part of the factor end the search.
 pub const NEAR: f64 = 2e-5;
-/// Motions that are tried in any case: they may bring the bounds nearer still.
+/// Motions that are tried in any case: they may tighten the bounds further.
 const ALWAYS: usize = 2;
 
 /// The bounds of the largest factor.
@@ -30,8 +31,8 @@ pub struct Bounds {
     pub below: Option<(f64, Vec<f64>)>,
     /// A factor, and the proof that no forces balance the loads under it.
     pub above: Option<(f64, Proof)>,
-    /// The factor, or that under which what grows is as large as the loads that stay, if that is larger: the distance of
-    /// the bounds is measured by it.
+    /// The scale of the distance between the bounds: the factor, or the one at which the growing loads are as large as
+    /// the loads that stay, if that is larger.
     pub size: f64,
 }
 
@@ -55,7 +56,7 @@ pub struct Growing<'a> {
     pub system: &'a System,
     /// The resultants of a factor of one, `N^T f` of all blocks \[N\].
     pub growth: &'a [f64],
-    /// The blocks that do not move, whatever forces that takes; nothing if there are none.
+    /// Whether each block is held, by forces of any size; empty if no block is held.
     pub held: &'a [bool],
 }
 
@@ -96,12 +97,12 @@ pub fn extreme(
 }
 
 impl Growing<'_> {
-    /// The largest factor that is not negative, between bounds. There are no bounds if no factor or every factor is carried.
+    /// The largest nonnegative factor, between bounds. There are no bounds if no factor or every factor is carried.
     ///
     /// # Errors
     /// [`lcp::Error::NotFinite`] when the data of the scene overflow.
     pub fn largest(&self, observer: &mut Observer<'_>) -> Result<Bounds, lcp::Error> {
-        // In the program a factor of one makes what grows as large as what stays.
+        // A factor of one in the program makes the growing loads as large as the others.
         let scale = self.size();
         let growth: Vec<f64> = self.growth.iter().map(|g| scale * g).collect();
         let program = Program::new(self.system, Some(&growth)).holding(self.held);
@@ -129,13 +130,13 @@ impl Growing<'_> {
         Ok(bounds)
     }
 
-    /// The factor under which what grows is as large as the loads that stay; one if none stay.
+    /// The factor at which the growing loads are as large as the loads that stay; one if none stay.
     fn size(&self) -> f64 {
         let size = rounding::largest(self.system.resultants()) / rounding::largest(self.growth);
         if size > 0.0 && size.is_finite() { size } else { 1.0 }
     }
 
-    /// Takes the smallest factor that the motion, or one near it, proves to be too large.
+    /// Takes the smallest factor that the motion, or a motion near it, proves to be too large.
     fn prove(
         &self,
         program: &Program<'_>,

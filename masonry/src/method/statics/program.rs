@@ -24,7 +24,8 @@ pub(super) struct Program<'a> {
     /// The frictional points with a constant part of friction, and `C_0` of each in units of the largest load.
     constant: Vec<(usize, f64)>,
     /// `E`: edges, then for every force `q` of constant friction `q' = C_0 + q` and `q'' = C_0 - q`, with
-    /// `q' + q'' = 2 C_0` below the balance of the blocks. Last, if loads grow, what a factor of one adds to them.
+    /// `q' + q'' = 2 C_0` below the balance of the blocks. The growth of the loads per unit factor comes last, if
+    /// loads grow.
     e: SparseColMat<usize, f64>,
     /// `r`, in units of the largest load; with `-C_0` along joints that have constant friction.
     loads: Vec<f64>,
@@ -33,7 +34,7 @@ pub(super) struct Program<'a> {
 }
 
 impl<'a> Program<'a> {
-    /// `growth` is what a factor of one adds to the loads, `N^T f` of all blocks \[N\], if they grow.
+    /// `growth` is the growth of the loads per unit factor, `N^T f` of all blocks \[N\], if they grow.
     pub(super) fn new(system: &'a System, growth: Option<&[f64]>) -> Self {
         let mut cones = vec![Cone::default(); system.points()];
         for friction in &system.friction {
@@ -79,7 +80,7 @@ impl<'a> Program<'a> {
         self
     }
 
-    /// No load acts.
+    /// Whether no load acts.
     pub(super) fn is_unloaded(&self) -> bool {
         self.loads[..self.balances()].iter().all(|load| load.abs() <= 0.0)
     }
@@ -89,22 +90,22 @@ impl<'a> Program<'a> {
         self.unit
     }
 
-    /// Rigid amplitudes of all blocks, and a multiplier of every bound of constant friction.
+    /// Number of unknowns: rigid amplitudes of all blocks, and a multiplier of every bound of constant friction.
     pub(super) fn unknowns(&self) -> usize {
         self.loads.len()
     }
 
-    /// Rigid amplitudes of all blocks.
+    /// Number of rigid amplitudes of all blocks.
     fn balances(&self) -> usize {
         3 * self.system.bodies.len()
     }
 
-    /// Columns that are forces along the edges of cones.
+    /// Number of columns that are forces along the edges of cones.
     pub(super) fn edges(&self) -> usize {
         self.first[self.first.len() - 1]
     }
 
-    /// Columns that are forces: along edges, and the pairs of constant friction.
+    /// Number of columns that are forces: along edges, and the pairs of constant friction.
     pub(super) fn forces(&self) -> usize {
         self.edges() + 2 * self.constant.len()
     }
@@ -127,7 +128,7 @@ impl<'a> Program<'a> {
         InteriorPoint::new(settings).least_forces(&self.e, &self.loads, observer)
     }
 
-    /// The forces of all rows \[N\], if those along the columns balance the loads.
+    /// The forces of all rows \[N\], if the forces `p` along the columns balance the loads.
     pub(super) fn admissible(&self, p: &[f64]) -> Option<Vec<f64>> {
         let p: Vec<f64> = p.iter().map(|p| p.max(0.0)).collect();
         let mut rest = self.loads.clone();
@@ -159,7 +160,7 @@ impl<'a> Program<'a> {
     }
 }
 
-/// The blocks that every row acts on, increasing, with the work of a force of one in their rigid motions.
+/// The blocks that every row acts on, increasing, with the work of a unit force in their rigid motions.
 type Sides<'a> = Vec<Vec<(usize, &'a [f64; 3])>>;
 
 fn sides(system: &System) -> Sides<'_> {

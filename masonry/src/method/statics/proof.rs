@@ -1,9 +1,9 @@
 //! The proof that a wall falls, checked in its geometry.
 //!
-//! A motion of rigid blocks on which the loads do work, and no contact force can do negative work: every contact opens by at
-//! least `mu` times what it slides. Forces that balance the loads would do the opposite of their work, so there are none; with
-//! cohesion and tensile strength, if the loads do more work than these take: whatever the blocks are made of, since none of
-//! them is deformed, and whatever the gaps are.
+//! The proof is a motion of rigid blocks on which the loads do work, and no contact force can do negative work: every
+//! contact opens by at least `mu` times its slip. Forces that balance the loads would do the opposite of the loads'
+//! work, so that there are no such forces; the loads must do more work than cohesion and tensile strength take. The
+//! proof holds for any material, since no block is deformed, and for any gaps.
 
 use nalgebra::{Point2, Vector2};
 
@@ -14,7 +14,7 @@ use crate::model::{Anchor, JointPoint, Model, PlacedBlock, PlacedForce};
 use crate::recover;
 use crate::system::rigid::Modes;
 
-/// Rounding errors of velocities, relative to the largest.
+/// Rounding errors of velocities, relative to the largest velocity.
 const ROUNDING: f64 = 4.0 * f64::EPSILON;
 /// Forces that would balance the loads in spite of the rounding errors of the motion are this much larger than all
 /// loads together.
@@ -77,7 +77,7 @@ impl<'a> RigidMotion<'a> {
         loads.fold((0.0, 0.0), |(work, total), [of, size]| (work + of, total + size))
     }
 
-    /// How far a contact opens and slides.
+    /// The lengths by which a contact opens and slides.
     fn apart(&self, model: &Model, contact: &JointPoint) -> [f64; 2] {
         let joint = &model.joints[contact.joint.index()];
         let side = |Anchor { block, edge, at }: Anchor| {

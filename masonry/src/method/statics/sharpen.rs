@@ -1,8 +1,9 @@
-//! Motions brought to the last digit: the edges of the cones on which they do no work are found, and made to do exactly none.
+//! Motions refined to the last digit: the edges of the cones on which they do no work are found, and made to do exactly
+//! no work.
 //!
-//! Just above the limit a proof is a small difference of large forces, and comes out of a program with few digits. The
-//! edges on which it does no work it shows nevertheless; what they leave free is the null space of their rows `E_A^T`, onto
-//! which `delta (E_A E_A^T + delta)^-1` projects when it is applied a few times. Its rounding errors lie in the null space.
+//! Just above the limit, a proof is a small difference of large forces, and a program gives it with few digits. The
+//! motion still shows the edges on which it does no work. The projection onto the null space of the rows `E_A^T` of
+//! these edges is `delta (E_A E_A^T + delta)^-1`, applied a few times. Its rounding errors lie in the null space.
 
 use faer::sparse::SparseColMatRef;
 use lcp_linalg::Gram;
@@ -12,9 +13,10 @@ use crate::rounding;
 
 /// Columns that are made to do no work.
 enum Idle {
-    /// Those whose work is below this part of the largest velocity.
+    /// Columns whose work is below this part of the largest velocity.
     AtRest(f64),
-    /// Those whose force, relative to the largest, is at least as large as the work, likewise.
+    /// Columns whose force, relative to the largest force, is at least as large as their work, relative to the largest
+    /// work.
     Pressed,
 }
 
@@ -24,10 +26,10 @@ const ATTEMPTS: [Idle; 4] =
     [Idle::Pressed, Idle::AtRest(1e-9), Idle::AtRest(1e-7), Idle::AtRest(1e-5)];
 /// `delta`, relative to the largest diagonal.
 const SHIFT: f64 = 1e-9;
-/// Each makes what is not in the null space a million times smaller, or more.
+/// Passes, each of which makes the part outside of the null space a million times smaller, or more.
 const PASSES: usize = 3;
 
-/// A motion, which may come with forces along the first columns, and those near it on which some columns do no work.
+/// A motion, which may come with forces along the first columns, and nearby motions on which some columns do no work.
 pub(super) fn candidates<'a>(
     motion: &'a [f64],
     forces: &'a [f64],

@@ -1,4 +1,5 @@
-//! Linear programs of admissible forces: the largest value of a linear function of them, or factor of the loads that grow.
+//! Linear programs of admissible forces: the largest value of a linear function of them, or of the factor of growing
+//! loads.
 
 use faer::sparse::{SparseColMat, Triplet};
 use lcp::MixedLcp;
@@ -59,7 +60,8 @@ impl Program<'_> {
         self.unit * (pairs.sum::<f64>() - work)
     }
 
-    /// The forces along edges that balance one another and gain one: any number of times them can be added to others.
+    /// The program of forces along edges that balance one another and gain one: any multiple of them can be added to
+    /// others.
     pub(in crate::method::statics) fn circulating(mut self, gain: &[(usize, f64)]) -> Self {
         let row = self.balances();
         let mut columns = ColumnMatrix::default();
