@@ -1,7 +1,7 @@
 //! The model: blocks, supports, joints and contact points of a scene, in SI units.
 //!
-//! A [`Model`] is geometry and data only: nothing is assembled and no system is solved here. Its blocks, supports and joints
-//! are those of the [`scene`](crate::scene) in their places.
+//! A [`Model`] is geometry and data only: nothing is assembled and no system is solved here. Its blocks, supports and
+//! joints are those of the [`scene`](crate::scene), in their places.
 //!
 //! # Signs
 //! At an interface `a` is the body behind and `b` the body in front: the unit normal `n` points
@@ -48,7 +48,7 @@ pub struct Model {
     pub blocks: Vec<PlacedBlock>,
     /// The rigid supports, in the order of the scene.
     pub supports: Vec<PlacedSupport>,
-    /// Where two blocks, or a block and a support, can touch.
+    /// The places at which two blocks, or a block and a support, can touch.
     pub joints: Vec<PlacedJoint>,
     /// The points at which the contact law is enforced, joint by joint.
     pub contacts: Vec<JointPoint>,
@@ -64,7 +64,7 @@ pub struct Model {
     pub accelerations: Vec<Acceleration>,
     /// Names and factors of the loads, in the order of the scene.
     pub loads: Vec<LoadCase>,
-    /// The corners of single blocks that were moved, and the changes of their drawing; `None` if there are none.
+    /// The corners of single blocks that were moved, and the changes of their drawing; `None` if nothing was changed.
     pub healed: Option<Healed>,
     /// The units of the scene, in which results are reported.
     pub units: Units,
@@ -91,25 +91,25 @@ pub struct PlacedBlock {
     pub name: String,
     /// The corners, counter-clockwise \[m\]. Edge `k` runs from corner `k` to the next.
     pub corners: Vec<Point2<f64>>,
-    /// Elastic constants; `None` is a rigid block, for which no mesh and no stiffness is built.
+    /// Elastic constants; `None` for a rigid block, which has no mesh and no stiffness.
     pub elasticity: Option<Elasticity>,
-    /// Mass density \[kg/m^3\]; `None` carries no self weight.
+    /// Mass density \[kg/m^3\]; `None` without self weight.
     pub density: Option<f64>,
     /// The Q4 mesh; `None` for a rigid block.
     pub mesh: Option<BlockMesh>,
-    /// Loads on its edges and at places in it.
+    /// Loads on the edges of the block and at places in it.
     pub loads: Vec<BlockLoad>,
 }
 
 impl PlacedBlock {
-    /// The loads on its edges.
+    /// The loads on the edges of the block.
     pub fn edge_loads(&self) -> impl Iterator<Item = &EdgeLoad> {
         self.loads
             .iter()
             .filter_map(|it| if let BlockLoad::Edge(load) = it { Some(load) } else { None })
     }
 
-    /// The forces at places in it.
+    /// The forces at places in the block.
     pub fn point_loads(&self) -> impl Iterator<Item = &PointLoad> {
         self.loads
             .iter()
@@ -126,12 +126,12 @@ pub struct PlacedSupport {
     pub from: Point2<f64>,
     /// The other end \[m\].
     pub to: Point2<f64>,
-    /// Its movement from there, lengths in metres; gaps and slips of its contact points include it.
+    /// The movement of the support from these ends, lengths in metres; gaps and slips of its contact points include it.
     pub movement: Movement,
 }
 
 impl PlacedSupport {
-    /// The displacement \[m\] of the support at a place near it.
+    /// The displacement \[m\] of the support at a place on or near it.
     pub fn displacement_at(&self, place: Point2<f64>) -> Vector2<f64> {
         let Movement { x, y, turn } = self.movement;
         let arm = place - nalgebra::center(&self.from, &self.to);
@@ -146,9 +146,9 @@ pub struct JointClass {
     pub name: String,
     /// Resistance to sliding and opening.
     pub law: JointLaw,
-    /// Position of the contact points on its joints; `None` for the default of the scene.
+    /// Position of the contact points on the joints; `None` for the default of the scene.
     pub points: Option<PointRule>,
-    /// The mortar that fills its joints; `None` for dry joints.
+    /// The mortar that fills the joints; `None` for dry joints.
     pub mortar: Option<Mortar>,
 }
 
@@ -180,7 +180,7 @@ impl Mortar {
 
 /// The terms of a strip of mortar (3.28)-(3.39) that need the strain `eps_x` along the joint.
 ///
-/// The energy of a strip with `eps_x` is that of a bar, whether its faces press or not, and that of the compliances:
+/// The energy of a strip with `eps_x` is that of a bar, whether its faces press or not, and of the compliances:
 ///
 /// ```text
 ///  w = 1/2 [ (C_11 - C_12^2 / C_22) eps_x^2 + sigma_y^2 / C_22 + tau^2 / G ],
@@ -190,15 +190,15 @@ impl Mortar {
 pub struct Stretch {
     /// Force of the bar for a unit of elongation, `(C_11 - C_12^2 / C_22) t_y t_z / length` \[N/m\].
     pub stiffness: f64,
-    /// `C_12 / C_22` \[-\]: if a film is stretched at constant thickness, it opens by `t_y (C_12 / C_22) eps_x`, or
-    /// is in tension.
+    /// `C_12 / C_22` \[-\]: a film that is stretched at constant thickness opens by `t_y (C_12 / C_22) eps_x`, or is in
+    /// tension.
     pub coupling: f64,
 }
 
 /// The mortar of one joint.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Film {
-    /// Its place among the films of the model.
+    /// The index of the film among the films of the model.
     pub id: FilmId,
     /// Thickness and material.
     pub mortar: Mortar,
@@ -222,9 +222,9 @@ pub struct PlacedJoint {
     pub b: BlockId,
     /// The class, an index into [`Model::joint_classes`].
     pub class: usize,
-    /// Start of the overlap \[m\]; of a film, in the middle between its faces.
+    /// Start of the overlap \[m\]; for a film, in the middle between its faces.
     pub from: Point2<f64>,
-    /// End of the overlap \[m\]; of a film, in the middle between its faces.
+    /// End of the overlap \[m\]; for a film, in the middle between its faces.
     pub to: Point2<f64>,
     /// Unit normal from `a` to `b`.
     pub normal: Vector2<f64>,
@@ -264,32 +264,32 @@ pub struct Anchor {
 /// A point at which the contact law is enforced.
 #[derive(Debug, Clone)]
 pub struct JointPoint {
-    /// The joint on which it lies.
+    /// The joint of the point.
     pub joint: JointId,
-    /// Its place \[m\]; in a film half way between the faces, at which the film's forces act.
+    /// The place of the point \[m\]; half way between the faces of a film, where the film's forces act.
     pub position: Point2<f64>,
-    /// The area that it stands for \[m^2\]: traction = force / weight.
+    /// The area that the point stands for \[m^2\]: traction = force / weight.
     pub weight: f64,
-    /// Where it sits on side `a`; `None` when that side is a support.
+    /// The place of the point on side `a`; `None` if that side is a support.
     pub a: Option<Anchor>,
-    /// Where it sits on side `b`.
+    /// The place of the point on side `b`.
     pub b: Anchor,
-    /// Initial gap `x_0` \[m\]; across a film, the excess of the distance of the faces over its thickness: zero for a
-    /// film in contact.
+    /// Initial gap `x_0` \[m\]; the gap across a film is the excess of the distance of the faces over its thickness:
+    /// zero for a film in contact.
     pub gap: f64,
     /// Initial slip `s_0` \[m\]: from the slip at the start of a step and the movement of a support.
     pub slip: f64,
-    /// The law of its joint's class, for the area that it stands for.
+    /// The law of the joint's class, for the area that the point stands for.
     pub law: PointLaw,
-    /// Compression and shear of the joint itself, by its [stiffness](JointLaw::stiffness), under a unit of force \[m/N\];
-    /// zeros if it does not give way.
+    /// Compression and shear of the joint itself, by its [stiffness](JointLaw::stiffness), under a unit of force
+    /// \[m/N\]; zeros if the joint does not give way.
     pub compliance: [f64; 2],
     /// Additional data of a point of a film; `None` in a dry joint.
     pub film: Option<FilmPoint>,
 }
 
 impl JointPoint {
-    /// Compression and shear under a unit of force \[m/N\], of the joint and of a film in it, one after the other.
+    /// Compression and shear of the joint and of a film in it, in series, under a unit of force \[m/N\].
     pub fn gives(&self) -> [f64; 2] {
         let film = self.film.map_or([0.0; 2], |film| film.compliance);
         [0, 1].map(|k| self.compliance[k] + film[k])
@@ -309,12 +309,12 @@ pub struct FilmPoint {
     pub b: [Anchor; 2],
     /// Compression and shear of this part of the film under a unit of force \[m/N\].
     pub compliance: [f64; 2],
-    /// Its terms along the joint; `None` if films act across their joints only.
+    /// The terms along the joint; `None` if films act across their joints only.
     pub stretch: Option<Stretch>,
 }
 
 impl FilmPoint {
-    /// Start and end of its length on side `a` and on side `b`; `None` on a support.
+    /// Start and end of the film's length on side `a` and on side `b`; `None` on a support.
     pub fn faces(&self) -> [Option<[Anchor; 2]>; 2] {
         [self.a, Some(self.b)]
     }

@@ -1,17 +1,19 @@
-//! By how much meshes overestimate the stiffness of slender blocks in bending.
+//! The overestimate of the stiffness of slender blocks in bending by their meshes.
 //!
-//! Let `x` be the longer and `y` the shorter main axis of a block, from its centroid. Under a curvature `k` along `x` the
-//! displacements `k x y` and `-k (x^2 + nu y^2) / 2` have the stress `E k y` along `x` and no other, and the energy `E I k^2 / 2`. The
-//! same displacements of the nodes have a larger energy, since sides of four-node elements stay straight: what the elements lack
-//! in curvature is shear. In a rectangle of height `h` with elements of length `a` in `m` rows the quotient of both energies is
+//! Let `x` be the longer and `y` the shorter main axis of a block, from its centroid. Under a curvature `k` along `x`
+//! the displacements `k x y` and `-k (x^2 + nu y^2) / 2` have the stress `E k y` along `x` and no other, and the energy
+//! `E I k^2 / 2`. The same displacements of the nodes have a larger energy, since sides of four-node elements stay
+//! straight: shear replaces the missing curvature. The quotient of both energies in a rectangle of height `h` with
+//! elements of length `a` in `m` rows is
 //!
 //! ```text
 //! 1 + (a / h)^2 / (2 (1 + nu)) + nu^2 / ((1 - nu^2) m^2)
 //! ```
 //!
-//! which is the quotient of the stiffnesses for one row (R. D. Cook et al., Concepts and Applications of Finite Element Analysis, 4th
-//! edition, 2002, section 3.6). Other meshes may take less energy by other displacements: there the quotient is a bound. It is 1 % above
-//! the quotient of the stiffnesses for four rows, and two times it for patches around a centroid with four elements a side.
+//! which is the quotient of the stiffnesses for one row (R. D. Cook et al., Concepts and Applications of Finite Element
+//! Analysis, 4th edition, 2002, section 3.6). Other meshes may take less energy by other displacements: the quotient is
+//! a bound for them. It is 1 % above the quotient of the stiffnesses for four rows, and two times it for patches around
+//! a centroid with four elements a side.
 
 use nalgebra::{Matrix2, Matrix3, SVector, Vector2};
 
@@ -22,9 +24,9 @@ use crate::geometry;
 /// A block in bending.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Bending {
-    /// Length by height of the rectangle with the same second moments of area.
+    /// Length over height of the rectangle with the same second moments of area.
     pub slenderness: f64,
-    /// The stiffness of the mesh by that of the block, at most.
+    /// The stiffness of the mesh over that of the block, at most.
     pub stiffness: f64,
 }
 

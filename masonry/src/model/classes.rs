@@ -12,14 +12,15 @@ use crate::scene::{self, BED, Fault, HEAD, KeyPath, Opening, Scene, SceneErrorKi
 
 /// The classes of all joints.
 pub(super) struct Classes {
-    /// Those of the scene, and after them those that are named and not given, which are refused when a joint needs them.
+    /// The classes of the scene, and then classes that are named and not given, which are refused when a joint needs
+    /// them.
     list: Vec<JointClass>,
     given: usize,
     /// Classes of beds and heads.
     usual: [usize; 2],
     /// Classes of the walls, then of the arches.
     of_walls: Vec<[usize; 2]>,
-    /// Angles \[rad\] by which the walls are turned, and with them their beds and heads.
+    /// Angles \[rad\] by which the walls, and so their beds and heads, are turned.
     turns: Vec<f64>,
     of_supports: Vec<usize>,
     of_pairs: Vec<([Members; 2], usize)>,
@@ -42,7 +43,7 @@ pub(super) struct BlockPlace {
     pub(super) lintel: Option<usize>,
 }
 
-/// The blocks of a name.
+/// The blocks of one name.
 enum Members {
     Wall(usize),
     Block(BlockId),
@@ -200,7 +201,7 @@ fn mortar(scene: &Scene, joint: &scene::Joint) -> Option<Mortar> {
     let thickness = joint.mortar_thickness() * scene.units.length_to_si();
     let material = scene.materials.get(joint.material.as_ref()?)?;
     let elasticity = material.elasticity(scene.units)?;
-    // The plane is given wherever a material is elastic.
+    // The plane is given if a material is elastic.
     let material = FilmMaterial { elasticity, plane: scene.plane.unwrap_or(Plane::Stress) };
     (thickness > 0.0).then_some(Mortar { thickness, material })
 }

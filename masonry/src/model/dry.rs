@@ -1,4 +1,4 @@
-//! The stiffness of dry joints between rigid blocks, which alone would not say how forces are shared.
+//! The stiffness of dry joints between rigid blocks, without which the distribution of forces is not determined.
 
 use super::{Body, JointPoint, Model};
 
@@ -8,7 +8,7 @@ use super::{Body, JointPoint, Model};
 pub const DRY_JOINT: [f64; 2] = [2e9, 1e9];
 
 impl Model {
-    /// Gives joints between rigid blocks and supports, if nothing in them gives way, the stiffness [`DRY_JOINT`].
+    /// Gives the stiffness [`DRY_JOINT`] to joints between rigid blocks and supports if nothing in them gives way.
     pub(crate) fn give_stiffness_to_dry_joints(&mut self) {
         let hard: Vec<bool> = self.contacts.iter().map(|point| self.is_hard(point)).collect();
         for (point, _) in self.contacts.iter_mut().zip(hard).filter(|(_, is_hard)| *is_hard) {
@@ -16,7 +16,7 @@ impl Model {
         }
     }
 
-    /// Joints that have the stiffness of dry ones although their class has none.
+    /// Number of joints that have the stiffness of dry ones although their class has none.
     pub fn dry_joints(&self) -> usize {
         let has_default = |point: &&JointPoint| {
             let class = &self.joint_classes[self.joints[point.joint.index()].class];
@@ -27,7 +27,7 @@ impl Model {
         joints.len()
     }
 
-    /// The warning about these joints.
+    /// The warning about joints with the stiffness of dry ones.
     pub(crate) fn of_dry_joints(&self) -> Option<String> {
         let [across, along] = DRY_JOINT;
         (self.dry_joints() > 0).then(|| {
@@ -50,7 +50,7 @@ impl Model {
         })
     }
 
-    /// Whether neither the joint nor what is on its sides gives way.
+    /// Whether neither the joint nor the bodies on its sides give way.
     fn is_hard(&self, point: &JointPoint) -> bool {
         let joint = &self.joints[point.joint.index()];
         let is_rigid = |body: Body| match body {

@@ -18,7 +18,7 @@ pub enum Cause {
 impl Model {
     /// The acceleration of all mass \[m/s^2\]: gravity and those among the loads.
     pub fn acceleration(&self) -> Vector2<f64> {
-        // The sum starts from gravity: added to zero, -0 would become 0.
+        // The sum starts from gravity: -0 would become 0 in a sum from zero.
         self.accelerations.iter().fold(self.gravity, |sum, it| sum + it.value)
     }
 

@@ -21,16 +21,16 @@ impl Model {
     /// Blocks come wall by wall, course by course, then arch by arch, then the single blocks, in the order of the
     /// scene. Only blocks of elastic materials are meshed.
     ///
-    /// # Errors
     /// The mistakes that [`Scene::check`] finds, and those of the whole: overlapping blocks, a support that runs
-    /// through a block, lies on another or meets none, a load on no free edge or outside of its block, a block that meets nothing, a
-    /// joint whose class is not given. Each has its line and column if the scene was read from text.
+    /// through a block, lies on another or meets none, a load on no free edge or outside of its block, a block that
+    /// meets nothing, a joint whose class is not given. Each error has its line and column if the scene was read from
+    /// text.
     pub fn from_scene(scene: &Scene) -> Result<Self, SceneError> {
         scene.check()?;
         build(scene).map_err(|fault| fault.locate(scene))
     }
 
-    /// Whether there are several steps, and friction makes the last state depend on those before it.
+    /// Whether there are several steps, and friction makes the last state depend on the earlier ones.
     pub(crate) fn depends_on_way(&self, scene: &Scene) -> bool {
         scene.steps() > 1 && self.contacts.iter().any(|point| point.law.resists_sliding())
     }
@@ -50,7 +50,7 @@ fn build(scene: &Scene) -> Result<Model, Fault> {
     let found = find_joints(scene, &blocks, &supports, classes, thickness)?;
     placement::check_touching(&blocks, &keys, &supports, &found.joints)?;
     placement::check_overlapping_supports(&blocks, &supports, &found.joints, units)?;
-    // Loads have the places that corners had before they were moved.
+    // The places of loads are relative to the corners before these were moved.
     let moved = healed.as_ref().map_or(0.0, |it| it.largest);
     let drawing = scene.changes_of_drawing();
     if !drawing.is_empty() {
@@ -65,7 +65,7 @@ fn build(scene: &Scene) -> Result<Model, Fault> {
         joints: found.joints,
         contacts: found.contacts,
         joint_classes: found.classes,
-        // A scene without an elastic material may leave it out, and nothing depends on it.
+        // A scene without an elastic material may omit the plane, and nothing depends on it.
         plane: scene.plane.unwrap_or(Plane::Stress),
         thickness,
         gravity: scene.gravity.map_or_else(Vector2::zeros, Vector2::from),
@@ -80,7 +80,8 @@ fn build(scene: &Scene) -> Result<Model, Fault> {
     Ok(model)
 }
 
-/// Puts corners of single blocks onto what they miss by rounding, if a tolerance is given or blocks overlap.
+/// Puts corners of single blocks onto the corners and edges that they miss by rounding, if a tolerance is given or
+/// blocks overlap.
 fn heal_corners(
     scene: &Scene,
     blocks: &mut [PlacedBlock],
@@ -95,7 +96,7 @@ fn heal_corners(
     let tolerance = given.map(|it| it * scene.units.length_to_si());
     let healed = match (heal::heal(blocks, scene.blocks.len(), supports, tolerance), given) {
         (Ok(Some(healed)), _) => healed,
-        // Only the overlap is known, which was to be healed.
+        // The overlap that was to be healed is the only error.
         (Ok(None), _) | (Err(_), None) => return overlaps.map(|()| None),
         (Err(wanted), Some(value)) => {
             let at = KeyPath::of("contact").key("tolerance");
@@ -124,7 +125,7 @@ fn heal_corners(
 /// Blocks as they are laid.
 struct Laid {
     blocks: Vec<PlacedBlock>,
-    /// The key of the scene that describes each.
+    /// The key of the scene that describes each block.
     keys: Vec<KeyPath>,
     /// The place of every brick and voussoir; single blocks come after all of these.
     places: Vec<BlockPlace>,
@@ -185,14 +186,14 @@ fn block(
     let material = scene.materials.get(material).copied().unwrap_or_default();
     let elasticity = material.elasticity(units);
     let mesh = mesh.filter(|_| elasticity.is_some());
-    // Contact needs no corner on a straight edge, and patches of a mesh are better without it.
+    // Contact needs no corner on a straight edge, and patches of a mesh are better without such corners.
     let corners = if mesh.is_some() { geometry::without_straight(&corners) } else { corners };
     let mesh = mesh.and_then(|divisions| BlockMesh::of(&corners, divisions));
     let density = material.density;
     PlacedBlock { name, corners, elasticity, density, mesh, loads: Vec::new() }
 }
 
-/// Refuses a brick cut to next to nothing, and what is left of a block whose corners were moved too far.
+/// Refuses bricks that are cut to almost nothing, and blocks that are damaged because corners were moved too far.
 fn check_shapes(blocks: &[PlacedBlock], keys: &[KeyPath]) -> Result<(), Fault> {
     for (block, key) in blocks.iter().zip(keys) {
         let name = || block.name.clone();

@@ -1,20 +1,21 @@
-//! Corners of single blocks, put onto corners and edges of others that they miss by rounding: drawings are written with some
-//! decimals, and blocks that touch in them overlap or stand apart by the last one.
+//! Corners of single blocks are put onto the corners and edges of others that they miss by rounding: drawings are
+//! written with some decimals, and blocks that touch in a drawing overlap or stand apart by the last decimal.
 //!
 //! # Equations
-//! Corners that are nearer to each other than the tolerance share one place `x`, of the weight of their number `w`. A place that is
-//! nearer than that to an edge is on the line through the ends of the edge. Places move by the least `sum w |dx|^2` for which all
-//! lines are straight, step by step of Gauss and Newton: `dx = -W^-1 A^T (A W^-1 A^T)^-1 r`.
+//! Corners that are nearer to each other than the tolerance share one place `x`, whose weight is their number `w`. A
+//! place nearer to an edge than the tolerance is on the line through the ends of the edge. Places move by the least
+//! `sum w |dx|^2` for which all lines are straight, by steps of Gauss and Newton: `dx = -W^-1 A^T (A W^-1 A^T)^-1 r`.
 //!
-//! Every condition is stated once. Two that say the same of straight lines say something else of lines that are not straight yet:
-//! their difference is of the order of the error `e` on an edge of length `l`, and demands that places slide along the line by the
-//! error of second order, `e^2 / l`, divided by the difference of both directions, `e / l`: by as much as `e` for every pair of
-//! them. So corners at one place are one unknown. A corner is on one edge of another block; if it is near to two, it is near to
-//! their common corner once it is on the first. Lines with two places in common that are apart are one line, whatever edges and
-//! supports they come from: those of a bed joint are linked through the corners on both of its sides. A line through `n` places
-//! has `n - 2` conditions: the middle place is on the line between the first and the last one, and so on in both halves. These
-//! conditions are independent, as each has a place that those before it do not have. A line with two places that do not move has
-//! one for each place that does.
+//! Every condition is stated once. Two conditions that are equal on straight lines differ on lines that are not
+//! straight yet: their difference is of the order of the error `e` on an edge of length `l`, and demands that places
+//! slide along the line by the error of second order, `e^2 / l`, divided by the difference of both directions, `e / l`:
+//! by as much as `e` for every pair of such conditions. So corners at one place are one unknown. A corner is on one
+//! edge of another block; if it is near to two edges, it is near to their common corner once it is on the first. Lines
+//! with two places in common that are apart are one line, whatever edges and supports they come from: the lines of a
+//! bed joint are linked through the corners on both of its sides. A line through `n` places has `n - 2` conditions: the
+//! middle place is on the line between the first and the last one, and so on in both halves. These conditions are
+//! independent, as each has a place that the conditions before it do not have. A line with two places that do not move
+//! has one condition for each place that moves.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
@@ -27,37 +28,36 @@ use super::{PlacedBlock, PlacedSupport};
 use crate::geometry::{self, SAME_PLACE};
 use crate::model::joints::near_pairs;
 
-/// The tolerance of a scene that gives none, relative to the shortest edge of its single blocks. Theory: coordinates of a wall
+/// The default tolerance, relative to the shortest edge of the single blocks of a scene. Theory: coordinates of a wall
 /// in metres with six decimals are off by 2e-6 of a brick.
 const OF_SHORTEST_EDGE: f64 = 1e-5;
-/// Steps of Gauss and Newton. Theory: each leaves the square of an error, and half of its digits are those of the regular matrix;
-/// as many again for places that come near to others by the first ones.
+/// Steps of Gauss and Newton. Theory: each leaves the square of an error, and half of its digits are those of the
+/// regular matrix; as many steps again for places that come near to others by the first steps.
 const STEPS: usize = 10;
 /// The tolerance, relative to the shortest edge, at most. Theory: the ends of an edge must not meet.
 const LARGEST: f64 = 0.25;
 
-/// The corners that were moved, and what reading a drawing had changed before.
+/// The corners that were moved, and the changes of a drawing when it was read.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Healed {
     /// Corners that were moved.
     pub corners: usize,
-    /// The largest distance \[m\].
+    /// The largest distance \[m\] by which a corner was moved.
     pub largest: f64,
     /// The tolerance \[m\].
     pub tolerance: f64,
-    /// What was changed and left out of the drawing with the blocks, in sentences.
+    /// Changes and omissions of the drawing with the blocks, in sentences.
     pub drawing: Vec<String>,
 }
 
-/// Why corners cannot be healed, in words that follow the tolerance.
+/// The reason for which corners cannot be healed, in words that follow the tolerance.
 pub type Unhealed = &'static str;
 
-/// Moves corners of the last blocks, so many, by as little as possible, so that each that is nearer than the tolerance \[m\] to a
-/// corner or an edge of another block, or to a support, lies on it. `None` if nothing had to be moved.
+/// Moves corners of the last `count` blocks by as little as possible, so that each corner nearer than the tolerance
+/// \[m\] to a corner or an edge of another block, or to a support, lies on it. `None` if nothing had to be moved.
 ///
-/// # Errors
-/// Blocks stay as they were if the tolerance is too large for them, or if not all that is near can meet by movements within the
-/// tolerance.
+/// # Errors The tolerance is too large for the blocks, or some corners cannot meet their neighbours by movements within
+/// the tolerance. The blocks are not changed then.
 pub fn heal(
     blocks: &mut [PlacedBlock],
     count: usize,
@@ -87,7 +87,7 @@ pub fn heal(
         if largest.is_nan() || largest > tolerance {
             break;
         }
-        // The step from what touches leaves rounding errors.
+        // A step from corners that touch leaves rounding errors only.
         if apart <= touching {
             let corners = moved.into_iter().filter(|it| *it > touching).count();
             if corners == 0 {
@@ -119,11 +119,11 @@ struct Drawing {
     free: Range<usize>,
     /// Bodies that are near each other.
     pairs: Vec<[usize; 2]>,
-    /// What is nearer meets, if nothing of it may move, and if something may.
+    /// The distances below which points meet: if both bodies are fixed, and if one may move.
     reach: [f64; 2],
 }
 
-/// A place has to be on the line through two others.
+/// The condition that a place is on the line through two others.
 struct Collinear {
     place: usize,
     ends: [usize; 2],
@@ -153,7 +153,8 @@ impl Drawing {
         Self { points: shapes.concat(), bodies, free, pairs, reach }
     }
 
-    /// Moves all that is near each other together, to first order; how far it was apart \[m\]. `None` if memory does not suffice.
+    /// Moves points that are near each other together, to first order; returns their largest distance before \[m\].
+    /// `None` if memory does not suffice.
     fn step(&mut self) -> Option<f64> {
         let Neighbours { mut joined, beside } = self.neighbours();
         let places: Vec<usize> = (0..self.points.len()).map(|it| joined.root(it)).collect();
@@ -169,7 +170,7 @@ impl Drawing {
         Some(apart.max(gathered))
     }
 
-    /// All corners that meet others, and for every edge its ends and the points on it.
+    /// Finds all corners that meet others, and for every edge its ends and the points on it.
     fn neighbours(&self) -> Neighbours {
         let mut joined = Joined((0..self.points.len()).collect());
         let mut beside = vec![BTreeSet::new(); self.points.len()];
@@ -202,8 +203,8 @@ impl Drawing {
         Neighbours { joined, beside }
     }
 
-    /// Moves the first corner of every place to the middle of all, if it may move; the number of corners of each place, and how far
-    /// they are from it \[m\].
+    /// Moves the first corner of every place to the middle of all its corners, if it may move; returns the number of
+    /// corners of each place, and their largest distance from it \[m\].
     fn gather(&mut self, places: &[usize]) -> (Vec<f64>, f64) {
         let before = self.points.clone();
         let mut weights = vec![0.0; self.points.len()];
@@ -221,7 +222,7 @@ impl Drawing {
         (weights, apart.fold(0.0, f64::max))
     }
 
-    /// Joins lines that have two places in common, apart from each other, until no two have.
+    /// Joins lines that have two places in common, apart from each other, until no such lines are left.
     fn one_line_each(&self, mut lines: Vec<BTreeSet<usize>>) -> Vec<BTreeSet<usize>> {
         let mut through: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
         for (k, line) in lines.iter().enumerate() {
@@ -249,7 +250,7 @@ impl Drawing {
         whole
     }
 
-    /// The conditions that put the places of a line onto one.
+    /// The conditions that put the places of a line onto one straight line.
     fn rows(&self, line: BTreeSet<usize>) -> Vec<Collinear> {
         let (free, fixed): (Vec<_>, Vec<_>) =
             line.iter().copied().partition(|it| self.free.contains(it));
@@ -271,7 +272,8 @@ impl Drawing {
         places
     }
 
-    /// The least movements of places for which all conditions hold, to first order; how far they were from that \[m\].
+    /// Makes the least movements of places for which all conditions hold, to first order; returns their largest
+    /// violation before \[m\].
     fn straighten(&mut self, rows: &[Collinear], weights: &[f64]) -> Option<f64> {
         let (mut entries, mut apart) = (Vec::new(), Vec::with_capacity(rows.len()));
         let mut columns = BTreeMap::new();
@@ -317,7 +319,7 @@ impl Drawing {
     }
 }
 
-/// What is near each other.
+/// Points that are near each other.
 struct Neighbours {
     joined: Joined,
     beside: Vec<BTreeSet<usize>>,
@@ -342,14 +344,14 @@ impl Joined {
     }
 }
 
-/// The one of a body that is nearest, if it is within reach.
+/// The nearest point of a body, if it is within reach.
 fn nearest(body: &Range<usize>, distance: impl Fn(usize) -> f64, reach: f64) -> Option<usize> {
     let distances = body.clone().map(|it| (it, distance(it)));
     let nearest = distances.min_by(|(_, a), (_, b)| a.total_cmp(b));
     nearest.filter(|(_, distance)| *distance <= reach).map(|(it, _)| it)
 }
 
-/// The middle place is on the line between the first and the last one, and so on in both halves.
+/// Puts the middle place on the line between the first and the last one, and so on in both halves.
 fn halve(places: &[usize], rows: &mut Vec<Collinear>) {
     if let [from, _, .., to] = *places {
         let middle = places.len() / 2;

@@ -4,8 +4,8 @@
 //! edges, in general between nodes: the relative displacement is interpolated on each side by
 //! that side's own shape functions, so that meshes need not match.
 //!
-//! The two edges of a joint with mortar are apart by the thickness of the mortar, and the joint is a film
-//! between them: a gap is the excess of their distance over that thickness.
+//! The two edges of a joint with mortar are apart by the thickness of the mortar, and the joint is a film between them:
+//! a gap is the excess of the distance of the edges over that thickness.
 //!
 //! # Orientation
 //! Normals of joints between blocks point upwards in beds (within 45 degrees of the vertical) and to
@@ -28,13 +28,13 @@ mod search;
 /// The kind of joint that two sides make, which decides its class.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum JointKind {
-    /// Between two blocks, with the unit normal that it would have.
+    /// A joint between two blocks, with the unit normal that it would have.
     Blocks(Vector2<f64>),
-    /// Between a support and a block.
+    /// A joint between a support and a block.
     Support(SupportId),
 }
 
-/// How joints are searched and points placed.
+/// The settings of the search for joints and of the places of points.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct JointSearch {
     /// The places of the contact points.
@@ -51,9 +51,8 @@ pub struct JointSearch {
 /// the areas that points stand for. Joints come in the order of their blocks, those with supports after those between
 /// blocks; points come joint by joint, along the joint's tangent. Blocks that only touch at a corner make no joint.
 ///
-/// # Errors
 /// [`ContactError::NoNodalPair`] with [`PointRule::NodalPairs`] on meshes that do not match, and
-/// [`ContactError::NoRoomForFilm`] for edges closer than the mortar between them is thick.
+/// [`ContactError::NoRoomForFilm`] for edges whose distance is less than the thickness of the mortar between them.
 ///
 /// # Panics
 /// If `class_of` returns an index outside `classes`.
@@ -113,7 +112,7 @@ pub fn find(
     Ok((joints, contacts))
 }
 
-/// The edges of two sides, that of a support being edge 0.
+/// The edges of two sides; the edge of a support is edge 0.
 #[derive(Clone, Copy)]
 struct Sides {
     a: Body,
@@ -122,7 +121,7 @@ struct Sides {
     b_edge: usize,
 }
 
-/// Two edges that look at each other, at whatever distance.
+/// Two edges that face each other, at any distance.
 struct Candidate {
     kind: JointKind,
     sides: Sides,
@@ -154,13 +153,13 @@ fn between_blocks(blocks: &[PlacedBlock], first: BlockId, second: BlockId) -> Ve
     pairs.filter_map(candidate).collect()
 }
 
-/// Whether a joint between blocks is a bed, with its normal within 45 degrees of the vertical, and no head.
+/// Whether a joint between blocks is a bed, with its normal within 45 degrees of the vertical, and not a head.
 pub fn is_bed(normal: Vector2<f64>) -> bool {
     // Rounding must not decide at exactly 45 degrees.
     normal.y.abs() >= normal.x.abs() * (1.0 - SAME_PLACE)
 }
 
-/// The edges of a block that could rest on a support, which may lie on either side of its line.
+/// The edges of a block that could rest on a support, on either side of the support's line.
 fn on_support(
     support: &PlacedSupport,
     id: SupportId,
@@ -180,9 +179,9 @@ fn on_support(
 }
 
 impl Candidate {
-    /// The overlap of the two edges, with mortar on that of side `a` if there is any; `None` if they do not meet.
+    /// The overlap of the two edges, with mortar on the edge of side `a` if there is any; `None` if they do not meet.
     ///
-    /// The error holds their distances at both ends of the overlap if the mortar does not fit between them.
+    /// The error has the distances of the edges at both ends of the overlap if the mortar does not fit between them.
     fn overlap(
         &self,
         mortar: Option<Mortar>,
@@ -208,7 +207,7 @@ impl Candidate {
 struct Meeting<'a> {
     blocks: &'a [PlacedBlock],
     sides: Sides,
-    /// Side `a` is the first segment of the overlap.
+    /// The overlap; side `a` is its first segment.
     overlap: SegmentOverlap,
     class: &'a JointClass,
     films: Films,
@@ -217,7 +216,7 @@ struct Meeting<'a> {
 }
 
 impl Meeting<'_> {
-    /// The overlap runs along the first segment, which is against the joint's tangent.
+    /// The placed joint. The overlap runs along the first segment, opposite to the joint's tangent.
     fn joint(&self, class: usize, film: Option<Film>) -> PlacedJoint {
         let Sides { a, b, .. } = self.sides;
         let normal = self.overlap.normal;

@@ -26,11 +26,12 @@ pub(super) struct PointPlace {
     pub(super) span_on_b: [f64; 2],
 }
 
-/// Where on the joint a point is, its weight, and the part that it stands for, in fractions of the joint.
+/// The place of a point on the joint, its weight, and the part that the point stands for, in fractions of
+/// the joint.
 type Weighted = (f64, f64, [f64; 2]);
 
-/// Places the points of a joint of the given length \[m\]; fractions of the joint closer than `slack`
-/// are one place. Empty for nodal pairs, when there are none.
+/// Places the points of a joint of the given length \[m\]; fractions of the joint closer than `slack` are
+/// one place. Empty if the rule is nodal pairs and there are no such pairs.
 pub(super) fn place(
     rule: PointRule,
     a: Option<&Face>,
@@ -86,14 +87,14 @@ fn vertices(a: Option<&[f64]>, b: &[f64], slack: f64) -> Vec<f64> {
     all
 }
 
-/// Places where both sides have a node; with a support, the nodes of side `b`.
+/// Places at which both sides have a node; the nodes of side `b` if the other side is a support.
 fn common(a: Option<&[f64]>, b: &[f64], slack: f64) -> Vec<f64> {
     let on_joint = b.iter().filter(|x| **x >= -slack && **x <= 1.0 + slack);
     let paired = on_joint.filter(|x| a.is_none_or(|a| a.iter().any(|y| (*x - y).abs() <= slack)));
     paired.map(|x| x.clamp(0.0, 1.0)).collect()
 }
 
-/// Half of every part goes to each of its ends.
+/// Weights that give half of every part to each of its ends.
 fn trapezoid(places: &[f64]) -> Vec<Weighted> {
     let mut weighted: Vec<Weighted> = places.iter().map(|x| (*x, 0.0, [*x; 2])).collect();
     for k in 1..places.len() {
@@ -107,7 +108,7 @@ fn trapezoid(places: &[f64]) -> Vec<Weighted> {
     weighted
 }
 
-/// Every point stands for what is nearer to it than to any other.
+/// Weights for which every point stands for the part nearer to it than to any other point.
 fn tributary(places: &[f64]) -> Vec<Weighted> {
     let middle = |k: usize| 0.5 * (places[k - 1] + places[k]);
     let last = places.len();
