@@ -23,7 +23,7 @@ impl PlacedForce {
         Self { at, force, moment: 0.0 }
     }
 
-    /// The size of the force, and of the two forces at a distance \[m\] that make the moment \[N\].
+    /// The size \[N\] of the force and of a couple for the moment, two forces at a distance \[m\].
     pub fn size(&self, distance: f64) -> f64 {
         self.force.norm() + self.moment.abs() / distance
     }
@@ -32,13 +32,13 @@ impl PlacedForce {
 /// A load of the scene: its name and its factor.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LoadCase {
-    /// Its name.
+    /// The name of the load.
     pub name: String,
-    /// Its group; if the scene gives none, a group of its own with its own name.
+    /// The group of the load; a load without a group in the scene has a group with its own name.
     pub group: String,
-    /// Its factor \[-\], times that of the step; loads on blocks include it.
+    /// The factor \[-\] of the load, times that of the step; loads on blocks include it.
     pub factor: f64,
-    /// The part of the load that is the weight of a mass, from 0 to 1; `None` if the scene does not say.
+    /// The part of the load that is the weight of a mass, from 0 to 1; `None` if the scene gives none.
     pub mass: Option<f64>,
 }
 
@@ -62,7 +62,7 @@ pub struct EdgeLoad {
     pub to: f64,
     /// Traction on the block at the start and at the end of the loaded part \[Pa\] in global axes.
     pub traction: [Vector2<f64>; 2],
-    /// The load of the scene that it is a part of.
+    /// The load of the scene to which the traction belongs.
     pub load: LoadId,
 }
 
@@ -75,21 +75,21 @@ pub struct PointLoad {
     pub force: Vector2<f64>,
     /// The moment on the block over its whole thickness, counter-clockwise \[N m\].
     pub moment: f64,
-    /// The load of the scene that it is.
+    /// The load of the scene.
     pub load: LoadId,
 }
 
 /// An acceleration that acts like gravity on all that has mass.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Acceleration {
-    /// The acceleration \[m/s^2\]: the force on a mass is the mass times this.
+    /// The acceleration \[m/s^2\]: the force on a mass is the mass times the acceleration.
     pub value: Vector2<f64>,
-    /// The load of the scene that it is.
+    /// The load of the scene.
     pub load: LoadId,
 }
 
 impl BlockLoad {
-    /// The load of the scene that it is a part of.
+    /// The load of the scene to which this load belongs.
     pub fn load(&self) -> LoadId {
         match self {
             Self::Edge(edge) => edge.load,
@@ -97,7 +97,7 @@ impl BlockLoad {
         }
     }
 
-    /// Whether any part of it has a component against a direction.
+    /// Whether any part of the load has a component against a direction.
     pub(super) fn acts_against(&self, direction: Vector2<f64>) -> bool {
         let is_against = |force: Vector2<f64>| force.dot(&direction) < 0.0;
         match self {
@@ -106,7 +106,7 @@ impl BlockLoad {
         }
     }
 
-    /// A part of another load in this place, with another force or traction, and without a moment.
+    /// A part of another load in the place of this one, with another force or traction, and without a moment.
     pub(super) fn instead(&self, load: LoadId, of: impl Fn(Vector2<f64>) -> Vector2<f64>) -> Self {
         match *self {
             Self::Edge(it) => Self::Edge(EdgeLoad { traction: it.traction.map(of), load, ..it }),
@@ -116,7 +116,7 @@ impl BlockLoad {
         }
     }
 
-    /// Its resultant on a block with these corners in a wall of a thickness \[m\].
+    /// The resultant of the load on a block with these corners in a wall of a thickness \[m\].
     pub fn resultant(&self, corners: &[Point2<f64>], thickness: f64) -> PlacedForce {
         match self {
             Self::Edge(load) => load.resultant(corners, thickness),
@@ -126,7 +126,8 @@ impl BlockLoad {
         }
     }
 
-    /// The forces \[N\] at nodes that do the same work on all displacements of the mesh; a node may come twice.
+    /// The nodal forces \[N\] that do the same work as the load on all displacements of the mesh; a node may come
+    /// twice.
     pub fn nodal_forces(
         &self,
         corners: &[Point2<f64>],
@@ -143,7 +144,7 @@ impl BlockLoad {
         }
     }
 
-    /// Multiplies it.
+    /// Multiplies the load by a factor.
     pub fn scale(&mut self, factor: f64) {
         match self {
             Self::Edge(load) => load.traction.iter_mut().for_each(|it| *it *= factor),
@@ -162,8 +163,8 @@ impl EdgeLoad {
         first + (last - first) * ((at - self.from) / (self.to - self.from))
     }
 
-    /// The mean traction in the centroid of the loaded part if the traction has one direction; else in its middle, with the moment
-    /// of its change along this part.
+    /// The mean traction in the centroid of the loaded part if the traction has one direction; otherwise the mean
+    /// traction in the middle of the part, with the moment of the change along it.
     fn resultant(&self, corners: &[Point2<f64>], thickness: f64) -> PlacedForce {
         let [start, end] = [self.from, self.to].map(|at| geometry::on_edge(corners, self.edge, at));
         let (along, [first, last]) = (end - start, self.traction);
@@ -202,7 +203,8 @@ impl EdgeLoad {
 }
 
 impl PointLoad {
-    /// A moment does its work on the mean rotation of the material at the place, `(dv/dx - du/dy) / 2`.
+    /// Nodal forces of force and moment. A moment does its work on the mean rotation of the material at the place,
+    /// `(dv/dx - du/dy) / 2`.
     fn on_nodes(&self, mesh: &BlockMesh) -> Vec<(usize, Vector2<f64>)> {
         let mut forces = mesh.interpolate_inside(self.at).map(|(node, n)| (node, self.force * n));
         if self.moment.abs() > 0.0 {

@@ -1,10 +1,10 @@
 //! Q4 meshes of single blocks.
 //!
-//! A block is divided into quadrilaterals, its patches, and each patch by its bilinear map into as many elements. A convex
-//! quadrilateral is one patch. Another convex polygon has a patch at every corner, between the middles of both edges and the
-//! centroid; these patches are convex, since the centroid lies beyond the line between the middles beside a corner. A polygon
-//! that is star-shaped about its centroid has three patches in the triangle of each edge with the centroid. Corners on straight edges
-//! are left out before.
+//! A block is divided into quadrilaterals, its patches, and each patch by its bilinear map into equal numbers of
+//! elements. A convex quadrilateral is one patch. Another convex polygon has a patch at every corner, between the
+//! middles of both edges and the centroid; these patches are convex, since the centroid lies beyond the line between
+//! the middles beside a corner. A polygon that is star-shaped about its centroid has three patches in the triangle of
+//! each edge with the centroid. Corners on straight edges are left out before.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -16,7 +16,7 @@ use crate::geometry::{self, Quad};
 /// A mesh of four-node quadrilaterals in one block, with the nodes on its edges.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BlockMesh {
-    /// Elements along both directions of every patch.
+    /// Numbers of elements along both directions of every patch.
     divisions: [usize; 2],
     /// Positions of the nodes \[m\].
     pub nodes: Vec<Point2<f64>>,
@@ -43,8 +43,8 @@ impl BlockMesh {
     /// Divides a block. A convex quadrilateral gets `nx` by `ny` elements, `nx` along edges 0 and 2; another block gets patches of
     /// `nx` by `nx`.
     ///
-    /// `None` if the block is no convex quadrilateral and the numbers differ, or if it is not convex and an edge lies [behind its
-    /// centroid](geometry::edge_behind_centroid).
+    /// `None` if the block is not a convex quadrilateral and the numbers differ, or if it is not convex and an edge
+    /// lies [behind its centroid](geometry::edge_behind_centroid).
     ///
     /// # Panics
     /// If a number of elements is zero.
@@ -64,7 +64,7 @@ impl BlockMesh {
         (nx == ny).then(|| patches.divided(divisions))
     }
 
-    /// Elements along both directions of every patch.
+    /// Numbers of elements along both directions of every patch.
     pub fn divisions(&self) -> [usize; 2] {
         self.divisions
     }
@@ -108,7 +108,7 @@ impl BlockMesh {
                 let places: Vec<[usize; 2]> = places;
                 let line: Vec<usize> = places.into_iter().map(|at| self.node(patch, at)).collect();
                 let [a, b] = [line[0], line[line.len() - 1]];
-                // Two patches share a side; one on the rim has both ends there.
+                // Two patches share a side; a side on the rim has both ends there.
                 let is_on_rim = rim.contains(&a) && rim.contains(&b);
                 if !is_side || (!is_on_rim && drawn.insert([a.min(b), a.max(b)])) {
                     lines.push(line);
@@ -142,17 +142,18 @@ impl BlockMesh {
     /// The four nodes of the element in which a point \[m\] of the block lies, each with its shape function there; zero exactly
     /// if the point lies on the other side of the element up to rounding.
     ///
-    /// The map of an element is that of its patch on its part of the unit square, so that the element in a patch needs no search.
+    /// The map of an element is that of its patch on a part of the unit square, so that the element is found in a patch
+    /// without a search.
     pub fn interpolate_inside(&self, point: Point2<f64>) -> [(usize, f64); 4] {
         let ([a, b, c, d], [r, s]) = self.element_at(point);
         [(a, (1.0 - r) * (1.0 - s)), (b, r * (1.0 - s)), (c, r * s), (d, (1.0 - r) * s)]
     }
 
-    /// The four nodes of the element at a point, each with the gradient of its shape function there \[1/m\]. At a place between
-    /// elements it is that in one of them.
+    /// The four nodes of the element at a point, each with the gradient of its shape function there \[1/m\]. A place
+    /// between elements belongs to one of them.
     ///
     /// # Panics
-    /// If an element is folded, as in no mesh of a block that was checked.
+    /// If an element is folded, which does not occur in the mesh of a checked block.
     pub fn gradients_inside(&self, point: Point2<f64>) -> [(usize, Vector2<f64>); 4] {
         let (nodes, place) = self.element_at(point);
         let corners = nodes.map(|node| self.nodes[node]);
@@ -198,7 +199,7 @@ impl BlockMesh {
 
 /// The patches of a block before they are divided.
 struct Patches {
-    /// The corners of the block come first.
+    /// The vertices; the corners of the block come first.
     vertices: Vec<Point2<f64>>,
     /// The corners of each patch, counter-clockwise.
     quads: Vec<[usize; 4]>,
@@ -272,7 +273,7 @@ impl Patches {
             elements.extend(first.map(|n| [n, n + 1, n + row + 1, n + row].map(|n| grid[n])));
         }
         let edges = self.edges.iter().enumerate().map(|(k, vertices)| {
-            // Patches of another shape have as many elements in both directions.
+            // Patches of other shapes have as many elements in both directions.
             let count = divisions[k % 2];
             let steps = vertices.windows(2).flat_map(|ends| {
                 (0..count).map(|step| OnSide::step([ends[0], ends[1]], step, count))
@@ -307,7 +308,7 @@ impl OnSide {
         }
     }
 
-    /// So many elements from one end to the other, of `count`.
+    /// The place `step` elements from one end to the other, of `count`.
     fn step([from, to]: [usize; 2], step: usize, count: usize) -> Self {
         if step == 0 || step == count {
             Self { side: [if step == 0 { from } else { to }; 2], step: 0 }
@@ -319,7 +320,7 @@ impl OnSide {
     }
 }
 
-/// The one of `n` equal parts of an edge in which a fraction of it lies, and its place in this part.
+/// The index of the one of `n` equal parts of an edge in which a fraction of it lies, and the place in this part.
 fn within(n: usize, at: f64) -> (usize, f64) {
     let place = at.clamp(0.0, 1.0) * n as f64;
     let first = (1..n).take_while(|k| *k as f64 <= place).count();

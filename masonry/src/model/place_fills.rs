@@ -1,9 +1,10 @@
 //! Fill over blocks, and axles on it, as loads on the edges that face upwards.
 //!
-//! The weight of the column of fill above an edge varies linearly along the edge. The force of an axle spreads along straight
-//! rays, as many for every unit of `u`, the horizontal distance over the depth, up to `u = tan angle`: on a horizontal plane the
-//! pressure is uniform. An edge takes the rays that meet it first, `(u_2 - u_1) / (2 tan angle)` of the force. An edge below
-//! another one of the structure, such as the sill of a window, carries no fill.
+//! The weight of the column of fill above an edge varies linearly along the edge. The force of an axle spreads along
+//! straight rays, equally many for every unit of `u`, the horizontal distance over the depth, up to `u = tan angle`:
+//! the pressure on a horizontal plane is uniform. An edge takes the rays that meet it first,
+//! `(u_2 - u_1) / (2 tan angle)` of the force. An edge below another one of the structure, such as the sill of a
+//! window, carries no fill.
 
 use nalgebra::{Point2, Vector2};
 
@@ -29,7 +30,7 @@ pub(super) enum Share {
     /// A part on an edge.
     Strip {
         on: Top,
-        /// The part at both ends, for every unit of length along the edge: linear between them \[1/m\], or \[m\] of a fill.
+        /// The part at both ends, per unit of length along the edge: linear between them \[1/m\], or \[m\] for a fill.
         density: [f64; 2],
     },
 }
@@ -45,7 +46,7 @@ pub(super) struct PlacedAxle {
     pub(super) slope: f64,
 }
 
-/// The free parts of edges that face upwards, of the blocks of a body, without those below other edges of the structure.
+/// The free parts of upward edges of a body's blocks, without the parts below other edges of the structure.
 pub(super) fn tops(
     blocks: &[PlacedBlock],
     over: &str,
@@ -74,7 +75,7 @@ impl Top {
         let corners = &blocks[block].corners;
         let top = |edge: usize| {
             let [right, left] = geometry::edge(corners, edge);
-            // An edge that is vertical but for rounding has no fill above it.
+            // An edge that is vertical up to rounding has no fill above it.
             let is_top = right.x - left.x > SAME_PLACE * geometry::size(corners);
             is_top.then_some(Self { block, edge, ends: [left, right], fractions: [1.0, 0.0] })
         };
@@ -124,7 +125,7 @@ impl Top {
 }
 
 impl Share {
-    /// Presses down on its block. `force` \[N\] is that of a part of one, or \[N/m^2\] of a fill.
+    /// Presses on the block, downwards. `force` is the total force \[N\], or that of a fill \[N/m^2\].
     pub(super) fn press(
         &self,
         blocks: &mut [PlacedBlock],
@@ -162,16 +163,16 @@ pub(super) fn columns(tops: &[Top], level: f64) -> Vec<Share> {
 /// An edge that rays of an axle reach through a fill.
 struct Reached {
     top: Top,
-    /// The depths of its ends \[m\].
+    /// The depths of the ends of the edge \[m\].
     depths: [f64; 2],
-    /// The rays to its ends.
+    /// The rays to the ends of the edge.
     rays_to_ends: [f64; 2],
-    /// The rays that meet it within the angle of spread.
+    /// The rays that meet the edge within the angle of spread.
     rays: [f64; 2],
 }
 
 impl PlacedAxle {
-    /// The parts of its force on edges. Rays that meet no edge are left out.
+    /// The parts of the axle's force on edges. Rays that meet no edge are left out.
     pub(super) fn shares(&self, tops: &[Top]) -> Vec<Share> {
         let highest = tops.iter().filter_map(|top| Some((top, self.above(top)?)));
         let highest = highest.max_by(|a, b| a.1.y.total_cmp(&b.1.y));
@@ -186,13 +187,14 @@ impl PlacedAxle {
         }
     }
 
-    /// The place on an edge straight below it.
+    /// The place on an edge straight below the axle.
     fn above(&self, top: &Top) -> Option<Point2<f64>> {
         let part = top.part_at(self.x);
         (0.0..=1.0).contains(&part).then(|| top.at(part))
     }
 
-    /// The parts that edges take through a fill up to a level above the axle's foot, each of the rays that meet it first.
+    /// The parts that edges take through a fill up to a level above the axle's foot; each edge takes the rays that meet
+    /// it first.
     fn through(&self, level: f64, tops: &[Top]) -> Vec<Share> {
         let reached: Vec<_> = tops.iter().filter_map(|top| self.reached(level, top)).collect();
         let shares = |it: &Reached| {
@@ -208,7 +210,7 @@ impl PlacedAxle {
         let (top, depths) = top.below(level)?;
         let rays_to_ends = [0, 1].map(|k| (top.ends[k].x - self.x) / depths[k]);
         let rays = [rays_to_ends[0].max(-self.slope), rays_to_ends[1].min(self.slope)];
-        // An edge that faces away from the axle is met by none.
+        // No ray meets an edge that faces away from the axle.
         (rays[0] < rays[1]).then_some(Reached { top, depths, rays_to_ends, rays })
     }
 
@@ -225,13 +227,13 @@ impl PlacedAxle {
         (self.x + ray * depth - a.x) / (b.x - a.x - ray * (other - depth))
     }
 
-    /// The part of some rays, linear along pieces of the edge, each with the resultant of its rays.
+    /// The part of some rays, linear along pieces of the edge; each piece has the resultant of its rays.
     fn linear(&self, it: &Reached, rays: [f64; 2]) -> Vec<Share> {
         let [first, last] = it.rays_to_ends;
         let start = if first >= rays[0] { 0.0 } else { self.met(it, rays[0]) };
         let end = if last <= rays[1] { 1.0 } else { self.met(it, rays[1]) };
         let middle = mean_of_rays(it.depth(end) / it.depth(start) - 1.0);
-        // Outside of the middle third a linear density would lift at one end.
+        // A linear density with its resultant outside of the middle third would lift at one end.
         if !(1.0 / 3.0..=2.0 / 3.0).contains(&middle) {
             let half = f64::midpoint(rays[0], rays[1]);
             let halves = [[rays[0], half], [half, rays[1]]];
@@ -250,9 +252,11 @@ impl Reached {
     }
 }
 
-/// The mean of the places on a segment, as parts of it, at which rays meet it, if the depth grows by `r` of itself along it.
+/// The mean of the places on a segment, as fractions of it, at which rays meet it, if the depth grows by the factor
+/// `1 + r` along it.
 ///
-/// The density of rays at the part `s` is proportional to `1 / (1 + r s)^2`: the mean is `((1 + r) ln(1 + r) - r) / r^2`.
+/// The density of rays at the fraction `s` is proportional to `1 / (1 + r s)^2`: the mean is
+/// `((1 + r) ln(1 + r) - r) / r^2`.
 fn mean_of_rays(r: f64) -> f64 {
     // Chosen: series and formula agree to twelve digits there.
     if r.abs() > 0.1 {

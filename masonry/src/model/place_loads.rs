@@ -15,11 +15,11 @@ use crate::rounding::rounded;
 use crate::scene::{Fault, KeyPath, LoadError, LoadKind, Scene, SceneErrorKind};
 use crate::units::Units;
 
-/// Names in a message about one that does not exist.
+/// The number of names in a message about one that does not exist.
 const NAMES: usize = 3;
 
-/// Puts the loads of a scene on its blocks, whose corners were moved by up to a distance \[m\]; their names, and those that act
-/// on all mass.
+/// Puts the loads of a scene on its blocks, whose corners were moved by up to a distance \[m\]; returns the names of
+/// the loads, and the loads that act on all mass.
 pub(super) fn place(
     scene: &Scene,
     blocks: &mut [PlacedBlock],
@@ -91,11 +91,11 @@ pub(super) fn place(
                     it.press(blocks, force, thickness, id);
                 }
             }
-            // A load of no kind was refused before.
+            // A load without a kind was refused before.
             None => {}
         }
         let (name, group) = (load.name.clone(), load.group_name().to_owned());
-        // The thrust of earth is no weight.
+        // The thrust of earth is not a weight.
         let mass = load.mass.or_else(|| load.earth.map(|_| 0.0));
         loads.push(LoadCase { name, group, factor: load.factor, mass });
     }
@@ -141,7 +141,7 @@ fn accelerate(
     Ok(())
 }
 
-/// No block has this name: those whose names are nearest.
+/// The error that no block has this name, with the nearest names.
 fn unknown(blocks: &[PlacedBlock], name: &str) -> LoadError {
     let mut near: Vec<&str> = blocks.iter().map(|block| block.name.as_str()).collect();
     // The sort keeps the order of the scene among names that are equally near.
@@ -151,7 +151,7 @@ fn unknown(blocks: &[PlacedBlock], name: &str) -> LoadError {
     LoadError::NoBlock { name: name.to_owned(), near }
 }
 
-/// A place on a block. One that rounding has put outside is moved to the edge.
+/// A place on a block. A place that is outside by rounding is moved to the edge.
 fn place_in(
     block: &PlacedBlock,
     at: Point2<f64>,

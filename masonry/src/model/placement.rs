@@ -10,7 +10,7 @@ use crate::rounding::rounded;
 use crate::scene::{Fault, KeyPath, Scene, SceneErrorKind};
 use crate::units::Units;
 
-/// Refuses two blocks of one name: a single block named as a brick of a wall, say.
+/// Refuses two blocks of one name: a single block with the name of a brick of a wall, for instance.
 pub(super) fn check_names(blocks: &[PlacedBlock], keys: &[KeyPath]) -> Result<(), Fault> {
     let mut taken = BTreeMap::new();
     for (block, key) in blocks.iter().zip(keys) {
@@ -44,8 +44,8 @@ pub(super) fn check_overlaps(
     Ok(())
 }
 
-/// Refuses supports that move farther than the blocks reach: displacements are small, and farther away nothing of
-/// the deformation would be left of the digits.
+/// Refuses supports that move farther than the blocks reach: displacements are small, and larger movements would
+/// leave no digits for the deformation.
 pub(super) fn check_movements(scene: &Scene, blocks: &[PlacedBlock]) -> Result<(), Fault> {
     let extent = Extent::of(blocks.iter().flat_map(|block| &block.corners)).longer_side();
     let extent = extent / scene.units.length_to_si();
@@ -133,7 +133,7 @@ fn common_length(joint: &PlacedJoint, other: &PlacedJoint) -> f64 {
 }
 
 impl PlacedSupport {
-    /// Whether another support lies on this one, in whichever direction.
+    /// Whether another support lies on this one, in either direction.
     fn is_along(&self, other: &Self, near: f64) -> bool {
         let lies_on =
             |line| geometry::facing_overlap([self.from, self.to], line, near, 0.0).is_some();

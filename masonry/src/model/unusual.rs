@@ -1,4 +1,4 @@
-//! Magnitudes that no wall has, which are mistakes of units more often than not.
+//! Magnitudes that no wall has, mostly mistakes of units.
 
 use std::ops::RangeInclusive;
 
@@ -17,13 +17,14 @@ const STIFFNESS: RangeInclusive<f64> = 1e6..=1e14;
 const DENSITY: RangeInclusive<f64> = 100.0..=20_000.0;
 /// Gravity, up to several times that of the earth \[m/s^2\].
 const GRAVITY: RangeInclusive<f64> = 0.1..=100.0;
-/// Loads of less than this \[N\] on a structure that is larger than this \[m\].
+/// A load below this \[N\] is unusual on a structure larger than the next constant \[m\].
 const LITTLE: f64 = 10.0;
 const LARGE: f64 = 0.5;
 
-/// Blocks that are as slender bend as beams do, length by height. Chosen: bricks are shorter, and lie on all of their bed.
+/// Blocks with at least this length over height bend like beams. Chosen: bricks are shorter, and lie on all of their
+/// bed.
 const BEAM: f64 = 4.0;
-/// The stiffness of a mesh in bending by that of the block. Chosen: moduli of masonry are known no better.
+/// The stiffness of a mesh in bending over that of the block. Chosen: moduli of masonry are not known better.
 const STIFF: f64 = 1.2;
 
 impl Model {
@@ -42,7 +43,7 @@ impl Model {
         lists.concat()
     }
 
-    /// What was changed of a drawing, and corners that were moved so that blocks touch.
+    /// The changes of a drawing, and corners that were moved so that blocks touch.
     fn moved_corners(&self) -> Vec<String> {
         let in_scene = |metres: f64| format!("{:.1e}", metres / self.units.length_to_si());
         let sentence = |it: &Healed| {
@@ -70,7 +71,7 @@ impl Model {
                 forces[load.load().index()] += load.resultant(&block.corners, self.thickness).force;
             }
         }
-        // Forces of an acceleration act on masses that are told.
+        // Forces of an acceleration act on given masses.
         self.accelerations.iter().for_each(|it| forces[it.load.index()].fill(0.0));
         let is_massless = |(k, load): &(usize, &LoadCase)| {
             load.mass.is_none() && forces[*k].dot(&self.gravity) > 0.0
@@ -117,7 +118,7 @@ impl Model {
         odd.into_iter().map(sentence).collect()
     }
 
-    /// Slender blocks whose meshes bend too little, the worst by name.
+    /// Slender blocks whose meshes bend too little, with the name of the worst.
     fn stiff_meshes(&self) -> Vec<String> {
         let stiff = self.blocks.iter().filter_map(|block| {
             let d = constitutive(block.elasticity?, self.plane);

@@ -1,6 +1,6 @@
 //! The augmented Lagrangian route (3.10)-(3.17), the paper's alternative to the complementarity problem.
 //!
-//! Every iteration solves one linear system for the present contact forces, the multipliers, and projects the
+//! Every iteration solves one linear system for the current contact forces, the multipliers, and projects the
 //! resulting forces onto the friction cones:
 //!
 //! ```text
@@ -8,11 +8,11 @@
 //! t_n <- [t_n - rho_n y_n]+ ,     t_t <- projection of t_t - rho_t y_t on [-mu t_n, mu t_n]
 //! ```
 //!
-//! The sum is over the closed contacts, along the tangent over those that stick. It holds floating blocks, so the
-//! matrix changes only with the states of the contacts. Blocks without any closed contact are held by the proximal
-//! term `delta`; without it they would move far away and return with huge forces. The term vanishes with the steps.
-//! The penalties `rho` follow from the stiffness at the contact, and are made smaller if the iteration diverges or
-//! stops converging.
+//! The sum is over the closed contacts, along the tangent over those that stick. It holds floating blocks, and the
+//! matrix changes only with the states of the contacts. The proximal term `delta` holds blocks without any closed
+//! contact, which would move far away and return with huge forces without it. The term vanishes with the steps. The
+//! penalties `rho` follow from the stiffness at the contact, and are made smaller if the iteration diverges or stops
+//! converging.
 //!
 //! The unbalanced force is the error of the last step, and convergence is linear: the solution may be many such steps
 //! away. So the status is `Solved` only if the rate at which the steps decrease also shows that displacements and
@@ -75,11 +75,11 @@ pub struct AlmAnswer {
     pub factorisations: usize,
 }
 
-/// Why the method cannot treat a problem or a wall.
+/// The reasons for which the method cannot treat a problem or a wall.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum AlmError {
-    /// Some displacement meets no stiffness.
+    /// A displacement has no stiffness.
     #[error(
         "displacement {displacement} has no stiffness, as in rigid blocks, and penalties follow from \
          it: give the block an elastic modulus or take another route"
@@ -88,7 +88,7 @@ pub enum AlmError {
         /// The displacement, from 0.
         displacement: usize,
     },
-    /// Some contact has a spring in series.
+    /// A contact has a spring in series.
     #[error(
         "contact {contact} has a compliance, which penalties cannot stand for: give its spring a \
          displacement, as Sparse::with_free_faces does"
@@ -97,7 +97,7 @@ pub enum AlmError {
         /// The contact, from 0.
         contact: usize,
     },
-    /// A setting outside its range.
+    /// The tolerance is outside its range.
     #[error("tolerance is {tolerance}, but must be between 0 and 1")]
     Tolerance {
         /// The value.
@@ -112,7 +112,7 @@ pub enum AlmError {
     /// A block of the wall cannot be assembled.
     #[error(transparent)]
     System(#[from] SystemError),
-    /// A film of the wall is none.
+    /// The films of the wall cannot be made.
     #[error(transparent)]
     Film(#[from] FilmError),
     /// A rigid block has no nodes to which films can be attached.
@@ -120,28 +120,28 @@ pub enum AlmError {
         "block \"{block}\" is rigid, and films are attached to nodes: give it an elastic modulus, or take another route"
     )]
     Rigid {
-        /// The name.
+        /// Name of the block.
         block: String,
     },
-    /// The law of whole films has friction only.
+    /// The joint class has more than friction, which the law of whole films does not have.
     #[error(
         "the joint class \"{class}\" has cohesion or tensile strength, which films as strips do not have: leave them out, \
          or take another route"
     )]
     Strength {
-        /// The name.
+        /// Name of the joint class.
         class: String,
     },
-    /// Whole films have the stiffness of their mortar only.
+    /// The joint class has a stiffness, and whole films have that of their mortar only.
     #[error(
         "the joint class \"{class}\" has a stiffness beside that of its mortar, which films as strips do not have: leave it \
          out, or take another route"
     )]
     Stiffness {
-        /// The name.
+        /// Name of the joint class.
         class: String,
     },
-    /// Whole films need two contact points of strips between nodes.
+    /// A film has no two contact points between nodes, which whole films need.
     #[error(
         "a film has no two contact points in strips between nodes: set `films = \"strips\"`, and let nodes of both faces \
          coincide, or lie farther apart"
@@ -149,7 +149,7 @@ pub enum AlmError {
     Points,
 }
 
-/// Solves a contact problem; the observer is told every iteration, and `Break` cancels.
+/// Solves a contact problem; the observer is called in every iteration, and `Break` cancels.
 ///
 /// ```
 /// use faer::mat;

@@ -20,13 +20,13 @@ pub(super) struct OnEdges<'a> {
     /// Whether edges within joints are loaded as well, if the traction presses them.
     pub(super) inside: bool,
     pub(super) units: Units,
-    /// How far corners were moved \[m\].
+    /// The largest distance by which corners were moved \[m\].
     pub(super) moved: f64,
 }
 
 impl OnEdges<'_> {
-    /// Puts the load on blocks; tells whether it acts. Parts of edges that make joints are not free and carry no load
-    /// except one inside.
+    /// Puts the load on blocks; returns whether it acts. Parts of edges that make joints are not free and carry no
+    /// load except one inside.
     pub(super) fn place(&self, blocks: &mut [PlacedBlock], joined: &[Vec<Vec<EdgePart>>]) -> bool {
         let mut acts = false;
         for (block, joined) in blocks.iter_mut().zip(joined) {
@@ -67,7 +67,7 @@ impl OnEdges<'_> {
         in_scene * self.units.stress_to_si() * self.load.factor
     }
 
-    /// Whether its traction presses an edge, whatever its factor.
+    /// Whether the load's traction presses an edge, whatever its factor.
     fn presses(&self, corners: &[Point2<f64>], edge: usize) -> bool {
         let EdgeStress::Traction(traction) = self.stress else { return false };
         Vector2::from(traction).dot(&geometry::outward_normal(corners, edge)) < 0.0
@@ -124,7 +124,7 @@ fn covered_part(
     if high - low <= slack {
         return None;
     }
-    // The segment must lie on the edge only beside it: far away it may be off by rounding.
+    // The segment must lie on the edge only beside it: rounding may move it off the edge's line farther away.
     let distance = |s: f64| (from + (to - from) * ((s - a) / (b - a)) - start).dot(&normal);
     if distance(low).abs() > slack || distance(high).abs() > slack {
         return None;
@@ -140,7 +140,7 @@ pub(super) fn joined_parts(
 ) -> Vec<Vec<Vec<EdgePart>>> {
     let mut joined: Vec<_> =
         blocks.iter().map(|block| vec![Vec::new(); block.corners.len()]).collect();
-    // All points of a joint sit on the same two edges: the first tells which.
+    // All points of a joint lie on the same two edges, so that the first point suffices.
     let mut last = None;
     for contact in contacts {
         if last.replace(contact.joint) == Some(contact.joint) {

@@ -1,7 +1,7 @@
-//! How far a sequence that converges linearly is from its limit.
+//! The distance of a sequence that converges linearly from its limit.
 
-/// Steps of which the largest is compared with the largest of as many before: a step that happens to be
-/// small is no sign of convergence.
+/// The number of steps whose largest is compared with the largest of as many before: a single small step does
+/// not show convergence.
 const HALF: usize = 8;
 
 use super::ROUNDING;
@@ -9,7 +9,7 @@ use super::ROUNDING;
 /// The last steps of a sequence of vectors.
 #[derive(Debug, Clone)]
 pub(super) struct Contraction {
-    /// The measure of vectors that are smaller.
+    /// The unit of vectors that are smaller than it.
     unit: f64,
     /// The sizes of the steps, relative to the vectors, the last one first.
     steps: Vec<f64>,
@@ -20,17 +20,17 @@ impl Contraction {
         Self { unit, steps: Vec::new() }
     }
 
-    /// The sequence moves from one vector to the next.
+    /// Records the step of the sequence from one vector to the next.
     pub(super) fn record(&mut self, from: &[f64], to: &[f64]) {
         let moved = from.iter().zip(to).fold(0.0_f64, |max, (a, b)| max.max((a - b).abs()));
         let size = to.iter().fold(self.unit, |max, v| max.max(v.abs()));
         self.steps.truncate(2 * HALF - 1);
-        // Rounding errors go to and fro and do not shrink.
+        // Rounding errors oscillate and do not shrink.
         self.steps.insert(0, if moved > ROUNDING * size { moved / size } else { 0.0 });
     }
 
     /// The distance from the limit, relative to its size: `s (q + q^2 + ...)` for steps `s` that shrink by `q`
-    /// each; infinite as long as they do not, or are too few.
+    /// each; infinite if the steps do not shrink, or are too few.
     pub(super) fn remaining(&self) -> f64 {
         let largest = |steps: &[f64]| steps.iter().fold(0.0_f64, |max, s| max.max(*s));
         let (late, early) = self.steps.split_at(HALF.min(self.steps.len()));
@@ -39,7 +39,7 @@ impl Contraction {
             return if late > 0.0 || self.steps.len() < 2 { f64::INFINITY } else { 0.0 };
         }
         let rate = (late / early).powf(1.0 / HALF as f64);
-        // The last step is the largest of the late ones, shrunk as often as the early to the late.
+        // The last step is the largest of the late ones, times the ratio of the late to the early steps.
         late * (late / early) / (1.0 - rate)
     }
 }
