@@ -15,10 +15,10 @@ use crate::method::auto::{self, Facts};
 use crate::model::Model;
 use crate::scene::{Form, Route, Scene};
 
-/// The parts of the equations that a scene calls for, determined before anything is assembled.
+/// The parts of the equations that a scene needs, determined before anything is assembled.
 ///
-/// Nothing that is off is built: no mesh and no stiffness without an elastic material, no
-/// tangential unknowns without friction, no films without a thickness of joints, no stresses when no output shows them.
+/// Nothing that is off is built: no mesh and no stiffness without an elastic material, no tangential unknowns without
+/// friction, no films without a thickness of joints, no stresses when no output shows them.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Plan {
     /// Effects, each with its reason.
@@ -35,11 +35,12 @@ pub struct Plan {
     pub frictional_points: usize,
     /// Rigid amplitudes: three per block, and as many isostatic rows (3.18).
     pub rigid_modes: usize,
-    /// Order of the complementarity problem of the first route, which of Lemke's method is m, and two more per frictional
-    /// point (3m); in the Stewart-Trinkle form three more (4m), in the mixed form also two per rigid amplitude and
-    /// per bar of mortar strips. On the sparse routes: m, two more per frictional point, and all displacements.
+    /// Order of the complementarity problem of the first route. The order by Lemke's method is m, and two more per
+    /// frictional point (3m); in the Stewart-Trinkle form three more (4m), in the mixed form also two per rigid
+    /// amplitude and per bar of mortar strips. The order on the sparse routes is m, two more per frictional point, and
+    /// all displacements.
     pub order: usize,
-    /// Order of the largest form that the first route may turn to.
+    /// Order of the largest form that the first route may use.
     pub largest_order: usize,
     /// Displacement unknowns of the block with the finest mesh.
     pub largest_block: usize,
@@ -47,16 +48,16 @@ pub struct Plan {
     pub steps: usize,
     /// The solver that will be used.
     pub solver: String,
-    /// Why this solver.
+    /// The reason for this solver.
     pub because: String,
     /// The routes in the order in which they are tried, until one has a result.
     pub routes: Vec<PlannedRoute>,
-    /// Why the scene is not solved on this machine, if that is so.
+    /// The reason why the scene is not solved on this machine; `None` if it is solved.
     pub refused: Option<String>,
 }
 
 impl Plan {
-    /// The plan for a scene and the model made of it.
+    /// The plan for a scene and its model.
     pub fn of(scene: &Scene, model: &Model) -> Self {
         let sizes = Sizes::of(model);
         let routes = routes(scene, model, &sizes);
@@ -84,7 +85,7 @@ impl Plan {
         plan
     }
 
-    /// Numbers in dense matrices, over all routes that may be used; none if all are sparse.
+    /// Numbers in dense matrices, over all routes that may be used; zero if all are sparse.
     pub fn dense_numbers(&self) -> usize {
         self.routes.iter().map(|choice| choice.dense_numbers).max().unwrap_or(0)
     }
@@ -94,10 +95,10 @@ impl Plan {
         self.routes.iter().map(|choice| choice.memory_bytes).max().unwrap_or(0)
     }
 
-    /// Whether the scene fits into the memory of this machine: one that does not is not solved.
+    /// Checks that the scene fits into the memory of this machine: a scene that does not fit is not solved.
     ///
     /// # Errors
-    /// [`TooLarge`] if it does not.
+    /// [`TooLarge`] if the scene does not fit.
     pub fn fits(&self) -> Result<(), TooLarge> {
         memory::fits(self.memory_bytes())
     }
@@ -114,7 +115,7 @@ fn routes(scene: &Scene, model: &Model, sizes: &Sizes) -> Vec<PlannedRoute> {
     routes.map(|(route, because)| PlannedRoute { because, ..sizes.choice(route, form) }).collect()
 }
 
-/// The solver of a route, and why it is taken.
+/// The solver of a route, and the reason for it.
 fn solver(route: Route, form: Form, has_friction: bool) -> (&'static str, &'static str) {
     match (route, form) {
         (Route::Forces, _) => {

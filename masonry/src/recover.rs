@@ -16,11 +16,11 @@ use crate::model::{Anchor, Body, JointPoint, Model};
 use crate::system::kinematics::shares;
 use crate::system::{Direction, System, displaced_nodes};
 
-/// Gaps and slips below this part of the largest displacement, or compression of a joint, are zero; and their rates below this
-/// part of the largest rate.
+/// Gaps and slips below this part of the largest displacement, or compression of a joint, count as zero; and their
+/// rates below this part of the largest rate.
 const STILL: f64 = 1e-8;
 
-/// Motions of rigid blocks below this fraction of their size, or below the tolerance, are none.
+/// Motions of rigid blocks below this fraction of their size, or below the tolerance, count as rest.
 const REST: f64 = 1e-9;
 
 mod motion;
@@ -28,8 +28,8 @@ mod motion;
 pub use motion::mechanism;
 pub(crate) use motion::{flow, largest, of_corners};
 
-/// The state that belongs to the contact forces and relative displacements `rows`: rigid amplitudes
-/// from the isostatic rows, then `u = K^+ (f + C^T t + L^T q) + N alpha` block by block.
+/// The state of the contact forces and relative displacements `rows`: rigid amplitudes from the isostatic rows, then
+/// `u = K^+ (f + C^T t + L^T q) + N alpha` block by block.
 ///
 /// Stresses are recovered only `with_stresses`.
 pub fn recover(
@@ -48,10 +48,10 @@ pub fn recover(
     of_motions(model, system, rows, motions, with_stresses)
 }
 
-/// The state that belongs to forces and displacements of the sparse problem, solved to `tolerance`.
+/// The state of forces and displacements of the sparse problem, solved to `tolerance`.
 ///
-/// Displacements have no natural size if all blocks are rigid and nothing has an initial gap or gives way. Rounding errors
-/// around zero are then taken for zero.
+/// Displacements have no natural size if all blocks are rigid and nothing has an initial gap or gives way. Rounding
+/// errors around zero then count as zero.
 pub fn from_displacements(
     model: &Model,
     system: &System,
@@ -80,9 +80,9 @@ fn is_at_rest(system: &System, u: &[f64], tolerance: f64) -> bool {
 
 /// The motion of a block.
 struct BlockMotion<'a> {
-    /// Amplitudes \[m\] of its rigid motions; none are zeros.
+    /// Amplitudes \[m\] of the rigid motions of the block; zeros if empty.
     rigid: &'a [f64],
-    /// Displacements \[m\] of its nodes besides; empty for a rigid block.
+    /// Displacements \[m\] of the nodes by deformation; empty for a rigid block.
     elastic: Cow<'a, [f64]>,
 }
 
@@ -177,10 +177,10 @@ pub fn displacement_at(
     shares.iter().map(|(node, part)| u[*node] * *part).sum()
 }
 
-/// `u_b - u_a` \[m\] at a contact point: across a film, of its two faces as they and their mean
-/// rotations carry the middle between them, and with the gap that the elongation of a strip makes.
+/// `u_b - u_a` \[m\] at a contact point. The value across a film is that of the middle between its two faces, as it
+/// moves with the faces and their mean rotations, and includes the gap by the elongation of a strip.
 ///
-/// It is not made of the terms from which the rows of the problem are built, so that an error there does not hide from the checks.
+/// It does not use the terms of the rows of the problem, so that an error in them is not hidden from the checks.
 pub fn relative_displacement(
     model: &Model,
     displacements: &[Vec<Vector2<f64>>],
@@ -196,8 +196,8 @@ pub fn relative_displacement(
     apart + joint.tangent() * (turned * film.half / film.length) + joint.normal * opened
 }
 
-/// Elongation \[m\] of the part of a film that a contact point stands for: the mean of its two faces, of which those
-/// on supports and rigid blocks do not stretch. Zero in a dry joint.
+/// Elongation \[m\] of the part of a film that a contact point stands for: the mean of its two faces; faces on supports
+/// and rigid blocks do not stretch. Zero in a dry joint.
 pub fn film_elongation(
     model: &Model,
     displacements: &[Vec<Vector2<f64>>],
@@ -248,8 +248,8 @@ fn contact_states(
     states
 }
 
-/// The state of a contact by what moves: displacements are unique if contact forces are not (forces may circulate between the
-/// points around a corner without any effect).
+/// The state of a contact by its displacements: they are unique even if contact forces are not (forces may circulate
+/// between the points around a corner without any effect).
 fn status(state: &PointState, zero: f64) -> PointStatus {
     if state.y_n > zero {
         PointStatus::Open

@@ -1,8 +1,8 @@
-//! Rounding errors of numbers, which in the equations alone would be couplings or loads.
+//! Rounding errors of numbers, which would act as couplings or loads in the equations.
 
 use std::borrow::Borrow;
 
-/// Sums and products of the data are wrong by this part of their largest term.
+/// The relative error of sums and products of the data, by their largest term.
 const ROUNDING: f64 = 1.0 / (1_u64 << 48) as f64;
 
 /// The value, or zero if it is a rounding error beside numbers of this size.
@@ -15,14 +15,14 @@ pub fn largest(values: impl IntoIterator<Item = impl Borrow<f64>>) -> f64 {
     values.into_iter().fold(0.0, |largest, v| largest.max(v.borrow().abs()))
 }
 
-/// The side of a number on which its text is.
+/// The side of a number on which its text lies.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum BoundSide {
     Below,
     Above,
 }
 
-/// The text of a bound, which lies on its own side when it is rounded: the nearest one that does.
+/// The text of a bound, rounded to its own side: the nearest text on that side.
 pub fn outwards(bound: f64, side: BoundSide, text: impl Fn(f64) -> String) -> String {
     let is_outside = |text: &str| {
         text.parse().is_ok_and(|read: f64| match side {
@@ -41,7 +41,7 @@ pub fn outwards(bound: f64, side: BoundSide, text: impl Fn(f64) -> String) -> St
     }
 }
 
-/// A number to six digits: messages tell sizes of mistakes, not their rounding errors.
+/// A number to six digits: messages show sizes of mistakes, not their rounding errors.
 pub fn rounded(number: f64) -> f64 {
     format!("{number:.5e}").parse().unwrap_or(number)
 }

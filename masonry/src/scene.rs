@@ -1,4 +1,4 @@
-//! Scenes: walls and arches as their authors describe them, in a TOML file or built in Rust.
+//! Scenes: walls and arches as described by their authors, in a TOML file or built in Rust.
 //!
 //! A [`Scene`] holds the data as they were written, in the units of the scene; conversion to SI
 //! happens once, in [`Model::from_scene`](crate::model::Model::from_scene). A scene that is read
@@ -87,7 +87,7 @@ pub(crate) const BED: &str = "bed";
 /// Name of the class of the other joints between blocks.
 pub(crate) const HEAD: &str = "head";
 
-/// A scene as its author describes it, in the scene's own units.
+/// A scene as described by its author, in the scene's own units.
 ///
 /// The fields are the keys of the TOML file. Unknown keys are errors, and no physical quantity is guessed if its key is left
 /// out: see [`Scene::check`].
@@ -127,7 +127,7 @@ pub struct Scene {
         deserialize_with = "strict::read"
     )]
     pub joints: BTreeMap<String, Joint>,
-    /// Classes of the joints between certain blocks, instead of `bed` and `head`; the last one that fits counts.
+    /// Classes of the joints between certain blocks, instead of `bed` and `head`; the last matching entry counts.
     #[serde(default, skip_serializing_if = "Vec::is_empty", deserialize_with = "strict::read")]
     pub between: Vec<Between>,
     /// Walls of bricks in courses.
@@ -145,13 +145,13 @@ pub struct Scene {
     /// Loads on edges, at places in blocks, and on all mass.
     #[serde(default, skip_serializing_if = "Vec::is_empty", deserialize_with = "strict::read")]
     pub loads: Vec<Load>,
-    /// The load history; without stages all loads act at once.
+    /// The load history; all loads act at once without stages.
     #[serde(default, skip_serializing_if = "Vec::is_empty", deserialize_with = "strict::read")]
     pub stages: Vec<Stage>,
     /// Combinations of loads, in the place of stages: each is solved by itself.
     #[serde(default, skip_serializing_if = "Vec::is_empty", deserialize_with = "strict::read")]
     pub combinations: Vec<Combination>,
-    /// Limit loads: which load grows, and the seismic check.
+    /// Limit loads: the load that grows, and the seismic check.
     #[serde(
         default,
         deserialize_with = "strict::read",
@@ -161,7 +161,7 @@ pub struct Scene {
     /// Contact: positions of contact points, gaps that close, and mortar films.
     #[serde(default, deserialize_with = "strict::read")]
     pub contact: Contact,
-    /// How the complementarity problem is solved.
+    /// Settings of the solver of the complementarity problem.
     #[serde(default, deserialize_with = "strict::read")]
     pub solver: SolverSettings,
     /// Output.
@@ -184,8 +184,8 @@ pub struct Block {
     /// Corners, counter-clockwise \[length\].
     #[serde(deserialize_with = "strict::read")]
     pub corners: Vec<[f64; 2]>,
-    /// Elements along edges 0 and 2, and along edges 1 and 3, of a convex quadrilateral; of any other block one number, twice as
-    /// many elements along every edge. Required when the material is elastic.
+    /// Elements along edges 0 and 2, and along edges 1 and 3, of a convex quadrilateral; any other block has one
+    /// number, and twice as many elements along every edge. Required when the material is elastic.
     #[serde(default, deserialize_with = "strict::mesh")]
     #[cfg_attr(test, schemars(with = "Option<Elements>"))]
     pub mesh: Option<[u32; 2]>,
@@ -214,7 +214,7 @@ pub struct Support {
     /// The other end \[length\].
     #[serde(deserialize_with = "strict::read")]
     pub to: [f64; 2],
-    /// The class of its joints.
+    /// The class of the joints of the support.
     pub joint: String,
 }
 

@@ -1,14 +1,13 @@
 //! Mortar films: thin elastic strips between two faces that press, slide and part, (3.28)-(3.39).
 //!
-//! This is the strip with its own nodes, for use from Rust. The films of a scene
+//! The strip has its own nodes here, for use from Rust. The films of a scene
 //! ([`model::Film`](crate::model::Film)) act at contact points, as compliances and, as described in
-//! [`system`](crate::system), also as bars: with [`Films::Strips`](crate::scene::Films::Strips) their solution is
+//! [`system`](crate::system), also as bars: their solution with [`Films::Strips`](crate::scene::Films::Strips) is
 //! that of [`pointwise`].
 //!
-//! A film is a strip of mortar of length `l` and thickness `t_y` between two straight faces. It has
-//! its own local axes: `x` along the joint, from `-l/2` to `l/2`, and `y` across it. With the signs of
-//! [`model`](crate::model), side `a` is the lower face and side `b` the upper, `x` is the joint's
-//! tangent `t` and `y` its normal `n`:
+//! A film is a strip of mortar of length `l` and thickness `t_y` between two straight faces. It has its own local
+//! axes: `x` along the joint, from `-l/2` to `l/2`, and `y` across it. Side `a` is the lower face and side `b`
+//! the upper one in the signs of [`model`](crate::model), `x` is the joint's tangent `t` and `y` its normal `n`:
 //!
 //! ```text
 //!    3 -------------------- 4      upper face, y = +t_y/2
@@ -17,8 +16,8 @@
 //!  x = -l/2              x = l/2                              +--- x = t
 //! ```
 //!
-//! In code nodes are counted from 0: node `k` of the figure is `k - 1`. Tension and elongation are
-//! positive: the traction that a contact point calls `t_n` is `-sigma_y`, and `t_t` is `-tau`.
+//! Nodes are counted from 0 in code: node `k` of the figure is `k - 1`. Tension and elongation are positive: the
+//! traction that a contact point calls `t_n` is `-sigma_y`, and `t_t` is `-tau`.
 //!
 //! | module | content |
 //! |---|---|
@@ -59,7 +58,7 @@ pub type Vector8 = SVector<f64, 8>;
 /// A matrix on the displacements of four nodes.
 pub type Matrix8 = SMatrix<f64, 8, 8>;
 
-/// Why a film could not be built.
+/// The reasons for which a film could not be built.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum FilmError {
@@ -88,7 +87,7 @@ pub enum FilmError {
         /// Coefficient of Coulomb friction \[-\].
         mu: f64,
     },
-    /// A film was divided into no parts.
+    /// The number of parts of a film is zero.
     #[error("the film has no Gauss points: divide it into at least one part")]
     NoParts,
 }
@@ -97,7 +96,7 @@ impl FilmMaterial {
     /// The matrix that maps `eps_x, eps_y, gamma` to `sigma_x, sigma_y, tau` \[Pa\].
     ///
     /// # Errors
-    /// [`FilmError::NotElastic`] unless it is positive definite.
+    /// [`FilmError::NotElastic`] unless the matrix is positive definite.
     pub fn matrix(&self) -> Result<Matrix3<f64>, FilmError> {
         let Elasticity { young, poisson } = self.elasticity;
         if young > 0.0 && young.is_finite() && poisson > -1.0 && poisson < 0.5 {

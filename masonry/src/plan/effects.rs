@@ -15,18 +15,18 @@ use crate::scene::{Films, LoadKind, Route, Scene};
 pub struct Effect {
     /// Name of the effect, such as `friction`.
     pub name: &'static str,
-    /// Whether it is built.
+    /// Whether the effect is built.
     pub on: bool,
     /// The reason in the scene why the effect is on or off.
     pub because: String,
-    /// The unknowns that the effect adds to the [`order`](super::Plan::order) of the plan, contact points being the same: on the pivoting
-    /// route displacements are eliminated, and add nothing.
+    /// The unknowns that the effect adds to the [`order`](super::Plan::order) of the plan for the same contact points:
+    /// the pivoting route eliminates displacements, which add nothing.
     pub unknowns: usize,
     /// The expected cost on the first route, in words: `none` if the effect is off.
     pub cost: String,
 }
 
-/// All effects that a scene can call for, for the route that is tried first.
+/// All effects that a scene can need, for the route that is tried first.
 pub(super) fn of(scene: &Scene, model: &Model, sizes: &Sizes, first: &PlannedRoute) -> Vec<Effect> {
     let it = Called { scene, model, sizes, first };
     let history = it.load_history();
@@ -52,12 +52,12 @@ pub(super) fn of(scene: &Scene, model: &Model, sizes: &Sizes, first: &PlannedRou
     ]
 }
 
-/// The steps that are solved: one, unless the answer depends on the way.
+/// The steps that are solved: one, unless the answer depends on the load path.
 pub(super) fn steps(scene: &Scene, model: &Model) -> usize {
     if model.depends_on_way(scene) { scene.steps() } else { 1 }
 }
 
-/// The right-hand side of the equations is there anyway.
+/// The cost of effects that change only the right-hand side, which the equations have anyway.
 const RIGHT_HAND_SIDE: &str = "numbers on the right-hand side only";
 
 impl Effect {
@@ -70,13 +70,13 @@ impl Effect {
         Self { name, on: true, because: because.into(), unknowns: 0, cost: cost.into() }
     }
 
-    /// The effect with the cost of one that has no unknowns, unless it has some.
+    /// The effect with this cost if it adds no unknowns.
     fn costing_without_unknowns(self, cost: String) -> Self {
         if self.unknowns == 0 { Self { cost, ..self } } else { self }
     }
 }
 
-/// The data that call for effects.
+/// The data that decide on effects.
 struct Called<'a> {
     scene: &'a Scene,
     model: &'a Model,
@@ -116,13 +116,14 @@ impl Called<'_> {
         self.beside(name, because, &without)
     }
 
-    /// Cohesion is a constant on the right-hand side by pivots, and one more point and displacement on the sparse routes.
+    /// The effect of cohesion: a constant on the right-hand side of pivots, and one more point and displacement on the
+    /// sparse routes.
     fn cohesion(&self) -> Effect {
         let used = self.classes(|law| law.cohesion > 0.0);
         if used.is_empty() {
             return Effect::off("cohesion", "no joint has cohesion");
         }
-        // Points that only cohesion keeps from sliding give way as before.
+        // Points that slide without their cohesion give way as before.
         let without = self.sizes.with(|it| it.cohesive = false);
         let effect = self.beside("cohesion", format!("cohesion given for {used}"), &without);
         effect.costing_without_unknowns(RIGHT_HAND_SIDE.to_owned())
@@ -136,8 +137,9 @@ impl Called<'_> {
         Effect::on("tension", format!("tension given for {used}"), RIGHT_HAND_SIDE)
     }
 
-    /// Each point gives way across its joint and, with friction, along it: numbers on the diagonal of its contact rows. On
-    /// the sparse routes what friction and cohesion share is a displacement.
+    /// The effect of joint stiffness: each point gives way across its joint and, with friction, along it: numbers on
+    /// the diagonal of its contact rows. The deformation that friction and cohesion share is a displacement on the
+    /// sparse routes.
     fn joint_stiffness(&self) -> Effect {
         let name = "joint stiffness";
         let used = self.classes(|law| law.stiffness.is_some());
@@ -158,9 +160,9 @@ impl Called<'_> {
         self.giving_way(name, because, &self.sizes.with(|it| it.stiff = false), &compliances)
     }
 
-    /// Each point of a film has a compliance across and, with friction, one along the joint: numbers on the diagonal of
-    /// its contact rows. The deformation shared by friction and cohesion is a displacement on the sparse routes, except
-    /// with whole strips of the augmented Lagrangian method.
+    /// The effect of mortar films: each point has a compliance across and, with friction, one along the joint: numbers
+    /// on the diagonal of its contact rows. The deformation that friction and cohesion share is a displacement on the
+    /// sparse routes, except with whole strips of the augmented Lagrangian method.
     fn mortar_films(&self) -> Effect {
         let name = "mortar films";
         let films = self.films();
@@ -184,8 +186,8 @@ impl Called<'_> {
         self.giving_way(name, because, &self.sizes.without_films(), &compliances)
     }
 
-    /// Each point of a strip at an elastic block has the stiffness of a bar along the joint, and its gap a term
-    /// by the strain there. Neither is an unknown, except the forces of the bars in the mixed form.
+    /// The effect of strips: each point at an elastic block has the stiffness of a bar along the joint, and its gap a
+    /// term by the strain there. Stiffness and term add no unknowns, except the forces of the bars in the mixed form.
     fn longitudinal_terms(&self) -> Effect {
         let name = "longitudinal film terms";
         if self.sizes.bars == 0 {
@@ -325,15 +327,15 @@ impl Called<'_> {
         Effect::on(name, because, RIGHT_HAND_SIDE)
     }
 
-    /// An effect without which the sizes would be these.
+    /// An effect without which the sizes would be `without`.
     fn beside(&self, name: &'static str, because: String, without: &Sizes) -> Effect {
         let without = without.choice(self.first.route, self.scene.solver.form);
         let unknowns = self.first.order.saturating_sub(without.order);
         Effect { unknowns, ..Effect::on(name, because, self.growth(&without)) }
     }
 
-    /// An effect without which the sizes would be these, and which only adds compliances to the contact rows unless it has
-    /// unknowns.
+    /// An effect without which the sizes would be `without`, and which only adds compliances to the contact rows unless
+    /// it has unknowns.
     fn giving_way(
         &self,
         name: &'static str,
@@ -345,8 +347,8 @@ impl Called<'_> {
         self.beside(name, because, without).costing_without_unknowns(cost)
     }
 
-    /// Numbers in dense matrices grow with the square of the order and the work of pivots with its cube; both
-    /// of sparse factorisations like the memory.
+    /// The growth of cost in words. Numbers in dense matrices grow with the square of the order and the work of pivots
+    /// with its cube; numbers and work of sparse factorisations grow like the memory.
     fn growth(&self, without: &PlannedRoute) -> String {
         let (order, before) = (self.first.order, without.order);
         if order <= before {
@@ -367,13 +369,13 @@ impl Called<'_> {
         self.first.route == Route::Lemke
     }
 
-    /// The names of the classes of the joints whose law has something.
+    /// The names of the classes of the joints whose law has a property.
     fn classes(&self, has: impl Fn(&JointLaw) -> bool) -> String {
         let used = self.model.joints.iter().map(|joint| &self.model.joint_classes[joint.class]);
         names(used.filter(|class| has(&class.law)).map(|class| class.name.as_str()))
     }
 
-    /// How many joints have mortar.
+    /// The number of joints with mortar.
     fn films(&self) -> usize {
         self.model.joints.iter().filter(|joint| joint.film.is_some()).count()
     }
@@ -382,7 +384,8 @@ impl Called<'_> {
         self.model.blocks.iter().filter(|block| block.density.is_some()).count()
     }
 
-    /// The effect of the loads of one kind, which act at `place`; off if there is none, with the words `missing`.
+    /// The effect of the loads of one kind, which act at `place`; off if there is no such load, with the words
+    /// `missing`.
     fn loads(
         &self,
         name: &'static str,
@@ -416,7 +419,7 @@ fn count(number: usize, what: &str) -> String {
     format!("{number} {what}{}", if number == 1 { "" } else { "s" })
 }
 
-/// Each of the names once, in the order of the alphabet.
+/// Each of the names once, in alphabetical order.
 fn names<'a>(names: impl Iterator<Item = &'a str>) -> String {
     names.collect::<BTreeSet<_>>().into_iter().collect::<Vec<_>>().join(", ")
 }

@@ -1,6 +1,6 @@
 //! Memory of the machine, which a plan may exceed.
 
-/// The memory taken for that of a machine that does not tell \[10^9 bytes\].
+/// The assumed memory of a machine whose memory is unknown \[10^9 bytes\].
 const UNTOLD: f64 = 64.0;
 
 /// A plan that does not fit into the memory of the machine.
@@ -22,7 +22,7 @@ pub(super) fn fits(bytes: usize) -> Result<(), TooLarge> {
     if gigabytes > limit { Err(TooLarge { gigabytes, limit }) } else { Ok(()) }
 }
 
-/// Memory of this machine \[10^9 bytes\], if the system tells.
+/// Memory of this machine \[10^9 bytes\], if it is known.
 fn of_machine() -> Option<f64> {
     let text = std::fs::read_to_string("/proc/meminfo").ok()?;
     let total = text.lines().find_map(|line| line.strip_prefix("MemTotal:"))?;

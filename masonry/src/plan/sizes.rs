@@ -1,4 +1,4 @@
-//! How large the problem of a model is on each route, and what it would be without an effect.
+//! Sizes of the problem of a model on each route, with all effects or without one.
 
 use serde::Serialize;
 
@@ -12,20 +12,21 @@ use crate::scene::{Form, Route};
 pub struct PlannedRoute {
     /// The route.
     pub route: Route,
-    /// Why it has this place.
+    /// The reason for the place of the route in the order.
     pub because: String,
-    /// Order of the complementarity problem that it begins with; of the augmented Lagrangian method, of its linear systems.
+    /// Order of the first complementarity problem of the route, or of the linear systems of the augmented Lagrangian
+    /// method.
     pub order: usize,
-    /// Order of the largest problem that it may turn to.
+    /// Order of the largest problem that the route may use.
     pub largest_order: usize,
-    /// Numbers in its dense matrices: of reduction, forms and pivots, and of the stiffnesses of blocks.
-    /// None on the sparse routes, which build none.
+    /// Numbers in the dense matrices of the route: of reduction, forms and pivots, and of the stiffnesses of blocks.
+    /// Zero on the sparse routes, which build none.
     pub dense_numbers: usize,
     /// Memory at the peak \[bytes\], as measured on walls.
     pub memory_bytes: usize,
 }
 
-/// Numbers of a model that decide what routes take.
+/// Numbers of a model that determine the cost of routes.
 #[derive(Debug, Clone)]
 pub(super) struct Sizes {
     blocks: usize,
@@ -37,25 +38,25 @@ pub(super) struct Sizes {
     points: Vec<Point>,
     /// Bars of mortar strips, which couple the blocks.
     pub(super) bars: usize,
-    /// Films are whole strips.
+    /// Whether films are whole strips.
     strips: bool,
 }
 
-/// The parts of a contact point that routes pay for.
+/// The parts of a contact point that cost routes something.
 #[derive(Debug, Clone, Copy)]
 #[expect(clippy::struct_excessive_bools, reason = "each is an effect that may be left out")]
 pub(super) struct Point {
-    /// A normal force.
+    /// Whether the point has a normal force.
     pub(super) presses: bool,
-    /// Resistance to sliding that grows with the normal force.
+    /// Whether a resistance to sliding grows with the normal force.
     pub(super) coulomb: bool,
-    /// Resistance to sliding without a normal force.
+    /// Whether there is a resistance to sliding without a normal force.
     pub(super) cohesive: bool,
     /// Whether the point, if it gives way across the joint, also gives way along the joint.
     pub(super) sheared: bool,
-    /// A film of mortar, which gives way.
+    /// Whether there is a film of mortar, which gives way.
     pub(super) film: bool,
-    /// A stiffness of the joint itself, which gives way.
+    /// Whether the joint itself has a stiffness, and gives way.
     pub(super) stiff: bool,
 }
 
@@ -103,7 +104,7 @@ impl Sizes {
         3 * self.blocks
     }
 
-    /// Points that resist sliding.
+    /// The number of points that resist sliding.
     pub(super) fn frictional(&self) -> usize {
         self.count(|it| it.coulomb || it.cohesive)
     }
@@ -112,7 +113,8 @@ impl Sizes {
         self.points.iter().filter(|it| is_such(it)).count()
     }
 
-    /// Rows of the system in which such points give way: across their joints, and along them too if they are sheared.
+    /// The number of rows of the system in which such points give way: across their joints, and along them too if they
+    /// are sheared.
     pub(super) fn rows(&self, is_such: impl Fn(&Point) -> bool) -> usize {
         self.count(&is_such) + self.count(|it| is_such(it) && it.sheared)
     }
@@ -132,7 +134,7 @@ impl Sizes {
         Self { bars: 0, strips: false, ..self.clone() }
     }
 
-    /// Sizes for rigid blocks with these points, although a mesh may have brought some of them.
+    /// Sizes for rigid blocks with these points, although a mesh may have caused some of them.
     pub(super) fn without_deformation(&self) -> Self {
         Self { rigid_blocks: self.blocks, nodal: 0, largest_block: 0, bars: 0, ..self.clone() }
     }
@@ -149,27 +151,28 @@ impl Sizes {
             dense_numbers: 0,
             memory_bytes,
         };
-        // A point of its own for cohesion, with a displacement and three pairs.
+        // Cohesion adds a point with a displacement and three pairs.
         let order = displacements + points + 2 * coulomb + 4 * cohesive;
         let bytes = sparse_bytes(displacements, points);
         match route {
             Route::Lemke => self.lemke(form),
             Route::Interior => of_order(order, bytes),
-            // An edge of the cone for every normal force, and one more with friction; a force between two bounds for
-            // cohesion.
+            // There is an edge of the cone for every normal force, and one more with friction; cohesion adds a force
+            // between two bounds.
             Route::Forces => of_order(self.rigid_modes() + points + coulomb + 2 * cohesive, bytes),
-            // Contact forces are no unknowns of its linear systems, but all that gives way is, except strips.
+            // The unknowns of the linear systems are displacements and the deformations of points that give way, except
+            // strips.
             Route::Alm => {
                 let gives_way = |it: &Point| it.gives_way() && !(self.strips && it.film);
                 of_order(self.of_blocks() + self.rows(gives_way), bytes)
             }
-            // The matrix of a program, and that of a proof, have the rows of the contacts too.
+            // The matrix of a program, and that of a proof, also have the rows of the contacts.
             Route::Qp => of_order(order, bytes.saturating_mul(6)),
             Route::Pgs => of_order(order, bytes.saturating_add(self.columns(points))),
         }
     }
 
-    /// Displacements of blocks, and of points in which friction and cohesion share what gives way along the joint.
+    /// Displacements of blocks, and of points at which friction and cohesion share the deformation along the joint.
     fn displacements(&self) -> usize {
         self.of_blocks() + self.count(|it| it.gives_way() && it.coulomb && it.cohesive)
     }
@@ -188,8 +191,8 @@ impl Sizes {
         };
         let orders: Vec<usize> = auto::forms(form).iter().map(order_of).collect();
         let largest_order = orders.iter().copied().max().unwrap_or(0);
-        // About nine matrices of the largest order at the peak (the problem, its equilibrated copy, the
-        // tableau at the start and now, factors), and stiffness and factor of the largest block.
+        // About nine matrices of the largest order at the peak (the problem, its equilibrated copy, the tableau at the
+        // start and now, factors), and stiffness and factor of the largest block.
         let square = |n: usize| n.saturating_mul(n);
         let matrices = square(largest_order).saturating_mul(9);
         let dense_numbers = matrices.saturating_add(square(self.largest_block).saturating_mul(3));

@@ -1,4 +1,4 @@
-//! Motions that nothing stops, from what the routes say about scenes without equilibrium.
+//! Motions that no contact stops, from the results of routes for scenes without equilibrium.
 
 use nalgebra::Vector2;
 
@@ -10,7 +10,7 @@ use crate::model::{JointPoint, Model, PlacedBlock};
 use crate::system::rigid::Modes;
 use crate::system::{System, displaced_nodes};
 
-/// Blocks that are deformed by more than this fraction of the largest displacement are no mechanism.
+/// Blocks do not form a mechanism if they are deformed by more than this fraction of the largest displacement.
 const LARGEST_DEFORMATION: f64 = 1e-2;
 
 /// The mechanism of a motion: rates of the corners of every block, scaled to a largest component
@@ -35,9 +35,9 @@ pub fn mechanism(
     }
 }
 
-/// The flow of bodies: rates of the corners of every block, scaled to a largest component of one, by the rigid part of
-/// velocities of the sparse problem; `None` if nothing moves. The flow is not tested as a [`mechanism`] is: velocities
-/// are as accurate as their motion.
+/// The flow of bodies: rates of the corners of every block, scaled to a largest component of one, from the rigid part
+/// of velocities of the sparse problem; `None` if nothing moves. The flow is not tested like a [`mechanism`]:
+/// velocities are as accurate as their motion.
 pub(crate) fn flow(
     model: &Model,
     system: &System,
@@ -65,7 +65,7 @@ pub(crate) fn largest(rates: &[Vec<Vector2<f64>>]) -> f64 {
     rates.iter().flatten().map(nalgebra::Matrix::amax).fold(0.0, f64::max)
 }
 
-/// `deformation` is what the blocks do besides \[m\].
+/// The mechanism of rigid amplitudes; `deformation` \[m\] is the rest of the displacements.
 fn of_amplitudes(
     model: &Model,
     system: &System,
@@ -91,8 +91,8 @@ fn of_amplitudes(
     Some(rates)
 }
 
-/// The rigid motions nearest to displacements, three amplitudes a block, and the largest displacement that
-/// they leave over \[m\].
+/// The rigid motions nearest to displacements, three amplitudes a block, and the largest rest of the displacements
+/// \[m\].
 fn rigid_part(model: &Model, system: &System, sparse: &Sparse, u: &[f64]) -> (Vec<f64>, f64) {
     let mut amplitudes = Vec::with_capacity(3 * model.blocks.len());
     let mut rest = 0.0_f64;

@@ -43,7 +43,7 @@ pub struct Arch {
     pub embrace_deg: Option<f64>,
     /// Angle of the springings of a flat arch with a straight intrados from the vertical \[degrees\].
     pub skew_deg: Option<f64>,
-    /// Depth of the ring, of a flat arch its height \[length\].
+    /// Depth of the ring, or height of a flat arch \[length\].
     pub thickness: Option<f64>,
     /// Number of voussoirs, in every ring.
     pub voussoirs: Option<u32>,
@@ -56,7 +56,7 @@ pub struct Arch {
     pub lines: Option<Vec<JointLine>>,
     /// The class of the joints within the arch, instead of `bed` and `head`.
     pub joint: Option<String>,
-    /// The class of the joints with rigid supports below both ends; without it there are none.
+    /// The class of the joints with rigid supports below both ends; there are no such supports without it.
     pub springing: Option<String>,
     /// Piers or buttresses below both ends.
     #[serde(default, deserialize_with = "strict::read")]
@@ -81,8 +81,7 @@ pub enum Shape {
     Semicircular,
     /// Two arcs that meet at the crown: `span` and `rise`; an even number of voussoirs.
     Pointed,
-    /// A level top: `span`, and `skew_deg` of a straight intrados or `rise` of one that is an arc; joints towards one point
-    /// below.
+    /// A level top: `span`, and `skew_deg` of a straight intrados or `rise` of an arc; joints towards one point below.
     Flat,
     /// The joints are given: `lines`.
     Joints,
@@ -168,7 +167,7 @@ impl Arch {
     }
 
     setters! {
-        /// Puts the left end of the intrados here \[length\].
+        /// Puts the left end of the intrados at this point \[length\].
         pub fn origin(mut self, origin: [f64; 2]) { self.origin = Some(origin) }
         /// Gives the joints between voussoirs a class, instead of `bed` and `head`.
         pub fn joint(mut self, joint: &str) { self.joint = Some(joint.to_owned()) }
@@ -178,7 +177,7 @@ impl Arch {
         pub fn ring_joint(mut self, joint: &str) { self.ring_joint = Some(joint.to_owned()) }
         /// Puts piers below both ends.
         pub fn piers(mut self, piers: Piers) { self.piers = Some(piers) }
-        /// Gives every block a mesh, which elastic ones need.
+        /// Gives every block a mesh, which elastic blocks need.
         pub fn mesh(mut self, mesh: [u32; 2]) { self.mesh = Some(mesh) }
         /// Puts rigid supports below both ends, whose joints are of a class.
         pub fn springing(mut self, joint: &str) { self.springing = Some(joint.to_owned()) }

@@ -4,7 +4,7 @@
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ArchError {
-    /// A segmental arch higher than half a circle.
+    /// The rise of a segmental arch is larger than that of half a circle.
     #[error(
         "a rise of {rise} is more than that of half a circle of this span: give at most {largest}, or \
          `shape = \"pointed\"`"
@@ -15,7 +15,7 @@ pub enum ArchError {
         /// Half the span.
         largest: f64,
     },
-    /// A pointed arch that would have no point.
+    /// A pointed arch has no point at the crown.
     #[error(
         "a rise of {rise} leaves no point at the crown: a pointed arch of this span rises by more than {least}; give \
          more, or `shape = \"segmental\"`"
@@ -26,18 +26,18 @@ pub enum ArchError {
         /// Half the span.
         least: f64,
     },
-    /// A pointed arch with a voussoir at the crown.
+    /// A pointed arch has a voussoir at the crown.
     #[error(
         "an odd number of voussoirs ({count}) puts one on the crown, and that voussoir is not convex: give an even \
          number, such as {even}"
     )]
     Odd {
-        /// How many.
+        /// The number of voussoirs.
         count: u32,
         /// The next even number.
         even: u32,
     },
-    /// A joint whose ends coincide.
+    /// The ends of a joint coincide.
     #[error("the joint has no length, because both of its ends are [{x}, {y}]: move one of them")]
     NoLength {
         /// Coordinate of the ends.
@@ -45,21 +45,21 @@ pub enum ArchError {
         /// Coordinate of the ends.
         y: f64,
     },
-    /// Two joints with no voussoir between them; its number, from 1.
+    /// Two joints bound no voussoir, whose number is given, from 1.
     #[error(
         "this joint and the one before bound no convex voussoir (number {0}): list joints from left to right, each \
          from the intrados to the extrados, such that no two cross"
     )]
     NoVoussoir(usize),
-    /// A pier on which the springing has no room.
+    /// The springing has no room on a pier.
     #[error("a pier {width} wide does not reach below the springing: give more than {least}")]
     NarrowPier {
-        /// Its width.
+        /// Width of the pier.
         width: f64,
-        /// How far the springing reaches from the end of the intrados.
+        /// The distance of the springing's far end from the end of the intrados.
         least: f64,
     },
-    /// A springing, `left` or `right`, that leans over the opening.
+    /// A springing, `left` or `right`, leans over the opening.
     #[error(
         "piers need a springing that rises outwards from the intrados, and the {0} one does not: turn the {0} \
          joint of `lines`"

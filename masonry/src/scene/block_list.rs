@@ -1,11 +1,11 @@
-//! A JSON file with single blocks, such as other programs write: their corners and material.
+//! A JSON file with single blocks, their corners and material, as written by other programs.
 
 use serde::Deserialize;
 
 use super::source::{Excerpt, List};
 use super::{Block, SceneError, strict};
 
-/// A block as the list has it.
+/// A block of the list.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Listed {
@@ -18,7 +18,7 @@ struct Listed {
     mesh: Option<[u32; 2]>,
 }
 
-/// The blocks of a list. Those without a name are called by the name of the file and their number in the list.
+/// The blocks of a list. Blocks without a name are named after the file and their number in the list.
 ///
 /// # Errors
 /// The first part that does not fit the format, and its place.

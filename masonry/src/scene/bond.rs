@@ -1,4 +1,4 @@
-//! The bricks of a wall: laid in a bond and cut at openings, or courses given brick by brick.
+//! The bricks of a wall: laid in a bond and cut at openings, or given brick by brick in courses.
 
 mod openings;
 
@@ -10,14 +10,14 @@ pub(crate) use openings::{taken, voussoirs};
 /// Thicknesses \[length\] of the joints between the bricks of a wall; zero for dry joints.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct JointThickness {
-    /// Thickness of the beds: the pitch of courses is the height of a brick and this.
+    /// Thickness of the beds: the pitch of courses is the height of a brick plus this thickness.
     pub bed: f64,
-    /// Thickness of the heads: the pitch of bricks is the length of a brick and this.
+    /// Thickness of the heads: the pitch of bricks is the length of a brick plus this thickness.
     pub head: f64,
 }
 
 impl JointThickness {
-    /// Those of the classes to which the joints of a wall belong.
+    /// The thicknesses of the classes of a wall's joints.
     pub fn of(scene: &Scene, wall: &Wall) -> Self {
         let of = |class: &str| scene.joints.get(class).map_or(0.0, Joint::mortar_thickness);
         let [bed, head] = wall.joints.names().map(of);
@@ -38,7 +38,7 @@ pub struct PlacedBrick {
     pub high: [f64; 2],
     /// Length in units of one brick \[-\], without mortar.
     pub fraction: f64,
-    /// How far the bottom reaches beyond the top, left and right \[length\], beside a flat arch.
+    /// The lengths by which the bottom reaches beyond the top, left and right \[length\], beside a flat arch.
     pub leans: [f64; 2],
     /// The number of the opening above which the brick is the lintel, from 0.
     pub lintel: Option<usize>,
@@ -56,8 +56,8 @@ impl PlacedBrick {
         [[x0 - left, y0], [x1 + right, y0], [x1, y1], [x0, y1]]
     }
 
-    /// The mesh of this brick when a whole one has `mesh`: a cut brick gets its share of the
-    /// elements along its length, rounded up.
+    /// The mesh of this brick if a whole brick has `mesh`: a cut brick gets its share of the elements along its length,
+    /// rounded up.
     pub fn mesh(&self, mesh: [u32; 2]) -> [usize; 2] {
         let [whole, high] = mesh;
         let share = f64::from(whole) * (self.fraction - SAME_PLACE);
@@ -71,8 +71,8 @@ impl PlacedBrick {
 
 /// The bricks of a dry wall, course by course from the bottom, each from left to right.
 ///
-/// Ends of bricks that meet, in one course or one above another, have the same coordinates bit by
-/// bit wherever the lengths are halves of a brick.
+/// Ends of bricks that meet, in one course or one above another, have the same coordinates bit by bit if the lengths
+/// are halves of a brick.
 pub fn bricks(wall: &Wall) -> Vec<PlacedBrick> {
     bricks_in_mortar(wall, JointThickness::default())
 }
@@ -88,9 +88,9 @@ pub fn bricks(wall: &Wall) -> Vec<PlacedBrick> {
 /// use masonry::scene::{Brick, Wall};
 ///
 /// let brick = Brick { length: 0.2, height: 0.1 };
-/// let wall = Wall::running_bond("wall", "brick", brick, 1.3, 2);
-/// let laid = bricks_in_mortar(&wall, JointThickness { bed: 0.02, head: 0.02 });
-/// let half = &laid[6];
+/// Every brick is laid with a head joint at its right end, so that lengths in courses count brick and joint: whole
+/// bricks have their length `l`, half bricks `(l - t_y) / 2`. The wall ends with a brick: a wall of `n` whole bricks is
+/// `n (l + t_y) - t_y` wide, and a wall of `n` courses `n (h + t_y) - t_y` high.
 /// assert!((half.high[0] - half.low[0] - 0.09).abs() < 1e-15);
 /// assert!((laid[12].high[0] - 1.3).abs() < 1e-15 && (laid[12].low[1] - 0.12).abs() < 1e-15);
 /// ```
@@ -101,10 +101,11 @@ pub fn bricks_in_mortar(wall: &Wall, joints: JointThickness) -> Vec<PlacedBrick>
         .collect()
 }
 
-/// The first course and place in it, from 0 and with openings counted, at which the head joint leaves nothing of a brick.
+/// The first course and the place in it, from 0 and with openings counted, at which the head joint leaves no length of
+/// a brick.
 pub(crate) fn first_without_length(wall: &Wall, joints: JointThickness) -> Option<[usize; 2]> {
     let gone = |&[start, end]: &Span| left_of(end - start, wall, joints) <= SAME_PLACE;
-    // Two courses show all there is of a bond without openings.
+    // Two courses represent all courses of a bond without openings.
     let is_bond = matches!(wall.courses, Courses::RunningBond(_)) && wall.openings.is_empty();
     let repeated = if is_bond { 2 } else { usize::MAX };
     let mut places = courses(wall, joints).take(repeated).enumerate();
@@ -132,7 +133,7 @@ fn courses(wall: &Wall, joints: JointThickness) -> Box<dyn Iterator<Item = Vec<S
     }
 }
 
-/// Length in units of one brick of what stands on a stretch besides the head joint.
+/// Length of the brick on a stretch without the head joint, in units of one brick.
 fn left_of(stretch: f64, wall: &Wall, joints: JointThickness) -> f64 {
     stretch + joints.head / wall.brick.length * (stretch - 1.0)
 }
@@ -149,7 +150,7 @@ type Span = [f64; 2];
 /// The ends of the bricks of a course of a wall `width` bricks wide, from 0 on.
 fn ends(bond: Bond, course: usize, width: f64) -> Vec<f64> {
     let is_even = course.is_multiple_of(2);
-    // The first end after a closer, if there is one, and the lengths of the bricks from there on, in turn.
+    // The first end after a closer, if there is one, and the alternating lengths of the bricks from there on.
     let (first, lengths) = match bond {
         Bond::Running if !is_even => (0.5, [1.0, 1.0]),
         Bond::English if !is_even => (0.75, [0.5, 0.5]),

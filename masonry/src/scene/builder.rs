@@ -12,14 +12,14 @@ use super::{
 use crate::units::Units;
 
 impl Scene {
-    /// The steps of all stages.
+    /// The number of steps of all stages.
     pub(crate) fn steps(&self) -> usize {
         self.stages.iter().map(|stage| stage.steps as usize).sum()
     }
 }
 
 impl Scene {
-    /// A scene without anything in it.
+    /// An empty scene.
     pub fn new(title: &str, units: Units) -> Self {
         Self {
             title: title.to_owned(),
@@ -53,15 +53,15 @@ impl Scene {
         pub fn thickness(mut self, thickness: f64) { self.thickness = Some(thickness) }
         /// Sets gravity \[m/s^2\].
         pub fn gravity(mut self, gravity: [f64; 2]) { self.gravity = Some(gravity) }
-        /// Adds a material, or replaces that of the same name.
+        /// Adds a material, or replaces the one of the same name.
         pub fn material(mut self, name: &str, material: Material) {
             self.materials.insert(name.to_owned(), material);
         }
-        /// Adds a joint class, or replaces that of the same name.
+        /// Adds a joint class, or replaces the one of the same name.
         pub fn joint(mut self, name: &str, joint: Joint) {
             self.joints.insert(name.to_owned(), joint);
         }
-        /// Gives the joints between two bodies, each the name of a block or of a wall, a class of their own.
+        /// Gives the joints between two bodies, each the name of a block or of a wall, their own class.
         pub fn between(mut self, first: &str, second: &str, joint: &str) {
             let blocks = [first, second].map(str::to_owned);
             self.between.push(Between { blocks, joint: joint.to_owned() });
@@ -90,19 +90,19 @@ impl Scene {
         pub fn train(mut self, train: Train) { self.limit.train = Some(train) }
         /// Sets the places on a joint at which the contact law is enforced.
         pub fn contact_points(mut self, points: PointRule) { self.contact.points = points }
-        /// Sets which terms of mortar films are kept.
+        /// Sets the terms of mortar films that are kept.
         pub fn films(mut self, films: Films) { self.contact.films = films }
         /// Sets the distance \[length\] below which bodies may meet.
         pub fn gap_limit(mut self, gap_limit: f64) { self.contact.gap_limit = gap_limit }
-        /// Puts corners of single blocks that are nearer than this to others onto them \[length\].
+        /// Sets the distance \[length\] below which corners of single blocks are moved onto others.
         pub fn contact_tolerance(mut self, tolerance: f64) {
             self.contact.tolerance = Some(tolerance);
         }
         /// Sets the requested residual of the solver \[-\].
         pub fn tolerance(mut self, tolerance: f64) { self.solver.tolerance = tolerance }
-        /// Sets the route to the solution: one of them, or [`RouteSetting::Auto`].
+        /// Sets the route to the solution, or [`RouteSetting::Auto`].
         pub fn route(mut self, route: impl Into<RouteSetting>) { self.solver.route = route.into() }
-        /// Sets the stiffness of the springs of the routes that have them, relative to that of the blocks \[-\].
+        /// Sets the stiffness of the springs, on the routes that have springs, relative to that of the blocks \[-\].
         pub fn soft(mut self, stiffness: f64) { self.solver.soft = Some(stiffness) }
         /// Sets the form of the complementarity problem.
         pub fn form(mut self, form: Form) { self.solver.form = form }
@@ -161,7 +161,7 @@ impl Joint {
 }
 
 impl Wall {
-    /// A wall of so many courses in running bond, cut to `width` \[length\].
+    /// A wall of `courses` in running bond, cut to `width` \[length\].
     pub fn running_bond(
         name: &str,
         material: &str,
@@ -180,7 +180,7 @@ impl Wall {
     }
 
     setters! {
-        /// Sets how the bricks are laid.
+        /// Sets the bond of the bricks.
         pub fn bond(mut self, bond: Bond) { self.bond = Some(bond) }
         /// Adds an opening.
         pub fn opening(mut self, opening: Opening) { self.openings.push(opening) }
@@ -192,7 +192,8 @@ impl Wall {
         pub fn origin(mut self, origin: [f64; 2]) { self.origin = origin }
         /// Turns the wall about its origin, counter-clockwise \[degrees\].
         pub fn turn_deg(mut self, degrees: f64) { self.turn_deg = degrees }
-        /// Lets the bottom of the wall run from its origin to this point \[length\], which gives its turn, and its width if it has none.
+        /// Puts the other end of the bottom of the wall at this point \[length\], which gives its turn, and its width
+        /// if it has none.
         pub fn to(mut self, corner: [f64; 2]) { self.to = Some(corner) }
         /// Sets the elements along the length and height of a whole brick.
         pub fn mesh(mut self, mesh: [u32; 2]) { self.mesh = Some(mesh) }

@@ -24,9 +24,10 @@ mod stages;
 
 /// Bricks and blocks of one scene, at most.
 const MOST_BLOCKS: u32 = 1_000_000;
-/// Elements of one wall, at most: a mesh that fits in no memory is told before it is made.
+/// Elements of one wall, at most: a mesh that does not fit into any memory is refused before it is
+/// made.
 const MOST_ELEMENTS_OF_WALL: u32 = 20_000_000;
-/// Elements of one block, at most. Chosen: the square of those along an edge.
+/// Elements of one block, at most. Chosen: the square of the elements along an edge.
 const MOST_ELEMENTS_OF_BLOCK: u32 = 1_000_000;
 /// Elements along one edge, at most. Chosen: more than a plane problem needs.
 const MOST_ELEMENTS: u32 = 1_000;
@@ -66,7 +67,7 @@ impl Scene {
         if self.all_supports().is_empty() {
             return Err(Fault::new(KeyPath::default(), SceneErrorKind::NoSupport));
         }
-        // Whether the blocks exist is known with the model.
+        // The existence of the blocks is checked with the model.
         each("between", &self.between, |at, it| self.check_class(at.key("joint"), &it.joint))?;
         each("supports", &self.supports, |at, support| self.check_support(at, support))?;
         each("loads", &self.loads, |at, load| self.check_load(at, load))?;
@@ -113,7 +114,8 @@ impl Scene {
         density.map_or(Ok(()), |density| positive(at.key("density"), density))
     }
 
-    /// Names of walls, arches, blocks, supports and loads: given, and each once among its like.
+    /// Checks that names of walls, arches, blocks, supports and loads are given, and that each is
+    /// unique among its kind.
     fn check_names(&self) -> Check {
         unique("wall", "walls", self.walls.iter().map(|wall| &wall.name))?;
         unique("arch", "arches", self.arches.iter().map(|arch| &arch.name))?;
@@ -247,7 +249,7 @@ impl Scene {
     }
 }
 
-/// Checks the keys of a wall in a bond; an upper bound of the number of its bricks.
+/// Checks the keys of a wall in a bond; returns an upper bound of the number of its bricks.
 fn check_running_bond(
     at: &KeyPath,
     wall: &Wall,
@@ -266,7 +268,7 @@ fn check_running_bond(
     Ok(bricks)
 }
 
-/// Checks a list of courses; the number of its bricks.
+/// Checks a list of courses; returns the number of its bricks.
 fn check_courses(at: &KeyPath, wall: &Wall, courses: &[Vec<f64>]) -> Result<f64, Fault> {
     let otherwise = ", or give the number of courses";
     let because = "has no meaning if `courses` is a list";

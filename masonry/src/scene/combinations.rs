@@ -11,7 +11,7 @@ use super::{KeyPath, Load, Scene, SceneError};
 
 /// A combination of loads: their factors, and that of the weight.
 ///
-/// A load that only other combinations name is zero. A load that none names acts in full.
+/// A load that is named only in other combinations is zero. A load that is named in none acts in full.
 ///
 /// ```
 /// use masonry::scene::Combination;
@@ -42,7 +42,7 @@ impl Combination {
     setters! {
         /// Sets the factor of the weight \[-\].
         pub fn gravity(mut self, factor: f64) { self.gravity = factor }
-        /// Sets the factor of a load, or of all of a group \[-\].
+        /// Sets the factor of a load, or of all loads of a group \[-\].
         pub fn load(mut self, name: &str, factor: f64) {
             self.loads.insert(name.to_owned(), factor);
         }
@@ -62,8 +62,9 @@ pub struct Combined<T> {
 pub const OPPOSITE: &str = ", opposite";
 
 impl Scene {
-    /// A scene for every combination, in their order, and none without combinations. A combination in which accelerations act
-    /// across gravity gives two scenes: an earthquake comes from both sides, with all loads of its groups except weights with `mass`.
+    /// A scene for every combination, in their order; empty without combinations. A combination in which accelerations
+    /// act across gravity gives two scenes, since an earthquake comes from both sides, with all loads of its groups
+    /// except weights with `mass`.
     ///
     /// ```
     /// use masonry::scene::{Combination, Load, Scene};
@@ -83,7 +84,7 @@ impl Scene {
         let given: Vec<Self> = self.combinations.iter().map(|it| self.under(it)).collect();
         let mut list = Vec::new();
         for (combination, scene) in self.combinations.iter().zip(&given) {
-            // The scene may have the other side as a combination of its own.
+            // The scene may have the opposite side as a combination of its own.
             let opposite = scene.with_earthquake_opposite().filter(|it| !given.contains(it));
             let opposite = opposite.map(|it| (format!("{}{OPPOSITE}", combination.name), it));
             for (name, mut scene) in
@@ -96,7 +97,7 @@ impl Scene {
         list
     }
 
-    /// Refuses combinations: of several sets of loads one is wanted.
+    /// Refuses combinations, because one set of loads is required.
     ///
     /// # Errors
     /// [`SceneError`] if there are combinations.
@@ -118,7 +119,7 @@ impl Scene {
             let otherwise = if is_named(given) { 0.0 } else { 1.0 };
             load.factor *= factor_in(&combination.loads, given).unwrap_or(otherwise);
         }
-        // Masses go with the weights, as those of loads do; without them there is no weight.
+        // Masses are multiplied like weights, as those of loads are; there is no weight without masses.
         for material in scene.materials.values_mut() {
             let density = material.density.map(|density| density * combination.gravity);
             material.density = density.filter(|density| *density > 0.0);
@@ -126,7 +127,7 @@ impl Scene {
         scene
     }
 
-    /// The scene with its earthquake in the opposite direction, if there is one that acts.
+    /// The scene with its earthquake in the opposite direction, if an earthquake acts.
     fn with_earthquake_opposite(&self) -> Option<Self> {
         let acts = self.loads.iter().filter(|load| self.acts_across(load) && load.factor != 0.0);
         let groups: BTreeSet<&str> = acts.map(Load::group_name).collect();

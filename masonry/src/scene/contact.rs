@@ -1,8 +1,8 @@
-//! How contact is looked for and enforced.
+//! Settings of the search for contact and of its enforcement.
 
 use serde::{Deserialize, Serialize};
 
-/// How contact is looked for and enforced.
+/// Settings of the search for contact and of its enforcement.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(default, deny_unknown_fields)]
@@ -11,11 +11,12 @@ pub struct Contact {
     pub points: PointRule,
     /// Bodies closer than this may meet \[length\]; zero: only bodies that touch.
     pub gap_limit: f64,
-    /// Corners of single blocks that are nearer than this to corners and edges of other blocks and to supports are put onto them
-    /// \[length\], by the least movements. If no tolerance is given, corners are moved only if blocks overlap, by up to 1e-5 of the
-    /// shortest edge of a single block: six decimals of a metre leave less of bricks that are 0.2 m high.
+    /// Distance \[length\] below which corners of single blocks are put onto corners and edges of other blocks and onto
+    /// supports, by the least movements. If no tolerance is given, corners are moved only if blocks overlap, by up to
+    /// 1e-5 of the shortest edge of a single block: coordinates in metres with six decimals err by less on bricks that
+    /// are 0.2 m high.
     pub tolerance: Option<f64>,
-    /// Which terms of mortar films are kept.
+    /// The terms of mortar films that are kept.
     pub films: Films,
 }
 
@@ -28,14 +29,14 @@ pub enum PointRule {
     /// linear, with trapezoidal weights.
     #[default]
     Vertices,
-    /// Places of a node of each side (on a support: of a node of the block), weighted by
-    /// tributary length: the node pairs of the paper.
+    /// Places at which each side has a node (on a support: the block), weighted by tributary length: the node pairs of
+    /// the paper.
     NodalPairs,
     /// Two Gauss points in every part on which the shape functions of both sides are linear.
     Gauss,
 }
 
-/// Which terms of mortar films are kept.
+/// The terms of mortar films that are kept.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
@@ -43,7 +44,7 @@ pub enum Films {
     /// Terms across the joint: a compliance in series with each contact point, without strain along the joint.
     #[default]
     Compliance,
-    /// The whole strip (3.28)-(3.39), also with the stress along the joint and the strain that it
-    /// shares with the blocks. It is integrated at its Gauss points: `points` must be `gauss`.
+    /// The whole strip (3.28)-(3.39), also with the stress along the joint and the strain that it shares with the
+    /// blocks. It is integrated at its Gauss points: `points` must be `gauss`.
     Strips,
 }

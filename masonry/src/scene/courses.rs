@@ -12,7 +12,7 @@ impl<'de> Deserialize<'de> for Courses {
     }
 }
 
-// Written out because an untagged enum would forget the place of a mistake in the list.
+// Written by hand because an untagged enum would lose the place of a mistake in the list.
 struct CoursesVisitor;
 
 impl<'de> Visitor<'de> for CoursesVisitor {
@@ -43,7 +43,7 @@ impl<'de> Visitor<'de> for CoursesVisitor {
     }
 }
 
-/// Written out as the reading is.
+/// Written by hand like the deserialisation.
 #[cfg(test)]
 impl schemars::JsonSchema for Courses {
     fn schema_name() -> std::borrow::Cow<'static, str> {

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use super::source::Source;
 use super::{Between, Block, Scene, SceneError, Support};
 
-/// What a drawing adds to a scene, in the units of the scene.
+/// The parts that a drawing adds to a scene, in the units of the scene.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Drawn {
@@ -18,21 +18,22 @@ pub struct Drawn {
     pub places: Vec<String>,
     /// Supports, whose joint classes are those of the scene.
     pub supports: Vec<Support>,
-    /// Joint classes between its blocks.
+    /// Joint classes between the blocks of the drawing.
     pub between: Vec<Between>,
-    /// What was changed and left out, a kind in each line.
+    /// Changes of the drawing and omissions, one kind in each line.
     #[serde(skip)]
     pub changes: Vec<String>,
 }
 
-/// Reads a drawing for a scene, from its path and its bytes; the error says where in the drawing what is wrong.
+/// A function that reads a drawing for a scene, from its path and its bytes; the error has the mistake and its place in
+/// the drawing.
 pub type Drawings<'a> = &'a dyn Fn(&Path, &[u8], &Scene) -> Result<Drawn, String>;
 
 impl Scene {
     /// Reads a scene from a TOML file as [`Scene::read`] does, whose `block_list` may be a drawing.
     ///
     /// # Errors
-    /// As [`Scene::read`], and what is wrong with the drawing.
+    /// As [`Scene::read`], and the error of the drawing.
     pub fn read_with(path: &Path, drawings: Drawings) -> Result<Self, SceneError> {
         Self::read_by(path, Some(drawings))
     }

@@ -34,8 +34,8 @@ impl SceneError {
         &self.0.kind
     }
 
-    /// The key of the value that is wrong, such as `walls[0].brick.length`; empty when the text is
-    /// no TOML or does not fit the format.
+    /// The key of the wrong value, such as `walls[0].brick.length`; empty if the text is not TOML
+    /// or does not fit the format.
     pub fn key(&self) -> String {
         self.0.key.to_string()
     }
@@ -50,7 +50,7 @@ impl SceneError {
         self.0.located.place.as_ref().map(|place| place.column)
     }
 
-    /// The file that the scene was read from.
+    /// The file from which the scene was read.
     pub fn file(&self) -> Option<&Path> {
         self.0.located.file.as_deref()
     }
@@ -110,17 +110,18 @@ impl Fault {
         Self { key, kind: Box::new(kind.into()) }
     }
 
-    /// A name that is taken by the value at `first`; `what` is the kind of both.
+    /// The error of a name that is already used by the value at `first`; `what` is the kind of
+    /// both.
     pub(crate) fn duplicate(at: KeyPath, what: &'static str, name: &str, first: &KeyPath) -> Self {
         let (name, first) = (name.to_owned(), first.to_string());
         Self::new(at, SceneErrorKind::Duplicate { what, name, first })
     }
 
-    /// The error with its place in the text, if the scene still says what the text says.
+    /// The error with its place in the text, if the scene still equals its text.
     pub(crate) fn locate(self, scene: &Scene) -> SceneError {
         let source = &scene.source;
         let unchanged = Scene::of(source).is_ok_and(|read| {
-            // NaN differs from itself: what was written is compared, not what it is worth.
+            // NaN differs from itself: the written forms are compared, not the values.
             format!("{read:?}") == format!("{:?}", scene.without_source())
         });
         let located = if unchanged { source.locate(&self.key) } else { Located::default() };

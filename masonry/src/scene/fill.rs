@@ -7,11 +7,11 @@ use serde::{Deserialize, Serialize};
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Fill {
-    /// The arch, wall or block that carries it.
+    /// The arch, wall or block that carries the fill.
     pub over: String,
-    /// Height of its level top \[length\].
+    /// Height of the level top of the fill \[length\].
     pub level: f64,
-    /// Its weight \[force/length^3\].
+    /// The weight of the fill \[force/length^3\].
     pub gamma: f64,
 }
 
@@ -20,13 +20,14 @@ pub struct Fill {
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Axle {
-    /// The arch, wall or block that carries it.
+    /// The arch, wall or block that carries the axle.
     pub over: String,
-    /// Its place along x \[length\].
+    /// The place of the axle along x \[length\].
     pub x: f64,
-    /// Its force \[force\], which presses down over the whole thickness.
+    /// The force of the axle \[force\], which presses down over the whole thickness.
     pub force: f64,
-    /// Height of the top of the fill \[length\]; without it the axle stands on the highest edge below it.
+    /// Height of the top of the fill \[length\]; the axle stands on the highest edge below it if no level
+    /// is given.
     pub level: Option<f64>,
     /// Angle from the vertical at which the fill spreads the force \[degrees\]; with a `level` only.
     #[serde(default = "spread", skip_serializing_if = "is_spread")]
@@ -34,7 +35,8 @@ pub struct Axle {
 }
 
 impl Axle {
-    /// An axle at `x` \[length\] on the top edge of what carries it, with its force \[force\].
+    /// An axle at `x` \[length\] on the top edge of the body `over` that carries it, with its force
+    /// \[force\].
     pub fn new(over: &str, x: f64, force: f64) -> Self {
         Self { over: over.to_owned(), x, force, level: None, angle_deg: spread() }
     }
@@ -46,7 +48,7 @@ impl Axle {
     }
 }
 
-/// A slope of one horizontally to two vertically, as roads are commonly assessed: 26.565 degrees.
+/// A slope of one horizontally to two vertically, the usual assumption for roads: 26.565 degrees.
 pub(super) fn spread() -> f64 {
     0.5_f64.atan().to_degrees()
 }

@@ -1,4 +1,4 @@
-//! Groups of loads: their names, and what each name means.
+//! Groups of loads: their names, and the meaning of each name.
 
 use std::collections::BTreeSet;
 
@@ -7,11 +7,11 @@ use nalgebra::Vector2;
 use super::{Load, Scene};
 use crate::geometry::SAME_PLACE;
 
-/// The name by which the weight of the blocks is the load that grows.
+/// The name of the weight of the blocks as the growing load.
 pub(crate) const WEIGHT: &str = "gravity";
 
 impl Scene {
-    /// Whether a name means the weight of the blocks, as "gravity" does if no load is called so.
+    /// Whether a name means the weight of the blocks: "gravity", if no load has this name.
     pub fn is_weight(&self, name: &str) -> bool {
         name == WEIGHT
             && self.gravity.is_some()
@@ -37,13 +37,14 @@ impl Scene {
         self.is_weight(name) || self.loads.iter().any(acts)
     }
 
-    /// The scene with the loads of a name or group in the opposite direction. Loads with a `mass` are weights and keep theirs.
+    /// The scene with the loads of a name or group in the opposite direction. Loads with a `mass` are weights and keep
+    /// their direction.
     #[must_use]
     pub fn reversed(&self, group: &str) -> Self {
         self.with_opposite(|load| load.is_called(group))
     }
 
-    /// The scene with some of its loads in the opposite direction, without those that are weights.
+    /// The scene with some of its loads, except weights, in the opposite direction.
     pub(super) fn with_opposite(&self, is_of: impl Fn(&Load) -> bool) -> Self {
         let mut scene = self.clone();
         let members = scene.loads.iter_mut().filter(|load| is_of(load) && !load.has_mass());

@@ -1,4 +1,4 @@
-//! Where in a scene a value is: `walls[0].brick.length`.
+//! The place of a value in a scene: `walls[0].brick.length`.
 
 use std::fmt;
 

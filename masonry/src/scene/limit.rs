@@ -11,7 +11,7 @@ use crate::rounding::rounded;
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct LimitLoad {
-    /// The load, or the group of loads, whose factor grows; without it the only group, or the only one with a factor.
+    /// The load, or the group of loads, whose factor grows; by default the only group, or the only one with a factor.
     pub group: Option<String>,
     /// Data of the seismic check: site and knowledge of the building.
     #[serde(default, deserialize_with = "strict::read")]
@@ -26,7 +26,7 @@ pub struct LimitLoad {
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Train {
-    /// The arch, wall or block that carries it.
+    /// The arch, wall or block that carries the train.
     pub over: String,
     /// Axles: the distance of each from the position of the train along x \[length\], and its force \[force\].
     #[serde(deserialize_with = "strict::read")]
@@ -38,15 +38,15 @@ pub struct Train {
     /// Number of positions, at equal distances.
     #[serde(default = "forty", skip_serializing_if = "is_forty")]
     pub positions: u32,
-    /// Height of the top of the fill \[length\], as of an axle.
+    /// Height of the top of the fill \[length\], as for an axle.
     pub level: Option<f64>,
-    /// Angle from the vertical at which the fill spreads the forces \[degrees\], as of an axle.
+    /// Angle from the vertical at which the fill spreads the forces \[degrees\], as for an axle.
     #[serde(default = "fill::spread", skip_serializing_if = "fill::is_spread")]
     pub angle_deg: f64,
 }
 
 impl Train {
-    /// A train of these axles at 40 positions between two.
+    /// A train of these axles, at 40 positions between `from` and `to` \[length\].
     pub fn new(over: &str, axles: impl Into<Vec<[f64; 2]>>, [from, to]: [f64; 2]) -> Self {
         let (over, axles) = (over.to_owned(), axles.into());
         Self { over, axles, from, to, positions: 40, level: None, angle_deg: fill::spread() }
@@ -93,7 +93,7 @@ impl Scene {
     }
 }
 
-/// Positions of a train if the scene gives no number. Chosen: each costs a linear program.
+/// The default number of positions of a train. Chosen: each costs a linear program.
 fn forty() -> u32 {
     40
 }
@@ -104,7 +104,7 @@ fn is_forty(positions: &u32) -> bool {
 }
 
 impl LimitLoad {
-    /// Whether the scene says nothing of limit loads.
+    /// Whether the scene has no settings of limit loads.
     pub(super) fn is_empty(&self) -> bool {
         *self == Self::default()
     }
@@ -122,7 +122,7 @@ impl LimitLoad {
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(default, deny_unknown_fields)]
 pub struct Seismic {
-    /// Peak ground acceleration on rock, `a_g`, as a part of gravity \[g\]; without `a_g` and `S` there is no demand.
+    /// Peak ground acceleration on rock, `a_g`, as a part of gravity \[g\]; there is no demand without `a_g` and `S`.
     #[serde(rename = "a_g")]
     pub ground: Option<f64>,
     /// Factor of soil and topography `S` \[-\]; required with `a_g`.
@@ -131,13 +131,13 @@ pub struct Seismic {
     /// Behaviour factor `q` \[-\].
     #[serde(rename = "q")]
     pub behaviour: f64,
-    /// Confidence factor `FC` \[-\]; 1.35 by default, that of the least knowledge.
+    /// Confidence factor `FC` \[-\]; 1.35 by default, for the least knowledge.
     #[serde(rename = "FC")]
     pub confidence: f64,
 }
 
-/// The behaviour factor of elements on the ground, and the confidence factor of the least knowledge (LC1), which the Circolare
-/// asks for if crushing is left out (Circolare 7/2019, C8.7.1.2.1).
+/// The behaviour factor of elements on the ground, and the confidence factor of the least knowledge (LC1), which the
+/// Circolare requires if crushing is neglected (Circolare 7/2019, C8.7.1.2.1).
 impl Default for Seismic {
     fn default() -> Self {
         Self { ground: None, soil: None, behaviour: 2.0, confidence: 1.35 }

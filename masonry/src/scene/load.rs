@@ -57,7 +57,7 @@ pub struct Load {
     pub force: Option<[f64; 2]>,
     /// The moment over the whole thickness at that place, counter-clockwise \[force length\].
     pub moment: Option<f64>,
-    /// An acceleration that acts on mass like gravity \[m/s^2\]: to the right, it pushes to the right.
+    /// An acceleration that acts on mass like gravity \[m/s^2\]: an acceleration to the right pushes to the right.
     #[serde(default, deserialize_with = "strict::read")]
     pub acceleration: Option<[f64; 2]>,
     /// Fill over an arch, a wall or a block.
@@ -66,10 +66,10 @@ pub struct Load {
     /// An axle on a fill or on blocks.
     #[serde(default, deserialize_with = "strict::read")]
     pub axle: Option<Axle>,
-    /// The part of a load on edges or at a place, from 0 to 1, that is the weight of a mass, such as that of a roof: accelerations
-    /// act on this mass at the place of the load. `true` is 1 and `false` 0. The mass is that of the component
-    /// along gravity, times the factor of the load; factors of stages and limit loads do not change it.
-    /// Earth and water have none unless it is given.
+    /// The part of a load on edges or at a place, from 0 to 1, that is the weight of a mass, such as that of a roof:
+    /// accelerations act on this mass at the place of the load. `true` is 1 and `false` 0. The mass is that of the
+    /// component along gravity, times the factor of the load; factors of stages and limit loads do not change it. Earth
+    /// and water have no mass unless it is given.
     #[serde(default, deserialize_with = "strict::part")]
     #[cfg_attr(test, schemars(with = "Option<AllOrPart>"))]
     pub mass: Option<f64>,
@@ -169,7 +169,7 @@ impl Load {
         Self { acceleration: Some(acceleration), ..Self::named(name) }
     }
 
-    /// Fill over an arch, a wall or a block, up to a level \[length\], of a weight \[force/length^3\].
+    /// Fill over an arch, a wall or a block, up to a level \[length\], with a weight \[force/length^3\].
     pub fn fill(name: &str, over: &str, level: f64, gamma: f64) -> Self {
         let fill = Some(Fill { over: over.to_owned(), level, gamma });
         Self { fill, ..Self::named(name) }
@@ -195,12 +195,12 @@ impl Load {
         Self { inside: true, ..self }
     }
 
-    /// The name of its group.
+    /// The name of the group of the load.
     pub fn group_name(&self) -> &str {
         self.group.as_deref().unwrap_or(&self.name)
     }
 
-    /// Whether it is the weight of a mass, at least in part, which keeps its direction in an earthquake.
+    /// Whether the load is the weight of a mass, at least in part, which keeps its direction in an earthquake.
     pub(super) fn has_mass(&self) -> bool {
         self.mass.is_some_and(|part| part > 0.0)
     }
@@ -238,7 +238,7 @@ impl Load {
         })
     }
 
-    /// The places of action of which keys are given, each with the first of these keys.
+    /// The places of action for which keys are given, each with the first of these keys.
     pub(super) fn given(&self) -> Vec<(Acts, &'static str)> {
         let keys = [
             (Acts::OnEdges, "from", self.from.is_some()),
@@ -287,7 +287,7 @@ impl Load {
     }
 }
 
-/// Where a load acts, by its keys.
+/// The place at which a load acts, by its keys.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Acts {
     OnEdges,
@@ -321,10 +321,10 @@ pub enum LoadError {
          or `fill`, or `axle`"
     )]
     NoKind(String),
-    /// A segment without a force per area.
+    /// A segment has no force per area.
     #[error("none of `pressure`, `traction` and `earth` is given: add one of them")]
     NoStress,
-    /// A traction inside a wall that presses neither side of its segment.
+    /// A traction inside a wall presses neither side of its segment.
     #[error(
         "the traction is zero or parallel to the segment, so that it presses no block: give it a component across the \
          segment, or leave `inside` out"
@@ -344,7 +344,7 @@ pub enum LoadError {
     IdleFill {
         /// Name of the load.
         load: String,
-        /// Name of the body.
+        /// Name of the body that should carry the fill.
         over: String,
     },
     /// Keys of two kinds are given.
@@ -354,14 +354,14 @@ pub enum LoadError {
     TwoKinds {
         /// A key of one kind.
         first: &'static str,
-        /// Where a load of this kind acts.
+        /// The place at which a load of the first kind acts.
         one: &'static str,
         /// A key of another kind.
         second: &'static str,
-        /// Where a load of that kind acts.
+        /// The place at which a load of the second kind acts.
         other: &'static str,
     },
-    /// The mass of a load that is no weight.
+    /// A mass is given for a load that is not a weight.
     #[error("load \"{load}\" has a `mass`, but {because}")]
     NoWeight {
         /// Name of the load.
@@ -369,19 +369,19 @@ pub enum LoadError {
         /// The reason.
         because: &'static str,
     },
-    /// A force on a block that does not exist.
+    /// A force acts on a block that does not exist.
     #[error(
         "there is no block \"{name}\" in the scene; names near to it are {}: correct the name; bricks are called \
          WALL/COURSE/PLACE, counted from 1",
         listed(.near)
     )]
     NoBlock {
-        /// The name.
+        /// The name that was given.
         name: String,
-        /// The names of blocks that are nearest to it.
+        /// The names of blocks that are nearest to that name.
         near: Vec<String>,
     },
-    /// A force outside of its block.
+    /// A force acts outside of its block.
     #[error(
         "the place [{}, {}] lies {distance} {unit} outside of block \"{block}\": move it to [{}, {}], or farther \
          into the block",
@@ -394,7 +394,7 @@ pub enum LoadError {
         place: [f64; 2],
         /// The nearest place of the block in units of the scene.
         nearest: [f64; 2],
-        /// How far they are apart in units of the scene.
+        /// The distance of the two places in units of the scene.
         distance: f64,
         /// Unit of length.
         unit: &'static str,
@@ -408,19 +408,19 @@ pub enum LoadError {
     /// A load or a group has the name of the axles of a train.
     #[error("the name \"{0}\" belongs to the axles of `[limit.train]`: give it another name")]
     OfTrain(String),
-    /// A combination has the name of one whose earthquake comes from the other side.
+    /// A combination has the name of one whose earthquake comes from the opposite side.
     #[error(
         "\"{0}\" ends in \", opposite\", which is added to the names of combinations whose earthquake comes from the other \
          side: give it another name"
     )]
     Opposite(String),
-    /// A limit load is asked of the support of this name.
+    /// The growing load is the support of this name, which has no limit load.
     #[error(
         "\"{0}\" is a support. Rigid blocks follow every movement of a support, so there is no limit: name a load or a \
          group of loads"
     )]
     Support(String),
-    /// A stage or a combination names what is a load and a group of others.
+    /// A stage or a combination uses a name of a load that is also the group of others.
     #[error(
         "\"{name}\" is the name of a load, and of the group of {}: give one of them another name; there are the \
          loads {} and the groups {}",
@@ -443,7 +443,7 @@ pub enum LoadError {
         load: String,
         /// One name.
         first: String,
-        /// The other.
+        /// The other name.
         second: String,
     },
 }
@@ -469,6 +469,6 @@ fn is_false(it: &bool) -> bool {
 
 #[expect(clippy::trivially_copy_pass_by_ref, reason = "the signature that serde asks for")]
 pub(super) fn is_one(factor: &f64) -> bool {
-    // The bits: what differs in any of them is written.
+    // The bits are compared, since a value that differs in any bit is written.
     factor.to_bits() == 1_f64.to_bits()
 }

@@ -13,10 +13,10 @@ use crate::paper::film::strip::Strip;
 use crate::paper::film::{Matrix8, Vector8};
 use crate::system::kinematics::shares;
 
-/// A part of a film on which both faces are straight however the nodes move: that of the contact points at its two Gauss
-/// points.
+/// A part of a film on which both faces stay straight for all displacements of the nodes: the part of the contact
+/// points at its two Gauss points.
 ///
-/// The ends follow the edges of the blocks. On straight edges this is the change of nodes (3.40)-(3.53), `u = T^T u'`.
+/// The ends follow the edges of the blocks. This is the change of nodes (3.40)-(3.53), `u = T^T u'`, on straight edges.
 #[derive(Debug, Clone)]
 pub struct Segment {
     /// The joint of the model.
@@ -29,9 +29,9 @@ pub struct Segment {
     before: Vec<FilmState>,
     /// The distance of the ends, in axes of the segment, before any block moves.
     apart: Vector8,
-    /// From global axes to its own.
+    /// From global axes to the axes of the segment.
     axes: Matrix2<f64>,
-    /// The nodes around each of its ends, by the unknowns of their `u`, with their shares; none on a support.
+    /// The nodes around each end of the segment, by the unknowns of their `u`, with their shares; none on a support.
     ends: [Vec<(usize, f64)>; 4],
 }
 
@@ -48,7 +48,7 @@ pub(super) fn attached(model: &Model, start: &[usize]) -> Result<Vec<Segment>, A
 }
 
 impl Segment {
-    /// The film between the start of what one point stands for and the end of what the next one does.
+    /// The film from the start of the length of one point to the end of the length of the next one.
     fn of(
         model: &Model,
         first: &JointPoint,
@@ -104,7 +104,7 @@ impl Segment {
         Ok(segment)
     }
 
-    /// Initial gaps and slips at its two Gauss points; gaps are linear between them.
+    /// Initial gaps and slips at the two Gauss points; gaps are linear between them.
     fn start_from(&mut self, first: &JointPoint, last: &JointPoint) {
         let strip = self.film.strip();
         let places: Vec<f64> = self.film.places().collect();
@@ -113,18 +113,18 @@ impl Segment {
             self.apart[2 * node + 1] = first.gap + slope * (end - places[0]);
         }
         for ((state, place), point) in self.before.iter_mut().zip(places).zip([first, last]) {
-            // Faces that are apart at an angle are no shear of the mortar.
+            // Faces that are apart at an angle do not shear the mortar.
             let turned = (strip.strain_matrix(place) * self.apart).z;
             state.slip = strip.thickness() * turned - point.slip;
         }
     }
 
-    /// Displacements of the ends of the segment in its own axes, with what they are apart before.
+    /// Displacements of the ends of the segment in its own axes, plus their initial distance.
     pub fn displacements(&self, u: &[f64]) -> Vector8 {
         self.motion(u) + self.apart
     }
 
-    /// Displacements of the ends by those of the blocks alone.
+    /// Displacements of the ends due to those of the blocks alone.
     pub(super) fn motion(&self, u: &[f64]) -> Vector8 {
         let mut motion = Vector8::zeros();
         for (end, nodes) in self.ends.iter().enumerate() {
@@ -136,7 +136,7 @@ impl Segment {
         motion
     }
 
-    /// The answer of the law to displacements of all blocks.
+    /// The response of the law to displacements of all blocks.
     pub fn respond(&self, u: &[f64]) -> FilmResponse {
         self.film.respond(&self.displacements(u), &self.before)
     }
@@ -152,7 +152,7 @@ impl Segment {
         }))
     }
 
-    /// Adds forces at its ends to those of all unknowns.
+    /// Adds forces at the ends of the segment to those of all unknowns.
     pub(super) fn add_force(&self, force: &Vector8, all: &mut [f64]) {
         for (end, nodes) in self.ends.iter().enumerate() {
             let force = self.axes.transpose() * force.fixed_rows::<2>(2 * end);
@@ -183,7 +183,7 @@ impl Segment {
         entries
     }
 
-    /// Places and forces, in global axes, of what holds the ends of the lower face.
+    /// Places and forces, in global axes, of the support of the ends of the lower face.
     pub(super) fn lower_forces(
         &self,
         joint: &PlacedJoint,

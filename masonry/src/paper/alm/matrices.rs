@@ -46,14 +46,14 @@ impl<'a> Matrices<'a> {
         Ok(Self { structure, rho_n, rho_t, proximal, symbolic })
     }
 
-    /// The factors of the matrix that belongs to states of the contacts and of the films.
+    /// The factors of the matrix for given states of the contacts and of the films.
     pub(super) fn factorised(&self, states: States<'_>) -> Result<Llt<usize, f64>, AlmError> {
         let matrix = assembled(self.structure, states, &self.rho_n, &self.rho_t, self.proximal)?;
         Llt::try_new_with_symbolic(self.symbolic.clone(), matrix.as_ref(), Side::Lower)
             .map_err(failed)
     }
 
-    /// The displacements that the present forces lead to.
+    /// The displacements under the current forces.
     pub(super) fn displacements(
         &self,
         factors: &Llt<usize, f64>,
@@ -74,7 +74,7 @@ impl<'a> Matrices<'a> {
             let t_t = at.t_t[i] - held * problem.initial_slips()[i];
             tangent[i].iter().for_each(|&(j, v)| u[(j, 0)] += v * t_t);
         }
-        // Films take more than their matrix says, as friction that is held.
+        // The forces of films exceed the product with their matrix, as friction that is held.
         let mut held = vec![0.0; n];
         for (film, response) in self.structure.films.iter().zip(films) {
             let by_matrix = film.matrix(response) * film.motion(&at.u);
@@ -85,8 +85,8 @@ impl<'a> Matrices<'a> {
         u.col_as_slice(0).to_vec()
     }
 
-    /// How far displacements are from what this iteration is after: the forces that its contacts, projected,
-    /// and its films leave over, in a norm in which they can be added.
+    /// The distance of displacements from the solution of this iteration: the unbalanced forces, with those
+    /// of contacts projected and those of films, in a norm in which they can be added.
     pub(super) fn lack(&self, at: &ContactState, u: &[f64]) -> f64 {
         let Structure { problem, diagonal, .. } = self.structure;
         let trial = problem.state(u.to_vec(), at.t_n.clone(), at.t_t.clone());
@@ -100,7 +100,7 @@ impl<'a> Matrices<'a> {
         squares.sum::<f64>().sqrt()
     }
 
-    /// The projection of the forces on the friction cones, and the states that belong to it.
+    /// The projection of the forces on the friction cones, and the states after the projection.
     pub(super) fn projected(&self, at: &ContactState) -> (Vec<f64>, Vec<f64>, Vec<PointStatus>) {
         let all = self.structure.problem.mu().iter().enumerate().map(|(i, mu)| {
             let t_n = (at.t_n[i] - self.rho_n[i] * at.gap[i]).max(0.0);
@@ -141,7 +141,7 @@ fn assembled(
         let closed = if *contact == PointStatus::Open { 0.0 } else { rho_n[i] };
         let sticking = if *contact == PointStatus::Stick { rho_t[i] } else { 0.0 };
         for (row, rho) in [(&normal[i], closed), (&tangent[i], sticking)] {
-            // Zeros too: the pattern must not depend on the states.
+            // Zeros are included: the pattern must not depend on the states.
             for &(j, v) in row {
                 entries.extend(row.iter().map(|&(i, w)| Triplet::new(i, j, rho * v * w)));
             }

@@ -1,8 +1,8 @@
 //! Walls with whole films: the displacements of the blocks are the only unknowns, as in the paper.
 //!
-//! Nothing of a film is a contact point here: the films are strips with the [law](crate::paper::film::law) at their
-//! Gauss points, attached to the nodes of both blocks, and their stiffness is brought up to date with what is in
-//! contact in every iteration ((3.10) with `K_p`). Dry joints have multipliers as before.
+//! Films have no contact points here: they are strips with the [law](crate::paper::film::law) at their Gauss
+//! points, attached to the nodes of both blocks, and their stiffness is updated to the parts in contact in every
+//! iteration ((3.10) with `K_p`). Dry joints have multipliers as before.
 
 use std::ops::ControlFlow;
 
@@ -70,16 +70,16 @@ pub type Parts = Vec<Option<[f64; 2]>>;
 pub struct MortaredState {
     /// Displacements, dry contact points, stresses in the blocks, and the energy of blocks and films.
     pub state: State,
-    /// The answer of every segment of a film, in its own axes.
+    /// The response of every segment of a film, in its own axes.
     pub films: Vec<FilmResponse>,
-    /// Strain energy of the films \[J\], a part of the whole.
+    /// Strain energy of the films \[J\], a part of the total.
     pub film_energy: f64,
     /// Energy dissipated by slip in films \[J\].
     pub film_dissipation: f64,
     /// Energy dissipated by slip in dry joints \[J\].
     pub contact_dissipation: f64,
-    /// `f . u` \[J\]: in one step from rest, without gaps and without supports that move, twice the strain energy
-    /// and the dissipation.
+    /// `f . u` \[J\]: twice the strain energy and the dissipation, in one step from rest without gaps and without
+    /// supports that move.
     pub work: f64,
     /// The reactions of all supports.
     pub reactions: Vec<Reaction>,
@@ -104,12 +104,12 @@ impl MortaredWall {
         &self.sparse.problem
     }
 
-    /// The films, divided where nodes of the blocks lie on them.
+    /// The films, divided at the nodes of the blocks.
     pub fn films(&self) -> &[Segment] {
         &self.films
     }
 
-    /// Looks for a state of equilibrium; the observer is told every iteration, and `Break` cancels.
+    /// Looks for a state of equilibrium; the observer is called in every iteration, and `Break` cancels.
     ///
     /// # Errors
     /// As [`solve`](super::solve).
@@ -121,7 +121,7 @@ impl MortaredWall {
         run::solve(&Structure::new(&self.sparse.problem, &self.films)?, settings, observer)
     }
 
-    /// All films in contact along the whole of them.
+    /// The parts if all films are in contact over their whole length.
     pub fn bonded(&self) -> Parts {
         self.films().iter().map(|film| Some(film.film.strip().ends())).collect()
     }
@@ -152,7 +152,7 @@ impl MortaredWall {
         Contact2d::new(k, dry.loads().to_vec(), normal, tangent, x_0, s_0, dry.mu().to_vec())
     }
 
-    /// The state that belongs to an answer.
+    /// The state of an answer.
     pub fn state(&self, answer: &AlmAnswer) -> MortaredState {
         let (u, found) = (&answer.state.u, &answer.state);
         let rows = self.sparse.rows(found);

@@ -29,8 +29,8 @@ pub fn by_multipliers(
     Ok(answer(sparse, found, problem.displacements()))
 }
 
-/// The route on a model with strips: the contact points in films take no part in the iterations, and have the answers of
-/// the films afterwards. `sparse` is the problem with these points, by which the answer is judged.
+/// The route on a model with strips: the contact points in films take no part in the iterations, and get the responses
+/// of the films afterwards. `sparse` is the problem with these points, which measures the answer.
 ///
 /// # Errors
 /// As [`MortaredWall::new`] and [`solve`].
@@ -46,7 +46,7 @@ pub fn by_films(
     let mut found = wall.solve(&settings, &mut told(observer))?;
     let (t_n, t_t) = at_points(model, &wall, &found.state);
     let tangential: Vec<f64> = system.friction.iter().map(|it| t_t[it.contact.index()]).collect();
-    // The list after the blocks is another one in the problem with points in the films.
+    // The unknowns after those of the blocks differ in the problem with points in the films.
     let blocks = sparse.starts().last().copied().unwrap_or_default();
     found.state = sparse.with_forces(system, found.state.u[..blocks].to_vec(), &t_n, &tangential);
     found.residuals = sparse.problem.residuals(&found.state);
@@ -56,7 +56,7 @@ pub fn by_films(
     Ok(answer(sparse, found, wall.without_films().displacements()))
 }
 
-/// The normal and the tangential forces of all contact points, in films by what the films answer.
+/// The normal and the tangential forces of all contact points, in films from the responses of the films.
 fn at_points(model: &Model, wall: &MortaredWall, found: &ContactState) -> (Vec<f64>, Vec<f64>) {
     let mut films = wall.films().iter().flat_map(|film| film.respond(&found.u).points);
     let mut dry = found.t_n.iter().zip(&found.t_t);
@@ -70,7 +70,7 @@ fn at_points(model: &Model, wall: &MortaredWall, found: &ContactState) -> (Vec<f
     forces.unzip()
 }
 
-/// The progress of a route by that of the iterations.
+/// The progress of a route from that of the iterations.
 fn told(observer: EventObserver<'_>) -> impl FnMut(&AlmIteration) -> std::ops::ControlFlow<()> {
     let mut number = 0;
     move |at| {

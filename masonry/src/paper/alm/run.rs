@@ -1,4 +1,4 @@
-//! The iterations, and what ends them.
+//! The iterations, and their end.
 
 use std::ops::ControlFlow;
 
@@ -10,21 +10,21 @@ use super::structure::{Structure, Taken};
 use super::{AlmAnswer, AlmError, AlmIteration, AlmSettings};
 use crate::data::state::PointStatus;
 
-/// Penalty of a contact, relative to the stiffness that it sees.
+/// Penalty of a contact, relative to the stiffness at its row.
 const PENALTY: f64 = 0.3;
 /// The proximal term, relative to the stiffness.
 const PROXIMAL: f64 = 1e-2;
-/// So many iterations without a reduction of it by a tenth are no progress.
+/// Iterations without a reduction of the measure or of the distance by a tenth that end an attempt.
 const PATIENCE: usize = 300;
-/// After that penalty and proximal term change by this factor, so many times.
+/// The factor by which penalty and proximal term change in the next attempt, and the number of attempts.
 const SOFTER: f64 = 3.0;
 const ATTEMPTS: usize = 4;
-/// Steps in which blocks are brought to where contacts begin, each by a hundredth of the rest.
+/// Steps in which blocks are moved to the start of the contacts, each to a hundredth of the remaining distance.
 const BROUGHT: usize = 6;
-/// Steps that leave more unbalanced are halved so often at most.
+/// The largest number of halvings of a step that leaves larger unbalanced forces.
 const HALVINGS: usize = 8;
 
-/// Iterates until the answer is near enough, or to the last attempt.
+/// Iterates until the answer is accurate enough, or the last attempt has ended.
 pub(super) fn solve(
     structure: &Structure<'_>,
     settings: &AlmSettings,
@@ -92,7 +92,7 @@ impl Iterations<'_> {
         let mut taken = structure.taken(&at.u);
         let mut contacts = vec![PointStatus::Stick; problem.points()];
         let mut factors = None;
-        // The least measure, and the least distance that is left.
+        // The least measure, and the least remaining distance.
         let (mut least, mut since) = ([f64::INFINITY; 2], 0);
         let [mut motion, mut pull] = structure.units().map(Contraction::new);
         while self.convergence.len() < settings.max_iterations {
@@ -148,8 +148,8 @@ impl Iterations<'_> {
         Ok(Status::IterationLimit)
     }
 
-    /// The start is rest. If gaps or slips begin elsewhere (a support has moved), the start is the state to which blocks come
-    /// while all contacts hold them. From rest they would fall there in the small steps of the proximal term.
+    /// The start is rest. If gaps or slips begin elsewhere (a support has moved), the start is the state of the blocks
+    /// with all contacts held. From rest they would move there in the small steps of the proximal term.
     fn start(&mut self, matrices: &Matrices<'_>) -> Result<ContactState, AlmError> {
         let problem = self.structure.problem;
         let mut at = Best::rest(problem).state;
@@ -168,7 +168,7 @@ impl Iterations<'_> {
         Ok(at)
     }
 
-    /// The step to `u`, or a part of it: with films full steps go to and fro between the states of their points.
+    /// The step to `u`, or a part of it: full steps oscillate between the states of the points of films.
     fn shortened(&self, matrices: &Matrices<'_>, at: &ContactState, u: Vec<f64>) -> Vec<f64> {
         if self.structure.films.is_empty() {
             return u;
@@ -192,7 +192,7 @@ impl Iterations<'_> {
     }
 }
 
-/// Points of films that are in other states.
+/// The number of points of films that are in other states.
 fn changed_points(one: &Taken, other: &Taken) -> usize {
     let states = |taken: &Taken| -> Vec<PointStatus> {
         taken.films.iter().flat_map(|film| &film.points).map(|point| point.contact).collect()

@@ -1,4 +1,4 @@
-//! The data that stay the same through all iterations: loads, rows of the contacts, films, and measures by them.
+//! The data that stay the same through all iterations: loads, rows of the contacts, films, and their natural units.
 
 use faer::sparse::SparseColMat;
 use lcp::{Contact2d, ContactState, Residuals};
@@ -13,9 +13,9 @@ use crate::rounding::{cleared, largest};
 pub(super) struct Taken {
     /// The forces of the blocks, `K u`.
     pub(super) blocks: Vec<f64>,
-    /// The answers of all films.
+    /// The responses of all films.
     pub(super) films: Vec<FilmResponse>,
-    /// The forces of both.
+    /// The sum of the forces of blocks and films.
     all: Vec<f64>,
 }
 
@@ -28,7 +28,7 @@ pub(super) struct Structure<'a> {
     pub(super) tangent: Vec<Vec<(usize, f64)>>,
     /// The largest load.
     load: f64,
-    /// The largest displacement that the loads would make, as if `K` were diagonal.
+    /// The largest displacement under the loads, as if `K` were diagonal.
     way: f64,
 }
 
@@ -64,7 +64,7 @@ impl<'a> Structure<'a> {
         [self.way, self.load]
     }
 
-    /// The stiffness that a row sees, as if `K` were diagonal.
+    /// The stiffness at a row, as if `K` were diagonal.
     pub(super) fn seen(&self, row: &[(usize, f64)]) -> f64 {
         let compliance: f64 = row.iter().map(|&(j, v)| v * v / self.diagonal[j]).sum();
         if compliance > 0.0 { 1.0 / compliance } else { 0.0 }
@@ -84,7 +84,8 @@ impl<'a> Structure<'a> {
         Taken { blocks, films, all }
     }
 
-    /// The rest of loads and contact forces, `f + C^T t - K u` without films.
+    /// The unbalanced forces: loads and contact forces less those that blocks and films take, `f + C^T t - K u`
+    /// without films.
     pub(super) fn rest(&self, t_n: &[f64], t_t: &[f64], taken: &Taken) -> Vec<f64> {
         let loads = self.problem.loads().iter();
         let mut rest: Vec<f64> = loads.zip(&taken.all).map(|(f, taken)| f - taken).collect();
@@ -95,7 +96,7 @@ impl<'a> Structure<'a> {
         rest
     }
 
-    /// The largest force left over, relative to the loads.
+    /// The largest unbalanced force, relative to the loads.
     pub(super) fn unbalance(&self, state: &ContactState, taken: &Taken) -> f64 {
         let rest = self.rest(&state.t_n, &state.t_t, taken);
         if rest.iter().any(|v| !v.is_finite()) {
@@ -104,8 +105,8 @@ impl<'a> Structure<'a> {
         ratio(largest(&rest), if self.load > 0.0 { self.load } else { largest(&state.t_n) })
     }
 
-    /// Residuals of a state, from the data. The law of films holds by its evaluation, and what they take is no
-    /// load of the contact problem any more.
+    /// Residuals of a state, from the data. The evaluation of the law of films satisfies it, and the forces that films
+    /// take are no longer loads of the contact problem.
     ///
     /// # Errors
     /// [`lcp::Error::NotFinite`] if the forces of films overflow.
@@ -124,16 +125,16 @@ impl<'a> Structure<'a> {
         Ok(self.problem.with_loads(left)?.residuals(state))
     }
 
-    /// Largest of `min(force, gap or slip)` over the pairs of the contact law, and of what is negative in them, with
-    /// forces in units of the largest one, and gaps and slips in units of what the bodies are deformed by, or would be
-    /// by the loads: a body that slid far makes all gaps small against its displacements, also those that should carry
-    /// no force.
+    /// Largest of `min(force, gap or slip)` over the pairs of the contact law, and of the violations of their signs,
+    /// with forces in units of the largest one, and gaps and slips in units of the deformation of the bodies, or of
+    /// the displacement under the loads if larger: all gaps of a body that slid far are small against its
+    /// displacements, also those that should carry no force.
     pub(super) fn slack(&self, state: &ContactState, taken: &Taken) -> f64 {
         let ContactState { u, t_n, t_t, gap, slip, .. } = state;
         let deformed = taken.blocks.iter().zip(&self.diagonal).map(|(force, k)| force / k);
         let length = deformed.fold(self.way, |max, d| max.max(d.abs()));
         let force = largest(t_n);
-        // A rounding error between bodies that moved far is no gap.
+        // A rounding error between bodies that moved far is not a gap.
         let rounding = |row: &[(usize, f64)], first: f64| {
             let terms = row.iter().map(|&(j, v)| (v * u[j]).abs());
             ROUNDING * terms.fold(first.abs(), f64::max)
@@ -158,7 +159,7 @@ impl<'a> Structure<'a> {
     }
 }
 
-/// Nothing is a small part of anything, and everything a large part of nothing.
+/// A ratio of sizes: zero if `value` is not positive, and infinite for a positive value if `unit` is zero.
 fn ratio(value: f64, unit: f64) -> f64 {
     if value <= 0.0 { 0.0 } else { value / unit }
 }

@@ -1,7 +1,7 @@
 //! The law at one point of a film: elastic mortar in series with a unilateral interface with friction.
 //!
-//! The faces move by the deformation of the mortar and by opening and sliding of an interface. With the
-//! slip `s` reached so far, and the elastic matrix `C`:
+//! The faces move by the deformation of the mortar and by opening and sliding of an interface. The law
+//! for the slip `s` reached so far and the elastic matrix `C` is:
 //!
 //! ```text
 //!  sigma_y* = C_yx eps_x + C_yy eps_y,      tau* = G (gamma - s / t_y)
@@ -11,8 +11,8 @@
 //!  slip    otherwise                        tau = sign(tau*) mu |sigma_y|,  the rest as in stick
 //! ```
 //!
-//! The stress is continuous in the strain. `s` becomes `t_y (gamma - tau / G)` in every state, so the
-//! dissipation `tau ds` is zero unless the point slips, and then positive.
+//! The stress is continuous in the strain. `s` becomes `t_y (gamma - tau / G)` in every state, and the
+//! dissipation `tau ds` is positive if the point slips, and zero otherwise.
 
 use nalgebra::{Matrix3, Vector3};
 
@@ -38,7 +38,7 @@ pub struct PointResponse {
     pub contact: PointStatus,
     /// The state after this step.
     pub state: FilmState,
-    /// Opening of the interface \[m\]; zero unless it is open.
+    /// Opening of the interface \[m\]; zero unless the interface is open.
     pub opening: f64,
     /// Energy dissipated in this step per area of the joint \[J/m^2\], never negative.
     pub dissipation: f64,

@@ -1,8 +1,8 @@
 //! Forces and tangent of a film with the law at its Gauss points.
 //!
-//! The strip is divided into equal parts with two Gauss points each. Where all of a part sticks, or all of
-//! it is open, its integral is exact; a boundary between states inside a part costs an error of
-//! the order of the square of its length.
+//! The strip is divided into equal parts with two Gauss points each. The integral over a part is exact if all of it
+//! sticks, or all of it is open; a boundary between states inside a part causes an error of the order of the square of
+//! its length.
 
 use nalgebra::Matrix3;
 
@@ -19,10 +19,10 @@ pub struct PointwiseFilm {
     parts: usize,
 }
 
-/// The answer of a film to the displacements of its nodes.
+/// The response of a film to the displacements of its nodes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FilmResponse {
-    /// Internal forces \[N\], conjugate to the displacements: what the nodes must apply to the film.
+    /// Internal forces \[N\], conjugate to the displacements: the forces that the nodes must apply to the film.
     pub force: Vector8,
     /// The Gauss points, along `x`.
     pub points: Vec<PointResponse>,
@@ -61,7 +61,7 @@ impl PointwiseFilm {
             .flat_map(move |k| GAUSS_2.map(|xi| start + part * (k as f64 + 0.5 * (1.0 + xi))))
     }
 
-    /// The states of all Gauss points before anything has slipped.
+    /// The states of all Gauss points before any slip.
     pub fn initial(&self) -> Vec<FilmState> {
         vec![FilmState::default(); 2 * self.parts]
     }
@@ -72,8 +72,8 @@ impl PointwiseFilm {
         area * self.strip.thickness()
     }
 
-    /// The integral of `B^T D B` \[N/m\] with a matrix `D` \[Pa\] at every Gauss point: the derivative of the forces by the
-    /// displacements for the tangents of the points, which are not symmetric if the points slip.
+    /// The integral of `B^T D B` \[N/m\] with a matrix `D` \[Pa\] at every Gauss point: the derivative of the forces
+    /// with respect to the displacements for the tangents of the points, which are not symmetric if the points slip.
     pub fn tangent(&self, d: impl IntoIterator<Item = Matrix3<f64>>) -> Matrix8 {
         let points = self.places().zip(d).map(|(x, d)| {
             let b = self.strip.strain_matrix(x);

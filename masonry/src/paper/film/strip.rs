@@ -9,8 +9,8 @@
 //!  gamma = (phi- (u_3 - u_1) + phi+ (u_4 - u_2)) / t_y + (v_2 - v_1 + v_4 - v_3) / 2l
 //! ```
 //!
-//! Every motion of the whole strip as a rigid body is free of strain. That takes faces at their
-//! real distance `t_y`: between faces drawn on one line a rotation would strain the strip.
+//! Every motion of the whole strip as a rigid body is free of strain, if the faces have their real
+//! distance `t_y`: a rotation would strain a strip between faces that are drawn on one line.
 
 use nalgebra::{Matrix3, Vector3};
 

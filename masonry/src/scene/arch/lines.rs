@@ -57,7 +57,7 @@ fn given(arch: &Arch, at: &KeyPath) -> Result<Vec<JointLine>, Fault> {
     Ok(lines.into_iter().map(|line| line.map(moved)).collect())
 }
 
-/// Keys that belong to other shapes.
+/// Refuses keys that belong to other shapes.
 fn refuse_others(arch: &Arch, at: &KeyPath) -> Result<(), Fault> {
     use Shape::{Flat, Joints, Pointed, Segmental, Semicircular};
     let circles = [Segmental, Semicircular, Pointed, Flat];
@@ -87,7 +87,8 @@ struct Size {
 
 /// Voussoirs of one arch, and blocks of one of its piers, at most.
 pub(super) const MOST: u32 = 10_000;
-/// How far the springings of a flat arch may lean \[degrees\]. Chosen: far more than masons build.
+/// The largest angle of the springings of a flat arch from the vertical \[degrees\]. Chosen: far more
+/// than masons build.
 const STEEPEST: f64 = 80.0;
 const RIGHT_ANGLE: f64 = 0.5 * std::f64::consts::PI;
 
@@ -104,7 +105,7 @@ impl Size {
         Ok(Self { origin: arch.origin.unwrap_or_default(), span, thickness, count })
     }
 
-    /// Half a circle needs two voussoirs.
+    /// Checks the number of voussoirs: half a circle needs two.
     fn check_convex(&self, half: f64, at: &KeyPath) -> Result<(), Fault> {
         let is_convex = self.count > 1 || half < RIGHT_ANGLE * (1.0 - 1e-9);
         let wanted = "a single voussoir of half a circle is not convex: give at least 2";
@@ -142,7 +143,8 @@ impl Size {
         }
         let radius = (half * half + rise * rise) / self.span;
         let outer = radius + self.thickness;
-        // From the left centre, which lies to the right of the left springing, to the crown.
+        // Angles about the left centre, which lies to the right of the left springing, up to the
+        // crown.
         let across = radius - half;
         let crown = [rise, (outer * outer - across * across).sqrt()].map(|y| self.place([half, y]));
         let angle = -(across / radius).asin();

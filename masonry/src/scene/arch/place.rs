@@ -13,7 +13,7 @@ const MOST_RINGS: u32 = 100;
 /// A block of an arch.
 pub(crate) struct NamedBlock {
     pub(crate) name: String,
-    /// Its corners \[length\].
+    /// The corners of the block \[length\].
     pub(crate) corners: [[f64; 2]; 4],
     /// The ring of a voussoir, from the intrados; `None` for blocks of piers.
     pub(crate) ring: Option<u32>,
@@ -56,7 +56,7 @@ fn on([[x, y], [to_x, to_y]]: JointLine, at: f64) -> [f64; 2] {
     if at >= 1.0 { [to_x, to_y] } else { [x + (to_x - x) * at, y + (to_y - y) * at] }
 }
 
-/// The supports below both ends: along the springings, or below the piers. None without a class.
+/// The supports below both ends: along the springings, or below the piers. Empty without a class.
 pub(crate) fn supports(arch: &Arch, at: &KeyPath) -> Result<Vec<Support>, Fault> {
     let Some(class) = &arch.springing else { return Ok(Vec::new()) };
     let lines = lines(arch, at)?;
@@ -99,7 +99,7 @@ fn ends(lines: &[JointLine]) -> [(&'static str, f64, JointLine); 2] {
     [("left", -1.0, lines[0]), ("right", 1.0, lines[lines.len() - 1])]
 }
 
-/// The blocks of a pier from the bottom, and the one with the face of the springing.
+/// The blocks of a pier from the bottom, and the block with the face of the springing.
 fn pier(
     piers: &Piers,
     at: &KeyPath,

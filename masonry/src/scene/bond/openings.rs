@@ -8,8 +8,8 @@ use crate::scene::{Arch, Courses, Fault, KeyPath, Opening, Wall, arch};
 /// Pieces shorter than this part of a brick are laid as one with their neighbours.
 const SHORT: f64 = 0.25;
 
-/// The stretch of a course in the place of an opening or its lintel, in units of one brick and its head joint, and whether
-/// one block fills it. The stretch of a flat arch is that at the top of the course.
+/// The stretch of a course in the place of an opening or its lintel, in units of one brick and its head joint, and
+/// whether one block fills the stretch. The stretch of a flat arch is that at the top of the course.
 pub(crate) fn taken(
     wall: &Wall,
     joints: JointThickness,
@@ -66,7 +66,7 @@ pub(super) fn lintel_at(
     })
 }
 
-/// How much farther a brick reaches at its bottom than at its top, to the left and to the right \[length\]: beside a flat arch.
+/// The lengths by which the bottom of a brick reaches beyond its top, left and right \[length\]: beside a flat arch.
 pub(super) fn leans(
     wall: &Wall,
     joints: JointThickness,

@@ -1,4 +1,4 @@
-//! Checks of joints, of their mortar, and of the bricks that it leaves room for.
+//! Checks of joints, of their mortar, and of the room that it leaves for bricks.
 
 use super::{Check, needed, not_negative, positive, unwanted, value};
 use crate::scene::bond::{self, JointThickness};
@@ -9,7 +9,7 @@ use crate::scene::{Courses, Fault, Films, Joint, KeyPath, PointRule, Scene, Scen
 const ROUNDING: f64 = 1e-12;
 
 impl Scene {
-    /// Thickness and material of the mortar: none, or both, the material elastic.
+    /// Checks thickness and material of the mortar: none, or both, with an elastic material.
     pub(super) fn check_mortar(&self, at: &KeyPath, joint: &Joint) -> Check {
         let otherwise = ", or add `thickness`";
         let is_bare = joint.thickness.is_none() && joint.material.is_some();
@@ -31,7 +31,7 @@ impl Scene {
         Ok(())
     }
 
-    /// Strips need Gauss points, and joints that may have mortar.
+    /// Checks that strips have Gauss points, and that joints may have mortar.
     pub(super) fn check_films(&self, at: &KeyPath) -> Check {
         if self.contact.films != Films::Strips {
             return Ok(());
@@ -49,7 +49,7 @@ impl Scene {
     }
 }
 
-/// Friction, stiffness and strength.
+/// Checks friction, stiffness and strength.
 pub(super) fn check_law(at: &KeyPath, joint: &Joint) -> Check {
     match exactly_one(at, "mu", joint.mu, "phi_deg", joint.phi_deg)? {
         One::First(mu) => not_negative(at.key("mu"), mu)?,
@@ -73,7 +73,7 @@ pub(super) fn check_law(at: &KeyPath, joint: &Joint) -> Check {
     Ok(())
 }
 
-/// Refuses bricks of which the head joints leave nothing.
+/// Refuses bricks without length between their head joints.
 pub(super) fn check_room(at: &KeyPath, wall: &Wall, joints: JointThickness) -> Check {
     if joints.head <= 0.0 {
         return Ok(());

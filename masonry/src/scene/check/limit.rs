@@ -14,7 +14,7 @@ impl Scene {
         self.limit.train.as_ref().map_or(Ok(()), |it| self.check_train(&at.key("train"), it))
     }
 
-    /// What grows is a load, a group of loads, or the weight, and no support.
+    /// Checks that the growing load is a load, a group of loads, or the weight, and not a support.
     fn check_growing(&self, at: &KeyPath) -> Check {
         let Some(name) = &self.limit.group else { return Ok(()) };
         if self.is_weight(name) {
@@ -55,7 +55,7 @@ impl Scene {
         self.check_on_fill(at, &train.over, train.level, train.angle_deg)
     }
 
-    /// What carries an axle, and how the fill spreads it.
+    /// Checks the body that carries an axle, and the spread through the fill.
     pub(super) fn check_on_fill(
         &self,
         at: &KeyPath,
@@ -72,7 +72,7 @@ impl Scene {
         value(at.key("angle_deg"), angle, angle > 0.0 && angle <= 80.0, wanted)
     }
 
-    /// An arch, a wall or a block has this name.
+    /// Checks that an arch, a wall or a block has this name.
     pub(super) fn check_body(&self, at: KeyPath, name: &str) -> Check {
         let names = || {
             let laid = self.arches.iter().map(|it| &it.name);
@@ -87,7 +87,8 @@ impl Scene {
     }
 }
 
-/// A load beside a train has not the name of its axles, which would grow with them or be taken for one.
+/// Refuses a load beside a train with the name of the train's axles, which would grow with them or be
+/// taken for one of them.
 fn check_beside_train(at: &KeyPath, load: &Load) -> Check {
     let names = [("name", Some(&load.name)), ("group", load.group.as_ref())];
     let taken =

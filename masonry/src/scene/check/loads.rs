@@ -1,4 +1,4 @@
-//! Checks of loads, and of the names by which stages and combinations call them.
+//! Checks of loads, and of their names in stages and combinations.
 
 use std::collections::BTreeMap;
 
@@ -13,7 +13,7 @@ use crate::scene::{
 };
 
 impl Scene {
-    /// A load of exactly one kind, whose numbers are in their range.
+    /// Checks that a load is of exactly one kind, and its numbers are in their range.
     pub(super) fn check_load(&self, at: &KeyPath, load: &Load) -> Check {
         if let Some(group) = &load.group {
             if group.trim().is_empty() {
@@ -37,7 +37,7 @@ impl Scene {
         }
     }
 
-    /// A fill or an axle: what carries it, and numbers in their range.
+    /// Checks the body that carries a fill or an axle, and the ranges of their numbers.
     fn check_on_top(&self, at: &KeyPath, load: &Load) -> Check {
         if let Some(Fill { over, level, gamma }) = &load.fill {
             let at = at.key("fill");
@@ -75,14 +75,15 @@ impl Scene {
             point(&at, acceleration)?;
         }
         let densities = self.used_materials().filter_map(|name| self.materials.get(name)?.density);
-        // A factor of zero, as of a load that other combinations name, leaves nothing to accelerate.
+        // A factor of zero, as for a load of other combinations only, leaves nothing to accelerate.
         if load.factor == 0.0 || densities.count() > 0 || self.loads.iter().any(Load::has_mass) {
             return Ok(());
         }
         Err(Fault::new(at, LoadError::NoMass(load.name.clone())))
     }
 
-    /// Factors of a stage or a combination: names that mean one load or one group, no load twice, numbers in their range.
+    /// Checks the factors of a stage or a combination: each name is one load or one group, no load is named twice,
+    /// numbers are in their range.
     pub(super) fn check_factors(&self, at: &KeyPath, factors: &BTreeMap<String, f64>) -> Check {
         for (name, factor) in factors {
             let at = at.key(name);
@@ -100,7 +101,7 @@ impl Scene {
         Ok(())
     }
 
-    /// One load or one group has this name; `also` is another that it could have had.
+    /// Checks that one load or one group has this name; `also` is another name that would be accepted.
     pub(super) fn check_load_name(&self, at: &KeyPath, name: &str, also: Option<&str>) -> Check {
         let names = |of: &dyn Fn(&&Load) -> bool| -> Vec<String> {
             self.loads.iter().filter(of).map(|load| load.name.clone()).collect()
@@ -116,7 +117,7 @@ impl Scene {
             let missing = "it under [[loads]]".to_owned();
             return Err(unknown(at.clone(), what, name, known.collect(), missing));
         }
-        // A member that has the name of its group does not make that mean something else.
+        // A member with the name of its group does not make the name ambiguous.
         if members.is_empty() || single.iter().all(|load| members.contains(load)) {
             return Ok(());
         }

@@ -9,15 +9,15 @@ use crate::scene::bond::{JointThickness, taken, voussoirs};
 use crate::scene::rules::exactly_one;
 use crate::scene::{Fault, Joint, KeyPath, Lintel, Opening, OpeningError, Scene, Wall};
 
-/// How large a wall is.
+/// The size of a wall.
 #[derive(Clone, Copy)]
 pub(super) struct WallSize {
-    /// Its width \[length\].
+    /// The width of the wall \[length\].
     pub(super) width: f64,
     pub(super) courses: u32,
 }
 
-/// Openings inside their wall, whose lintels rest on it and that do not meet.
+/// Checks that openings are inside their wall, that their lintels rest on it, and that openings do not meet.
 pub(super) fn check(at: &KeyPath, wall: &Wall, joints: JointThickness, size: WallSize) -> Check {
     for (k, opening) in wall.openings.iter().enumerate() {
         let at = at.key("openings").item(k);
@@ -66,7 +66,7 @@ fn check_place(at: &KeyPath, wall: &Wall, opening: &Opening, size: WallSize) -> 
 }
 
 impl Scene {
-    /// The lintel of the opening at `at`: its material, joints and shape.
+    /// Checks the lintel of the opening at `at`: its material, joints and shape.
     pub(super) fn check_lintel(
         &self,
         at_wall: &KeyPath,
@@ -95,7 +95,7 @@ impl Scene {
         value(at, thickness, is_same, wanted)
     }
 
-    /// A lintel is one block, or a flat arch of voussoirs with a skew or a rise in a dry wall.
+    /// Checks that a lintel is one block, or a flat arch of voussoirs with a skew or a rise in a dry wall.
     fn check_flat_arch(&self, at: &KeyPath, wall: &Wall, lintel: &Lintel) -> Check {
         let Lintel { voussoirs, skew_deg, rise, courses, .. } = *lintel;
         if voussoirs.is_none() && skew_deg.is_none() && rise.is_none() && courses.is_none() {
@@ -116,7 +116,8 @@ impl Scene {
     }
 }
 
-/// The wall on both sides of an opening is as wide as its lintel needs: up to the end, or to another opening.
+/// Checks that the wall on both sides of an opening, up to its end or to another opening, is wide enough for
+/// the lintel.
 fn check_lintel(at: &KeyPath, wall: &Wall, k: usize, size: WallSize) -> Check {
     let WallSize { width: wide, courses: high } = size;
     let opening = &wall.openings[k];

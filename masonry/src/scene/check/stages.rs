@@ -8,11 +8,11 @@ use crate::scene::{Combination, Fault, KeyPath, LoadError, OPPOSITE, Scene, Stag
 const LARGEST_TURN: f64 = 0.1;
 /// Steps of one stage, at most.
 const MOST_STEPS: u32 = 100_000;
-/// Combinations of a scene, at most. Chosen: more than codes ask for, and each is an analysis of its own.
+/// Combinations of a scene, at most. Chosen: more than codes require, and each is an analysis of its own.
 const MOST_COMBINATIONS: u32 = 1000;
 
 impl Scene {
-    /// A stage: loads and supports that exist, numbers in their range.
+    /// Checks a stage: loads and supports exist, numbers are in their range.
     pub(super) fn check_stage(&self, at: &KeyPath, stage: &Stage) -> Check {
         let steps = at.key("steps");
         at_least_one(steps.clone(), stage.steps, "a stage has at least one step")?;
@@ -41,7 +41,7 @@ impl Scene {
         Ok(())
     }
 
-    /// A combination: its name, loads that exist, numbers in their range.
+    /// Checks a combination: its name, loads that exist, numbers in their range.
     pub(super) fn check_combination(&self, at: &KeyPath, combination: &Combination) -> Check {
         let count = self.combinations.len() as f64;
         at_most(KeyPath::of("combinations"), "combinations", count, MOST_COMBINATIONS)?;

@@ -1,10 +1,10 @@
 //! Errors of contact points.
 
-/// Why contact points could not be placed.
+/// The reasons for which contact points could not be placed.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ContactError {
-    /// A joint has no place where nodes of both sides coincide.
+    /// A joint has no place at which nodes of both sides coincide.
     #[error(
         "the joint between {a} and {b} has no coincident nodes: \
          refine the mesh so that nodes match, or place contact points at vertices"
@@ -28,9 +28,9 @@ pub enum ContactError {
         b: String,
         /// Name of the joint class.
         class: String,
-        /// Smaller distance at the ends of their overlap \[m\].
+        /// Smaller distance of the edges at the ends of their overlap \[m\].
         nearest: f64,
-        /// Larger distance at the ends of their overlap \[m\].
+        /// Larger distance of the edges at the ends of their overlap \[m\].
         farthest: f64,
         /// Thickness of the mortar \[m\].
         thickness: f64,

@@ -19,21 +19,21 @@ pub enum SceneErrorKind {
     /// [`Scene::read_with`](crate::Scene::read_with) takes the function that reads drawings.
     #[error("cannot read the list of blocks {}: {message}", path.display())]
     BlockList {
-        /// The file, as the scene names it.
+        /// The file, as given in the scene.
         path: PathBuf,
         /// The message of the operating system, or of the reader of drawings, with the remedy.
         message: String,
     },
-    /// The text is no TOML, or has unknown, missing or repeated keys, or values of a wrong type: what is wrong and what was
-    /// expected.
+    /// The text is not TOML, or has unknown, missing or repeated keys, or values of a wrong type: the message has the
+    /// mistake and the expected form.
     #[error("{0}")]
     Syntax(String),
-    /// A key is missing that other data of the scene call for.
+    /// A key is missing that other data of the scene require.
     #[error("`{key}` is missing, but needed {because}: add `{remedy}`")]
     Missing {
         /// The missing key.
         key: &'static str,
-        /// Why it is needed.
+        /// The reason for which the key is needed.
         because: &'static str,
         /// An example.
         remedy: &'static str,
@@ -43,7 +43,7 @@ pub enum SceneErrorKind {
     Unwanted {
         /// The key.
         key: &'static str,
-        /// Why it has no meaning.
+        /// The reason for which the key has no meaning.
         because: &'static str,
         /// An alternative.
         otherwise: &'static str,
@@ -53,7 +53,7 @@ pub enum SceneErrorKind {
     Both {
         /// One key.
         first: &'static str,
-        /// The other.
+        /// The other key.
         second: &'static str,
     },
     /// Neither of two keys is given of which exactly one is wanted.
@@ -61,7 +61,7 @@ pub enum SceneErrorKind {
     Neither {
         /// One key.
         first: &'static str,
-        /// The other.
+        /// The other key.
         second: &'static str,
     },
     /// A number is not finite, or out of its range.
@@ -75,7 +75,7 @@ pub enum SceneErrorKind {
     /// A name is empty.
     #[error("the name is empty: give a name by which messages and files can refer to it")]
     EmptyName,
-    /// A name or a title has this character, which terminals obey.
+    /// A name or a title has this control character, which would act on terminals.
     #[error("the text has the control character {0:?}: remove it")]
     Control(char),
     /// A name occurs twice.
@@ -85,7 +85,7 @@ pub enum SceneErrorKind {
         what: &'static str,
         /// The name.
         name: String,
-        /// Where the name occurs first.
+        /// The place of the first occurrence of the name.
         first: String,
     },
     /// A name refers to nothing.
@@ -97,18 +97,18 @@ pub enum SceneErrorKind {
         what: &'static str,
         /// The name.
         name: String,
-        /// The names that there are.
+        /// The names in the scene.
         known: Known,
-        /// The table that would define it.
+        /// The table that would define the name.
         missing: String,
     },
-    /// Nothing to analyse.
+    /// The scene has nothing to analyse.
     #[error("the scene has no blocks: add [[walls]], [[arches]] or [[blocks]]")]
     Empty,
-    /// A list has no items; the remedy.
+    /// A list has no items; the value is the remedy.
     #[error("the list is empty: {0}")]
     EmptyList(&'static str),
-    /// Nothing holds the structure.
+    /// The scene has no support.
     #[error(
         "the scene has no support, so that nothing holds it: add [[supports]], or `springing` to an arch"
     )]
@@ -121,14 +121,14 @@ pub enum SceneErrorKind {
         /// Coordinate of the ends.
         y: f64,
     },
-    /// More items than can be analysed.
+    /// There are more items than can be analysed.
     #[error("{count:.0} {what} are too many: at most {limit} are possible")]
     TooMany {
         /// The kind of item.
         what: &'static str,
-        /// How many.
+        /// The number of items.
         count: f64,
-        /// How many are possible.
+        /// The largest possible number.
         limit: u32,
     },
     /// The corners of a block run clockwise.
@@ -144,12 +144,12 @@ pub enum SceneErrorKind {
         /// Unit of length.
         unit: &'static str,
     },
-    /// A block with less than three corners.
+    /// A block has less than three corners.
     #[error("block \"{block}\" has {count} corners: give at least three")]
     TooFewCorners {
         /// Name of the block.
         block: String,
-        /// How many there are.
+        /// The number of its corners.
         count: usize,
     },
     /// The edges of the block of this name cross or touch each other.
@@ -158,7 +158,7 @@ pub enum SceneErrorKind {
          counter-clockwise"
     )]
     CrossingEdges(String),
-    /// A block of an elastic material that is not star-shaped about its centroid.
+    /// A block of an elastic material is not star-shaped about its centroid.
     #[error(
         "block \"{block}\" has no mesh: its edge {edge}, counted from 0, cannot be seen from its centroid: give it a rigid \
          material (one without E), or divide it"
@@ -169,7 +169,7 @@ pub enum SceneErrorKind {
         /// The edge, from 0.
         edge: usize,
     },
-    /// Two numbers of elements for a block that is no convex quadrilateral.
+    /// Two numbers of elements are given for a block that is not a convex quadrilateral.
     #[error(
         "block \"{block}\" has two numbers of elements, but only a convex block with four corners has two: give one, such as \
          mesh = {}", mesh[0]
@@ -196,7 +196,7 @@ pub enum SceneErrorKind {
     TooMuchTension {
         /// The tensile strength, in units of the scene.
         tension: f64,
-        /// The largest possible.
+        /// The largest possible tensile strength.
         largest: f64,
     },
     /// Two blocks occupy the same place.
@@ -208,7 +208,7 @@ pub enum SceneErrorKind {
     Overlap {
         /// Name of one block.
         first: String,
-        /// Name of the other.
+        /// Name of the other block.
         second: String,
         /// Area of the overlap in units of the scene.
         area: f64,
@@ -240,11 +240,11 @@ pub enum SceneErrorKind {
     OverlappingSupports {
         /// Name of one support.
         first: String,
-        /// Name of the other.
+        /// Name of the other support.
         second: String,
         /// Name of the block.
         block: String,
-        /// Length that both hold in units of the scene.
+        /// Length that both supports hold, in units of the scene.
         length: f64,
         /// Unit of length.
         unit: &'static str,
@@ -278,16 +278,16 @@ pub enum SceneErrorKind {
         class: String,
         /// Name of one block.
         first: String,
-        /// Name of the other.
+        /// Name of the other block.
         second: String,
     },
-    /// An impossible arch.
+    /// An arch is impossible.
     #[error("{0}")]
     Arch(#[from] ArchError),
-    /// An impossible opening.
+    /// An opening is impossible.
     #[error("{0}")]
     Opening(#[from] OpeningError),
-    /// A mistake in a load.
+    /// A load has a mistake.
     #[error("{0}")]
     Load(#[from] LoadError),
     /// Contact points could not be placed.
@@ -295,7 +295,7 @@ pub enum SceneErrorKind {
     Contact(#[from] ContactError),
 }
 
-/// A number as it was written, with an exponent in the place of many zeros.
+/// A number as it was written, with an exponent instead of many zeros.
 fn number(value: f64) -> String {
     let is_plain = value == 0.0 || (1e-6..1e16).contains(&value.abs());
     if is_plain { value.to_string() } else { format!("{value:e}") }

@@ -1,11 +1,11 @@
-//! Names that are not there, and the one that was probably meant.
+//! Names that do not exist, and the name that was probably meant.
 
 use std::fmt;
 
-/// The names of a kind that a scene has.
+/// The names of one kind in a scene.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Known {
-    /// All of them.
+    /// All names.
     pub names: Vec<String>,
     /// The name that was probably meant.
     pub nearest: Option<String>,
@@ -34,12 +34,12 @@ impl fmt::Display for Known {
     }
 }
 
-/// So many names are listed.
+/// The largest number of names in a list.
 const MOST_NAMES: usize = 12;
-/// Names that differ by more than this part of their letters are different names.
+/// The least similarity of names that may be mistaken for each other \[-\].
 const SIMILAR: f64 = 0.7;
 
-/// The name that is most like another one, if one is like it at all.
+/// The name that is most similar to another one, if any is similar.
 fn nearest<'a>(given: &str, names: impl Iterator<Item = &'a str>) -> Option<&'a str> {
     let likeness = |name: &str| strsim::normalized_damerau_levenshtein(given, name);
     let like =
@@ -47,13 +47,13 @@ fn nearest<'a>(given: &str, names: impl Iterator<Item = &'a str>) -> Option<&'a 
     like.max_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, name)| name)
 }
 
-/// The message of the reader, with the key that was probably meant.
+/// The message of the TOML reader, with the key that was probably meant.
 pub(super) fn with_nearest(message: &str) -> String {
     let quoted: Vec<&str> = message.split('`').skip(1).step_by(2).collect();
     let hint = message.starts_with("unknown ").then_some(&quoted[..]);
     match hint.and_then(<[&str]>::split_first) {
         Some((given, known)) => match nearest(given, known.iter().copied()) {
-            // First, since the list of all keys may be long.
+            // The suggestion comes first, since the list of all keys may be long.
             Some(name) => message.replacen(", ", &format!("; did you mean `{name}`? "), 1),
             None => message.to_owned(),
         },
