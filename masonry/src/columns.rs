@@ -27,7 +27,8 @@ impl ColumnMatrix {
 
     /// The matrix, with the given number of rows.
     ///
-    /// # Panics If a row is not below that number, or the rows of a column do not increase.
+    /// # Panics
+    /// If a row is not below that number, or the rows of a column do not increase.
     pub(crate) fn assembled(self, rows: usize) -> SparseColMat<usize, f64> {
         let columns = self.starts.len() - 1;
         let pattern =

@@ -1,16 +1,16 @@
 //! The equilibrium system of a model, block by block: stiffness, loads and contact rows.
 //!
-//! `K u = f + C^T t` (3.2), `y = C u + x`. `K` is block-diagonal, so everything is kept per block.
-//! Row `c` of `C`, for `c` below the number of contact points, is the normal row of contact point `c`;
-//! one tangential row follows for each point with friction, in the order of the points.
+//! `K u = f + C^T t` (3.2), `y = C u + x`. `K` is block-diagonal, so that all data are kept per block. Row `c` of `C`,
+//! for `c` below the number of contact points, is the normal row of contact point `c`; one tangential row follows for
+//! each point with friction, in the order of the points.
 //!
 //! The stiffness of a joint, and a film of mortar, are springs in series with the contact: `y = C u + x + c t`, with
 //! the sum `c` of their compliances in the row of the point ([`Row::compliance`]). The shear of a film is that of the
 //! strip (3.38), `(u_b - u_a).t` and half the thickness times the rotation of both faces, so that no rigid motion
-//! shears it; both faces feel its force in the middle between them. Whole strips of mortar have two terms
-//! more if they touch elastic blocks, by the elongation `e = L u` of the film: a gap of
-//! `t_y (C_12 / C_22) eps_x` in the normal row, and the force of a bar, [`StretchRow`],
-//! `K u + L^T D L u = f + C^T t`. Rigid motions have no part in either.
+//! shears it; its force acts on both faces in the middle between them. Whole strips of mortar have two more terms if
+//! they touch elastic blocks, by the elongation `e = L u` of the film: a gap of `t_y (C_12 / C_22) eps_x` in the normal
+//! row, and the force of a bar, [`StretchRow`], `K u + L^T D L u = f + C^T t`. Rigid motions have no part in these
+//! terms.
 
 use faer::Mat;
 use nalgebra::{Point2, Vector2};
@@ -74,12 +74,13 @@ pub struct Row {
     pub contact: ContactId,
     /// The direction.
     pub direction: Direction,
-    /// Initial gap `x_0` or initial slip `s_0` \[m\]; less what tensile strength stretches a joint that gives way.
+    /// Initial gap `x_0` or initial slip `s_0` \[m\], less the stretch of a joint that gives way by its tensile
+    /// strength.
     pub offset: f64,
     /// Compression or shear of the joint and of a film in it under a unit of force \[m/N\]; zero if nothing gives way.
     pub compliance: f64,
     /// The difference between the unknown and the force \[N\]: the tensile strength `T` of the point in a normal row,
-    /// and zero in the others. It is among the loads on both sides.
+    /// and zero in a tangential row. It is among the loads on both sides.
     pub tension: f64,
 }
 
@@ -104,7 +105,7 @@ pub struct System {
     pub friction: Vec<Friction>,
     /// The blocks, in the order of the model.
     pub bodies: Vec<BodySystem>,
-    /// The elongations of strips that act on elastic blocks; none if films are compliances.
+    /// The elongations of strips that act on elastic blocks; empty if films are compliances.
     pub stretches: Vec<StretchRow>,
     /// Stiffnesses; equal blocks share one.
     pub stiffnesses: Vec<Stiffness>,
@@ -114,16 +115,16 @@ impl System {
     /// Builds the system of a model. Equal blocks share one stiffness and its factorisation.
     ///
     /// # Errors
-    /// [`SystemError`] names the block whose stiffness cannot be built.
+    /// [`SystemError`] with the block whose stiffness cannot be built.
     pub fn new(model: &Model) -> Result<Self, SystemError> {
         Self::build(model, Built::MatrixAndFactor)
     }
 
-    /// The same without the dense factors of the stiffnesses, for [`Sparse`](crate::forms::Sparse): it
-    /// can be neither reduced nor used for [`elastic_displacements`](Self::elastic_displacements).
+    /// Builds the system without the dense factors of the stiffnesses, for [`Sparse`](crate::forms::Sparse): it can be
+    /// neither reduced nor used for [`elastic_displacements`](Self::elastic_displacements).
     ///
     /// # Errors
-    /// As [`System::new`], but for a stiffness that is not positive definite, which only its factor shows.
+    /// As [`System::new`], except for a stiffness that is not positive definite, which only its factor shows.
     pub fn without_factors(model: &Model) -> Result<Self, SystemError> {
         Self::build(model, Built::Matrix)
     }
@@ -180,7 +181,7 @@ impl System {
         self.pull();
     }
 
-    /// Adds to the loads what the normal unknowns have beyond the forces ([`Row::tension`]).
+    /// Adds the difference between the normal unknowns and the forces ([`Row::tension`]) to the loads.
     fn pull(&mut self) {
         if self.rows.iter().all(|row| row.tension <= 0.0) {
             return;
@@ -205,7 +206,8 @@ impl System {
         self.bodies.iter().any(is_elastic) || self.rows.iter().any(|row| row.compliance > 0.0)
     }
 
-    /// Whether blocks may be at rest under any forces: all are rigid, no gap is open, no slip is left and no joint gives way.
+    /// Whether blocks may be at rest under any forces: all are rigid, no gap is open, there is no initial slip and no
+    /// joint gives way.
     pub fn is_at_rest(&self) -> bool {
         let is_closed = |row: &Row| row.offset.abs() <= 0.0 && row.compliance <= 0.0;
         !self.gives_way() && self.rows.iter().all(is_closed)
@@ -272,7 +274,7 @@ fn elastic_part(block: &PlacedBlock) -> Result<Option<(&BlockMesh, Elasticity)>,
     }
 }
 
-/// Adds row `k` to the block in front with its sign and to the one behind with the opposite sign.
+/// Adds row `k` to the block in front with its sign and to the block behind with the opposite sign.
 fn add_row(model: &Model, bodies: &mut [BodySystem], k: usize, row: &Row) {
     let contact = &model.contacts[row.contact.index()];
     let joint = &model.joints[contact.joint.index()];

@@ -35,7 +35,7 @@ pub enum ForceUnit {
     Gn,
 }
 
-/// The units in which a scene gives its lengths and forces; all others follow from these two.
+/// The units in which a scene gives its lengths and forces; all other units follow from these two.
 ///
 /// Stresses and moduli are force / length^2. Density is always kg/m^3, gravity m/s^2 and angles
 /// degrees, whatever the units of length and force.

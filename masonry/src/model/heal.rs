@@ -56,8 +56,9 @@ pub type Unhealed = &'static str;
 /// Moves corners of the last `count` blocks by as little as possible, so that each corner nearer than the tolerance
 /// \[m\] to a corner or an edge of another block, or to a support, lies on it. `None` if nothing had to be moved.
 ///
-/// # Errors The tolerance is too large for the blocks, or some corners cannot meet their neighbours by movements within
-/// the tolerance. The blocks are not changed then.
+/// # Errors
+/// The tolerance is too large for the blocks, or some corners cannot meet their neighbours by movements within the
+/// tolerance. The blocks are not changed then.
 pub fn heal(
     blocks: &mut [PlacedBlock],
     count: usize,

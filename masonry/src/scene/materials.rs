@@ -11,7 +11,7 @@ use crate::units::Units;
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Material {
-    /// Young's modulus \[force/length^2\]; blocks of a material without it are rigid.
+    /// Young's modulus \[force/length^2\]; blocks of a material without `E` are rigid.
     #[serde(rename = "E")]
     pub young: Option<f64>,
     /// Poisson's ratio \[-\], required with `E`.
@@ -22,7 +22,7 @@ pub struct Material {
 }
 
 impl Material {
-    /// The elastic constants in SI units; `None` of a rigid material.
+    /// The elastic constants in SI units; `None` for a rigid material.
     pub(crate) fn elasticity(&self, units: Units) -> Option<Elasticity> {
         let young = self.young? * units.stress_to_si();
         Some(Elasticity { young, poisson: self.poisson? })
@@ -43,12 +43,14 @@ pub struct Joint {
     pub cohesion: Option<f64>,
     /// Tensile strength \[force/length^2\], at most the cohesion divided by the coefficient of friction.
     pub tension: Option<f64>,
-    /// Normal and tangential stiffness of the faces `[k_n, k_t]` \[force/length^3\]; without them the faces do not give way.
+    /// Normal and tangential stiffness of the faces `[k_n, k_t]` \[force/length^3\]; the faces do not give way without
+    /// it.
     #[serde(default, deserialize_with = "strict::read")]
     pub stiffness: Option<[f64; 2]>,
-    /// The places on the joints of the class at which the law is enforced, if not as [`Contact::points`](super::Contact::points) says.
+    /// The places on the joints of the class at which the law is enforced, instead of
+    /// [`Contact::points`](super::Contact::points).
     pub points: Option<PointRule>,
-    /// Thickness of the mortar \[length\]; without it, or with zero, the joint is dry.
+    /// Thickness of the mortar \[length\]; the joint is dry if it is zero or not given.
     pub thickness: Option<f64>,
     /// Name of the elastic material of the mortar; required with a thickness above zero.
     pub material: Option<String>,
@@ -74,6 +76,6 @@ pub struct Between {
     /// The two names; twice the same wall for the joints within it.
     #[serde(deserialize_with = "strict::read")]
     pub blocks: [String; 2],
-    /// The class of their joints.
+    /// The class of the joints between the two.
     pub joint: String,
 }

@@ -1,4 +1,4 @@
-//! Bricks, how they are laid, and openings between them.
+//! Bricks, their bonds, and openings between them.
 
 use serde::{Deserialize, Serialize};
 
@@ -18,7 +18,7 @@ pub struct Brick {
     pub height: f64,
 }
 
-/// How the bricks of a wall are laid.
+/// The bond of the bricks of a wall.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(rename_all = "lowercase")]
@@ -28,35 +28,36 @@ pub enum Bond {
     Running,
     /// All courses are alike, and head joints lie above each other.
     Stack,
-    /// Courses of whole bricks and courses of half bricks in turn, these with a quarter beside the first and the last: the face
-    /// of an English bond, with its stretchers, headers and closers.
+    /// Courses of whole bricks alternate with courses of half bricks with a quarter beside the first and the last: the
+    /// face of an English bond, with its stretchers, headers and closers.
     English,
-    /// Whole and half bricks in turn in each course, the half ones above and below the middle of whole ones: the face of a Flemish
-    /// bond. Every second course begins and ends with a half brick and a quarter. Widths of `1.5 n + 1` bricks need no others.
+    /// Whole and half bricks alternate in each course, the half ones above and below the middle of whole ones: the face
+    /// of a Flemish bond. Every second course begins and ends with a half brick and a quarter. Widths of `1.5 n + 1`
+    /// bricks need no other pieces.
     Flemish,
 }
 
 /// An opening in a wall, with a lintel above it.
 ///
-/// Bricks are cut at its sides; a piece that would be shorter than a quarter of a brick is laid as one with its neighbour. The
-/// lintel is one block in the course above, named like a brick, and there is none if the opening
+/// Bricks are cut at the sides of the opening; a piece shorter than a quarter of a brick is laid as one with its
+/// neighbour. The lintel is one block in the course above, named like a brick; there is no lintel if the opening
 /// reaches the top of the wall.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Opening {
-    /// Distance of its left side from the left end of the wall \[length\].
+    /// Distance of the left side of the opening from the left end of the wall \[length\].
     pub x: f64,
-    /// Its width \[length\].
+    /// Width of the opening \[length\].
     pub width: f64,
-    /// The lowest course of the opening, from 1; by default 1, as of a door.
+    /// The lowest course of the opening, from 1; 1 by default, as for a door.
     #[serde(default = "first")]
     pub course: u32,
-    /// Its height in courses.
+    /// Height of the opening in courses.
     pub courses: u32,
-    /// Length on which the lintel rests on either side \[length\], half a brick without it.
+    /// Length on which the lintel rests on either side \[length\]; half a brick by default.
     pub bearing: Option<f64>,
-    /// What the lintel is made of.
+    /// The material, joints and shape of the lintel.
     #[serde(default, deserialize_with = "strict::read")]
     pub lintel: Option<Lintel>,
 }
@@ -66,17 +67,17 @@ pub struct Opening {
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Lintel {
-    /// Name of its material, instead of that of the wall.
+    /// Name of the lintel's material, instead of that of the wall.
     pub material: Option<String>,
-    /// Class of all of its joints, instead of those of the wall.
+    /// Class of all joints of the lintel, instead of those of the wall.
     pub joint: Option<String>,
-    /// Voussoirs of a flat arch; without the key the lintel is one block.
+    /// Number of voussoirs of a flat arch; the lintel is one block by default.
     pub voussoirs: Option<u32>,
     /// Angle of the springings of a flat arch with a straight intrados from the vertical \[degrees\].
     pub skew_deg: Option<f64>,
     /// Rise of the intrados of a flat arch, if it is an arc \[length\].
     pub rise: Option<f64>,
-    /// Height of a flat arch in courses, 1 without the key.
+    /// Height of a flat arch in courses; 1 by default.
     pub courses: Option<u32>,
 }
 
@@ -84,22 +85,22 @@ pub struct Lintel {
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct FlatArch {
     pub(crate) voussoirs: u32,
-    /// Tangent of the angle of its springings from the vertical.
+    /// Tangent of the angle of the springings from the vertical.
     slope: f64,
-    /// Its height in courses.
+    /// Height of the arch in courses.
     pub(crate) courses: u32,
 }
 
 impl FlatArch {
-    /// How far its springings lean outwards over so many courses of this height \[length\].
+    /// The distance by which the springings lean outwards over a number of courses of this height \[length\].
     pub(crate) fn lean(&self, courses: usize, height: f64) -> f64 {
         courses as f64 * height * self.slope
     }
 }
 
 impl Opening {
-    /// A door: an opening of a width \[length\] from the lowest course on, so many courses high, at a distance from the left
-    /// end of the wall.
+    /// A door: an opening of a width \[length\] from the lowest course on, `courses` high, at the distance `x` from the
+    /// left end of the wall.
     ///
     /// ```
     /// use masonry::scene::Opening;
@@ -111,7 +112,7 @@ impl Opening {
     }
 
     setters! {
-        /// Puts the opening above so many courses, as a window.
+        /// Puts the opening above the given number of courses, as for a window.
         pub fn above(mut self, courses: u32) { self.course = courses.saturating_add(1) }
         /// Gives the length on which the lintel rests on either side \[length\].
         pub fn bearing(mut self, length: f64) { self.bearing = Some(length) }
@@ -122,12 +123,12 @@ impl Opening {
         }
     }
 
-    /// The class of the joints of its lintel.
+    /// The class of the joints of the lintel.
     pub(crate) fn lintel_joint(&self) -> Option<&str> {
         self.lintel.as_ref()?.joint.as_deref()
     }
 
-    /// The flat arch above it.
+    /// The flat arch above the opening.
     pub(crate) fn arch(&self) -> Option<FlatArch> {
         let lintel = self.lintel.as_ref()?;
         let voussoirs = lintel.voussoirs?;
@@ -136,13 +137,13 @@ impl Opening {
         Some(FlatArch { voussoirs, slope: angle.tan(), courses: lintel.courses.unwrap_or(1) })
     }
 
-    /// The courses that its lintel takes, from 0.
+    /// The courses of the lintel, from 0.
     pub(crate) fn lintel_rows(&self) -> std::ops::Range<usize> {
         let first = self.rows().end;
         first..first.saturating_add(self.arch().map_or(1, |it| it.courses as usize))
     }
 
-    /// The courses that it takes, from 0.
+    /// The courses of the opening, from 0.
     pub(crate) fn rows(&self) -> std::ops::Range<usize> {
         let first = self.course.saturating_sub(1) as usize;
         first..first.saturating_add(self.courses as usize)
@@ -161,7 +162,7 @@ impl Opening {
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum OpeningError {
-    /// It reaches beyond the end of the wall.
+    /// The opening reaches beyond the end of the wall.
     #[error(
         "an opening of {width} at x = {x} reaches beyond the wall, which is {wall} wide: give a width of at most {room}"
     )]
@@ -175,14 +176,14 @@ pub enum OpeningError {
         /// Length of wall to the right of `x`.
         room: f64,
     },
-    /// It reaches beyond the top of the wall.
+    /// The opening reaches beyond the top of the wall.
     #[error(
         "an opening of {courses} courses from course {first} on reaches beyond the {wall} of the wall: give at most {room}"
     )]
     TooHigh {
-        /// Its height in courses.
+        /// Height of the opening in courses.
         courses: u32,
-        /// Its lowest course.
+        /// The lowest course of the opening.
         first: u32,
         /// Courses of the wall.
         wall: u32,
@@ -199,9 +200,9 @@ pub enum OpeningError {
         side: &'static str,
         /// The bearing of the lintel.
         bearing: f64,
-        /// The length of wall there.
+        /// The length of wall on this side.
         room: f64,
-        /// Whether the lintel is a flat arch, whose springings lean so far.
+        /// Whether the lintel is a flat arch, whose springings lean by the bearing.
         is_arch: bool,
     },
     /// Two openings, or an opening and a lintel, take the same place.
@@ -209,7 +210,7 @@ pub enum OpeningError {
         "the opening or its lintel runs into openings[{other}] in course {course}: move them apart, or make one smaller"
     )]
     Meets {
-        /// The other one, from 0.
+        /// The index of the other opening, from 0.
         other: usize,
         /// The course, from 1.
         course: usize,

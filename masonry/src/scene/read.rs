@@ -1,4 +1,4 @@
-//! Scenes from text and as text.
+//! The way from text to scenes and back.
 
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
@@ -10,7 +10,8 @@ use super::source::{List, Source};
 use super::{Fault, KeyPath, Scene, SceneError, SceneErrorKind, block_list};
 use crate::files::read_bounded;
 
-/// Bytes of a scene, and of its list of blocks. Theory: a hundred for each block of the most that a scene may have.
+/// The largest size of a scene, and of its list of blocks \[bytes\]. Theory: a hundred for each block of the most that
+/// a scene may have.
 const LARGEST_FILE: usize = 100 << 20;
 
 impl Scene {
@@ -25,8 +26,8 @@ impl Scene {
     /// Reads a scene from a TOML file and [checks](Scene::check) it.
     ///
     /// # Errors
-    /// [`SceneErrorKind::Read`] when the file cannot be read as UTF-8 text, else as
-    /// [`Scene::from_toml`], with the path of the file.
+    /// [`SceneErrorKind::Read`] when the file cannot be read as UTF-8 text, else as [`Scene::from_toml`], with the path
+    /// of the file.
     pub fn read(path: &Path) -> Result<Self, SceneError> {
         Self::read_by(path, None)
     }
@@ -47,13 +48,13 @@ impl Scene {
         toml::to_string(self).map_err(|error| SceneError::unwritable(error.to_string()))
     }
 
-    /// The files that the scene was read from: its own and that of its list of blocks.
+    /// The files from which the scene was read: its own and that of its list of blocks.
     pub fn files(&self) -> impl Iterator<Item = &Path> {
         let list = self.source.list().map(|list| list.path.as_path());
         self.source.path().into_iter().chain(list)
     }
 
-    /// What was changed and left out of the drawing that the scene was read from, in sentences.
+    /// Changes and omissions of the drawing from which the scene was read, in sentences.
     pub(crate) fn changes_of_drawing(&self) -> Vec<String> {
         let Some(list) = self.source.list() else { return Vec::new() };
         let name = list.path.file_name().unwrap_or(list.path.as_os_str()).to_string_lossy();
@@ -111,14 +112,14 @@ impl Scene {
     }
 }
 
-/// The line, above that of a place, in which the last bracket opens that is not closed before the place: the parser gives
-/// up where the next bracket opens, which may be many lines below. `None` if all of the text is TOML.
+/// The line, above that of a place, with the last bracket that is not closed before the place: the parser stops at the
+/// next opening bracket, which may be many lines below. `None` if all of the text is TOML.
 fn unclosed_above(text: &str, place: usize) -> Option<usize> {
     DeTable::parse(text).err()?;
     let mut open = Vec::new();
     let before = text.get(..place)?;
     for (row, line) in before.lines().enumerate() {
-        // The mark that ends a string, in which brackets are letters.
+        // The mark that ends a string; brackets are letters inside it.
         let mut string = None;
         for letter in line.chars() {
             match letter {
@@ -135,7 +136,8 @@ fn unclosed_above(text: &str, place: usize) -> Option<usize> {
     open.pop().filter(|row| *row < rows)
 }
 
-/// A file with more blocks: a JSON list, or a drawing if `drawings` is given; the error says why it is not read.
+/// Reads a file with more blocks: a JSON list, or a drawing if `drawings` is given; the error has the reason of a
+/// failure.
 fn more_blocks(path: PathBuf, scene: &Scene, drawings: Option<Drawings>) -> Result<List, String> {
     let bytes = read_bounded(&path, LARGEST_FILE).map_err(|error| {
         format!("{error}: name a JSON list or a drawing, relative to the scene")

@@ -1,4 +1,4 @@
-//! Rules for single values of a scene: what is missing, what is too much, and the ranges of numbers.
+//! Rules for single values of a scene: missing keys, unwanted keys, and the ranges of numbers.
 
 use std::collections::BTreeMap;
 
@@ -6,10 +6,10 @@ use super::{Fault, KeyPath, Known, SceneErrorKind};
 
 pub(super) type Check = Result<(), Fault>;
 
-/// Magnitudes beyond these are no lengths, moduli or loads of anything, and would overflow.
+/// Magnitudes outside of this range are not those of lengths, moduli or loads, and would overflow.
 pub(super) const MAGNITUDES: std::ops::RangeInclusive<f64> = 1e-100..=1e100;
 
-/// Checks every item of a list, which the scene has under this key.
+/// Checks every item of a list with this key.
 pub(super) fn each<T>(list: &str, items: &[T], check: impl Fn(&KeyPath, &T) -> Check) -> Check {
     items.iter().enumerate().try_for_each(|(k, item)| check(&KeyPath::of(list).item(k), item))
 }
@@ -36,7 +36,7 @@ pub(super) fn exactly_one<A, B>(
     }
 }
 
-/// Text that terminals, tables and pictures show as it is.
+/// Checks that terminals, tables and pictures show a text as it is.
 pub(super) fn plain(at: KeyPath, text: &str) -> Check {
     match text.chars().find(|c| c.is_control()) {
         Some(character) => Err(Fault::new(at, SceneErrorKind::Control(character))),
@@ -67,7 +67,7 @@ pub(super) fn value(at: KeyPath, value: f64, allowed: bool, wanted: &'static str
     if allowed { Ok(()) } else { Err(Fault::new(at, SceneErrorKind::Value { value, wanted })) }
 }
 
-/// A count from 1 on.
+/// Checks a count from 1 on.
 pub(super) fn at_least_one(at: KeyPath, count: u32, wanted: &'static str) -> Check {
     value(at, f64::from(count), count > 0, wanted)
 }
@@ -79,7 +79,7 @@ pub(super) fn at_most(at: KeyPath, what: &'static str, count: f64, limit: u32) -
     Err(Fault::new(at, SceneErrorKind::TooMany { what, count, limit }))
 }
 
-/// The value of a key that other data call for.
+/// The value of a key that other data require.
 pub(super) fn needed<T>(
     given: Option<T>,
     at: &KeyPath,
@@ -116,7 +116,7 @@ pub(super) fn named<'a, T>(
     })
 }
 
-/// A name that refers to nothing; `missing` would define it.
+/// The error of a name that refers to nothing; `missing` would define it.
 pub(crate) fn unknown(
     at: KeyPath,
     what: &'static str,

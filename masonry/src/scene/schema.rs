@@ -3,8 +3,9 @@
 use super::Scene;
 
 impl Scene {
-    /// The JSON schema of scene files (draft 2020-12), pretty-printed: keys, types, and what they mean. Editors complete and check
-    /// TOML by it. Rules for more than one value, such as names that refer to others, are not in it: see [`Scene::check`].
+    /// The JSON schema of scene files (draft 2020-12), pretty-printed: keys, types, and their meaning. Editors use it
+    /// to complete and check TOML. Rules for more than one value, such as names that refer to others, are not included:
+    /// see [`Scene::check`].
     ///
     /// ```
     /// assert!(masonry::Scene::schema().contains("\"title\""));
@@ -26,7 +27,7 @@ mod tests {
 
     use super::Scene;
 
-    /// Descriptions without what only the documentation of Rust understands.
+    /// A transform that removes Rust-only parts of descriptions.
     #[derive(Debug, Clone)]
     struct PlainText;
 
@@ -45,7 +46,7 @@ mod tests {
         }
     }
 
-    /// Without examples, without the targets of links, and with brackets around units as they are meant.
+    /// The text without examples and without the targets of links, and with plain brackets around units.
     fn plain(text: &str) -> String {
         let text = text.split("\n```").next().unwrap_or(text).trim_end();
         let mut parts = text.split("](");
@@ -60,7 +61,7 @@ mod tests {
         plain.replace("\\[", "[").replace("\\]", "]").replace('\n', " ").replace("  ", "\n\n")
     }
 
-    /// `UPDATE_SCHEMA=1 cargo test -p masonry --lib schema` writes it.
+    /// `UPDATE_SCHEMA=1 cargo test -p masonry --lib schema` writes the file.
     #[test]
     fn the_schema_is_that_of_the_types() {
         let settings = SchemaSettings::draft2020_12().with_transform(PlainText);

@@ -1,6 +1,6 @@
-//! Methods that change one thing in what they are called on and return it, so that a scene is built in one expression.
+//! Methods that change one value of their object and return it, so that a scene is built in one expression.
 
-/// Writes such methods out: a body changes `self`, which is returned after it.
+/// Generates such methods: a body changes `self`, which is returned after it.
 macro_rules! setters {
     ($($(#[$about:meta])* pub fn $name:ident(mut $self:ident, $($new:ident: $type:ty),+) $change:block)+) => {
         $(

@@ -1,10 +1,10 @@
-//! How a scene is solved: route, form, limits.
+//! The solver of a scene: route, form, limits.
 
 use serde::{Deserialize, Deserializer, Serialize};
 
 use crate::data::route::Route;
 
-/// How the complementarity problem is solved.
+/// Settings of the solver of the complementarity problem.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(default, deny_unknown_fields)]
@@ -15,13 +15,13 @@ pub struct SolverSettings {
     pub route: RouteSetting,
     /// The form of the reduced problem; belongs to [`Route::Lemke`].
     pub form: Form,
-    /// Largest number of pivots of one attempt; without it the solver sets a limit by the order.
-    /// Belongs to [`Route::Lemke`].
+    /// Largest number of pivots of one attempt; by default the solver sets a limit by the order. Belongs to
+    /// [`Route::Lemke`].
     pub max_pivots: Option<u32>,
     /// Largest number of steps of one attempt of the interior-point method; 300 by default. Belongs to [`Route::Interior`].
     pub max_steps: Option<u32>,
-    /// Stiffness of springs on all displacements, relative to that of the blocks \[-\], which are re-centred until
-    /// they carry nothing; belongs to [`Route::Qp`], and to [`Route::Pgs`], which always has them.
+    /// Stiffness of springs on all displacements, relative to that of the blocks \[-\], which are re-centred until they
+    /// carry nothing; belongs to [`Route::Qp`], and to [`Route::Pgs`], which always has springs.
     pub soft: Option<f64>,
 }
 
@@ -32,7 +32,7 @@ impl Default for SolverSettings {
     }
 }
 
-/// The route that a scene asks for.
+/// The route that a scene requests.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(rename_all = "lowercase")]
@@ -40,7 +40,7 @@ pub enum RouteSetting {
     /// The fastest route for the scene, and further ones if it fails.
     #[default]
     Auto,
-    /// This one and no other.
+    /// This route and no other.
     #[serde(untagged)]
     Only(Route),
 }
@@ -57,7 +57,7 @@ impl RouteSetting {
         }
     }
 
-    /// Whether this route may be among those that are tried.
+    /// Whether a route may be tried.
     pub fn allows(self, route: Route) -> bool {
         matches!(self, Self::Auto) || self == Self::Only(route)
     }
@@ -85,7 +85,7 @@ impl<'de> Deserialize<'de> for RouteSetting {
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum Form {
-    /// The Coulomb form first; the mixed form if that ends on rays.
+    /// The Coulomb form first; the mixed form if the Coulomb form ends on rays.
     #[default]
     Auto,
     /// Distances to the two edges of the friction cone (3.27): three unknowns a point.

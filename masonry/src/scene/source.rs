@@ -9,7 +9,7 @@ use toml::de::{DeTable, DeValue};
 use super::json_span;
 use super::key_path::{KeyPath, PathStep};
 
-/// The text that a scene was read from; empty for a scene built in Rust.
+/// The text from which a scene was read; empty for a scene built in Rust.
 ///
 /// All sources are equal: two scenes from different files may be the same.
 #[derive(Debug, Clone, Default)]
@@ -26,11 +26,11 @@ struct Text {
 #[derive(Debug)]
 pub(super) struct List {
     pub(super) path: PathBuf,
-    /// What is in the file; of a drawing, what was read of it as TOML.
+    /// The content of the file, or the content of a drawing as TOML.
     pub(super) text: String,
     /// The places of the blocks in a drawing; `None` for a JSON list.
     pub(super) entities: Option<Vec<String>>,
-    /// What was changed and left out of a drawing, a kind in each line.
+    /// Changes and omissions of a drawing, one kind in each line.
     pub(super) changes: Vec<String>,
 }
 
@@ -49,7 +49,7 @@ impl PartialEq for Source {
 }
 
 impl Source {
-    /// The source with this text, of a file or none.
+    /// The source with this text, with or without a file.
     pub(super) fn new(text: &str, file: Option<&Path>) -> Self {
         let (scene, file) = (text.to_owned(), file.map(Path::to_owned));
         Self(Arc::new(Text { file, scene, list: None }))
@@ -61,7 +61,7 @@ impl Source {
         Self(Arc::new(Text { file, scene, list: Some(list) }))
     }
 
-    /// The path of a file that the scene names relative to itself.
+    /// The path of a file that the scene gives relative to its own file.
     pub(super) fn beside(&self, file: &Path) -> PathBuf {
         self.path().and_then(Path::parent).map_or(file.to_owned(), |it| it.join(file))
     }
@@ -79,7 +79,7 @@ impl Source {
         self.0.list.as_ref()
     }
 
-    /// The file and the place of the value at `path`, or of the innermost table around it that is written out.
+    /// The file and the place of the value at `path`, or of the innermost written table around it.
     pub(super) fn locate(&self, path: &KeyPath) -> Located {
         self.locate_in_list(path).unwrap_or_else(|| Located {
             file: self.path().map(Path::to_owned),
@@ -88,7 +88,7 @@ impl Source {
         })
     }
 
-    /// Blocks that are not in the scene itself are in the list.
+    /// The place of a value in the list of blocks, for blocks that are not in the scene itself.
     fn locate_in_list(&self, path: &KeyPath) -> Option<Located> {
         let list = self.list()?;
         let [PathStep::Key(key), PathStep::Index(index), inner @ ..] = path.steps() else {
@@ -135,7 +135,7 @@ impl Source {
     }
 }
 
-/// Characters of a line that are shown before a mistake, of it and after it: a list may be one long line.
+/// Characters of a line that are shown before, of and after a mistake: a list may be one long line.
 const SHOWN: usize = 60;
 
 /// The part of a line around a mistake.
@@ -145,7 +145,7 @@ pub(super) struct Excerpt {
     pub(super) line: usize,
     /// Column in characters, from 1.
     pub(super) column: usize,
-    /// The text that is shown before the mistake, of it, and after it.
+    /// The shown text before the mistake, of it, and after it.
     before: String,
     marked: String,
     after: String,
@@ -178,7 +178,7 @@ impl Excerpt {
         })
     }
 
-    /// The line with its number, and carets below the part that matters.
+    /// The line with its number, and carets below the mistake.
     pub(super) fn snippet(&self) -> String {
         let Self { before, marked, after, .. } = self;
         let number = self.line.to_string();
@@ -190,7 +190,7 @@ impl Excerpt {
     }
 }
 
-/// The first characters, with dots for the others, and nothing that a terminal would obey.
+/// The first characters, with dots for the others, and without characters that would act on a terminal.
 fn clipped(mut text: impl Iterator<Item = char>) -> String {
     let plain = |c: char| if c.is_control() && c != '\t' { '\u{fffd}' } else { c };
     let mut shown: String = text.by_ref().take(SHOWN).map(plain).collect();

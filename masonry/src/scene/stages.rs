@@ -7,12 +7,12 @@ use serde::{Deserialize, Serialize};
 use super::setters::setters;
 use super::strict;
 
-/// A stage of the load history. Stages follow one another; in each, loads and supports change in equal
-/// steps from their present values to those of the stage.
+/// A stage of the load history. Stages follow one another; loads and supports change in equal steps from their current
+/// values to those of the stage.
 ///
-/// Values of loads are factors of those of the scene. A load that no stage names acts in full from the first
-/// stage on; any other is zero before the first stage that names it, and keeps its value until the next.
-/// Every step starts from the slip of the one before, if there is friction.
+/// Values of loads are factors of those of the scene. A load that is named in no stage acts in full from the first
+/// stage on; any other load is zero before the first stage that names it, and keeps its value until the next one. Every
+/// step starts from the slip of the previous one, if there is friction.
 ///
 /// ```
 /// use masonry::scene::{Movement, Stage};
@@ -33,7 +33,7 @@ pub struct Stage {
     /// Factors of loads at the end of the stage \[-\] in addition to their own, by the name of the load or of its group.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub loads: BTreeMap<String, f64>,
-    /// Where supports are at the end of the stage, by the name of the support.
+    /// The positions of supports at the end of the stage, by the name of the support.
     #[serde(
         default,
         skip_serializing_if = "BTreeMap::is_empty",
@@ -47,11 +47,11 @@ pub struct Stage {
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(default, deny_unknown_fields)]
 pub struct Movement {
-    /// Displacement of its middle along x \[length\].
+    /// Displacement of the support's middle along x \[length\].
     pub x: f64,
-    /// Displacement of its middle along y \[length\].
+    /// Displacement of the support's middle along y \[length\].
     pub y: f64,
-    /// Rotation about its middle \[rad\], counter-clockwise.
+    /// Rotation of the support about its middle \[rad\], counter-clockwise.
     pub turn: f64,
 }
 
@@ -70,13 +70,13 @@ impl Stage {
     setters! {
         /// Sets the number of steps.
         pub fn steps(mut self, steps: u32) { self.steps = steps }
-        /// Takes gravity to a factor of that of the scene \[-\].
+        /// Changes gravity to a factor of that of the scene \[-\].
         pub fn gravity(mut self, factor: f64) { self.gravity = Some(factor) }
-        /// Takes a load, or all of a group, to a factor of what the scene gives \[-\].
+        /// Changes a load, or all loads of a group, to a factor of the values in the scene \[-\].
         pub fn load(mut self, name: &str, factor: f64) {
             self.loads.insert(name.to_owned(), factor);
         }
-        /// Takes a support to another place.
+        /// Moves a support to another place.
         pub fn moves(mut self, support: &str, movement: Movement) {
             self.moves.insert(support.to_owned(), movement);
         }
@@ -89,7 +89,7 @@ impl Movement {
         Self { x, y, turn: 0.0 }
     }
 
-    /// The same with lengths in a unit that is `1 / factor` times as long.
+    /// The movement with lengths in a unit that is `1 / factor` times as long.
     #[must_use]
     pub fn in_lengths(self, factor: f64) -> Self {
         Self { x: self.x * factor, y: self.y * factor, turn: self.turn }

@@ -16,22 +16,22 @@ pub enum EdgeStress {
     Earth(Earth),
 }
 
-/// Earth or water beside an edge. Its pressure is `K gamma` times the depth below its level, and zero above.
+/// Earth or water beside an edge. The pressure is `K gamma` times the depth below the level, and zero above.
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Earth {
     /// Weight per volume \[force/length^3\].
     pub gamma: f64,
-    /// The pressure to the side as a part of that downwards \[-\]; 1 for water.
+    /// The pressure to the side as a part of the pressure downwards \[-\]; 1 for water.
     #[serde(rename = "K")]
     pub k: f64,
-    /// Height of its surface, as a coordinate y \[length\].
+    /// Height of the surface, as a coordinate y \[length\].
     pub level: f64,
 }
 
 impl Earth {
-    /// The pressure \[force/length^2\] at a height at or below its level.
+    /// The pressure \[force/length^2\] at a height at or below the level.
     pub(crate) fn pressure_at(self, y: f64) -> f64 {
         self.k * self.gamma * (self.level - y)
     }
@@ -65,9 +65,9 @@ impl From<[f64; 2]> for Pressure {
 }
 
 impl Pressure {
-    /// Whether it is the same on all of the segment.
+    /// Whether the pressure is the same on all of the segment.
     pub(super) fn is_uniform(self) -> bool {
-        // The bits: what differs in any of them is written.
+        // The bits are compared, since a value that differs in any bit is written.
         self.from.to_bits() == self.to.to_bits()
     }
 }
@@ -89,7 +89,7 @@ impl<'de> Deserialize<'de> for Pressure {
     }
 }
 
-// Written out because an untagged enum would forget the place of a mistake in the list.
+// Written by hand because an untagged enum would lose the place of a mistake in the list.
 struct PressureVisitor;
 
 impl<'de> Visitor<'de> for PressureVisitor {

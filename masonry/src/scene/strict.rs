@@ -1,7 +1,7 @@
-//! Arrays and tables that refuse what serde would let pass.
+//! Arrays and tables that refuse input that serde would accept.
 //!
-//! Serde's own arrays stop reading when they are full, so that a third coordinate would be dropped without a word; its structs
-//! also read a list as their fields in order.
+//! Serde's own arrays stop reading when they are full, so that a third coordinate would be dropped silently; its
+//! structs also read a list as their fields in order.
 
 use std::collections::BTreeMap;
 use std::fmt;
@@ -10,7 +10,7 @@ use std::marker::PhantomData;
 use serde::de::value::MapAccessDeserializer;
 use serde::de::{Deserialize, Deserializer, Error, IgnoredAny, MapAccess, SeqAccess, Visitor};
 
-/// Reads pairs of exactly two items, and tables from nothing but tables, however deep they are.
+/// Reads pairs of exactly two items, and tables from tables only, at any depth.
 pub(super) fn read<'de, D: Deserializer<'de>, T: Strict<'de>>(from: D) -> Result<T, D::Error> {
     T::read(from)
 }
@@ -19,7 +19,7 @@ pub(super) trait Strict<'de>: Sized {
     fn read<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error>;
 }
 
-/// A value that serde reads in this way.
+/// A value that serde reads by [`Strict`].
 struct Read<T>(T);
 
 impl<'de, T: Strict<'de>> Deserialize<'de> for Read<T> {
@@ -57,14 +57,14 @@ macro_rules! values {
     )+ };
 }
 
-/// Reads a table from nothing but a table.
+/// Reads a table from a table only.
 pub(super) fn table<'de, D: Deserializer<'de>, T: Deserialize<'de>>(
     from: D,
 ) -> Result<T, D::Error> {
     from.deserialize_map(TableVisitor(PhantomData))
 }
 
-/// Has these types read by [`table`].
+/// Implements [`Strict`] for these types by [`table`].
 macro_rules! tables {
     ($($table:ty),+) => { $(
         impl<'de> strict::Strict<'de> for $table {
@@ -160,7 +160,7 @@ impl Visitor<'_> for FractionVisitor {
     }
 }
 
-/// Elements along two directions; one number is both.
+/// Elements along two directions; a single number counts for both.
 pub(super) fn mesh<'de, D: Deserializer<'de>>(from: D) -> Result<Option<[u32; 2]>, D::Error> {
     Ok(Option::<MeshCounts>::deserialize(from)?.map(|MeshCounts(counts)| counts))
 }

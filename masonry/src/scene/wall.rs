@@ -49,23 +49,23 @@ pub struct Wall {
     pub width: Option<f64>,
     /// The courses, bottom to top.
     pub courses: Courses,
-    /// How they are laid, if not in running bond; only if `courses` is a number.
+    /// The bond of the courses, if not running bond; only if `courses` is a number.
     pub bond: Option<Bond>,
-    /// Its openings; only if `courses` is a number.
+    /// Openings of the wall; only if `courses` is a number.
     #[serde(default, skip_serializing_if = "Vec::is_empty", deserialize_with = "strict::read")]
     pub openings: Vec<Opening>,
-    /// The classes of its joints, if not `bed` and `head`.
+    /// The classes of the joints of the wall, if not `bed` and `head`.
     #[serde(default, deserialize_with = "strict::read", skip_serializing_if = "is_usual")]
     pub joints: WallJoints,
-    /// Elements along the length and height of a whole brick; required when the material is
-    /// elastic. A cut brick gets its share of the first, rounded up.
+    /// Elements along the length and height of a whole brick; required when the material is elastic. A cut brick gets
+    /// its share of those along the length, rounded up.
     #[serde(default, deserialize_with = "strict::mesh")]
     #[cfg_attr(test, schemars(with = "Option<super::Elements>"))]
     pub mesh: Option<[u32; 2]>,
 }
 
 impl Wall {
-    /// Turns a place of the upright wall to its final place \[length\].
+    /// The final place of a place of the upright wall \[length\].
     ///
     /// ```
     /// use masonry::scene::{Brick, Wall};
@@ -89,12 +89,12 @@ impl Wall {
         along.map_or(self.turn_deg.to_radians(), |along| along.y.atan2(along.x))
     }
 
-    /// The given width \[length\]: in figures, or as the distance between the lower corners.
+    /// The given width \[length\]: as a number, or as the distance between the lower corners.
     pub fn width_given(&self) -> Option<f64> {
         self.width.or_else(|| self.along().map(|along| along.norm()))
     }
 
-    /// From the lower left corner to the right \[length\].
+    /// The vector from the lower left corner to the right one \[length\].
     fn along(&self) -> Option<Vector2<f64>> {
         self.to.map(|to| Point2::from(to) - Point2::from(self.origin))
     }
@@ -107,9 +107,9 @@ pub enum Courses {
     /// A number of courses in running bond, or in the bond of the wall. The second, fourth and so on begin with a
     /// half brick, and the last brick of a course is cut to the width.
     RunningBond(u32),
-    /// Bottom to top, each a list of brick lengths in units of one brick from left to right; a
-    /// negative number is an opening of that length. In a wall with mortar the unit is one brick and one head
-    /// joint: a brick of length `f` measures `f (l + t_y) - t_y`, a half brick `(l - t_y) / 2`.
+    /// The courses from bottom to top, each a list of brick lengths in units of one brick from left to right; a
+    /// negative number is an opening of that length. The unit in a wall with mortar is one brick and one head joint: a
+    /// brick of length `f` measures `f (l + t_y) - t_y`, a half brick `(l - t_y) / 2`.
     List(Vec<Vec<f64>>),
 }
 
@@ -119,6 +119,6 @@ fn is_usual(joints: &WallJoints) -> bool {
 
 #[expect(clippy::trivially_copy_pass_by_ref, reason = "the signature that serde asks for")]
 fn is_upright(turn_deg: &f64) -> bool {
-    // The bits: what differs in any of them is written.
+    // The bits are compared, since a value that differs in any bit is written.
     turn_deg.to_bits() == 0_f64.to_bits()
 }

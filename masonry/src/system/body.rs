@@ -40,7 +40,7 @@ pub struct BodySystem {
     pub resultant: [f64; 3],
     /// The contact rows of the block, increasing.
     pub rows: Vec<BodyRow>,
-    /// The strips that stretch with it; none for a rigid block.
+    /// The strips that stretch with the block; empty for a rigid block.
     pub stretches: Vec<BodyStretch>,
 }
 

@@ -1,6 +1,6 @@
 //! Errors of a system.
 
-/// Why the stiffness of a block could not be built.
+/// The reasons for which the stiffness of a block could not be built.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum SystemError {

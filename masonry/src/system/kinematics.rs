@@ -1,5 +1,5 @@
-//! How displacements of blocks enter the gap, the slip and the elongation at a contact point, and so how the forces there
-//! act on the blocks.
+//! The parts of the blocks' displacements in the gap, the slip and the elongation at a contact point, and so the
+//! actions of the forces there on the blocks.
 
 use nalgebra::Vector2;
 
@@ -12,7 +12,7 @@ pub(crate) struct Term {
     pub(crate) tangent: Vector2<f64>,
 }
 
-/// All places that move a contact point.
+/// The terms of all places that move a contact point.
 pub(crate) fn terms(model: &Model, contact: &JointPoint) -> Vec<Term> {
     let joint = &model.joints[contact.joint.index()];
     let (n, t) = (joint.normal, joint.tangent());
@@ -20,7 +20,7 @@ pub(crate) fn terms(model: &Model, contact: &JointPoint) -> Vec<Term> {
     list.extend(contact.a.map(|anchor| Term { anchor, normal: -n, tangent: -t }));
     if let Some(film) = &contact.film {
         let none = Vector2::zeros();
-        // The rotation of both faces shears a film, too.
+        // The rotation of both faces also shears a film.
         let turn = n * (film.half / film.length);
         for [start, end] in film.faces().into_iter().flatten() {
             list.push(Term { anchor: end, normal: none, tangent: turn });
@@ -37,8 +37,8 @@ pub(crate) fn terms(model: &Model, contact: &JointPoint) -> Vec<Term> {
     list
 }
 
-/// The parts of the ends of a part of a strip in its elongation, the mean of both faces, of which those on supports and rigid
-/// blocks do not stretch. None in a dry joint.
+/// The parts of the ends of a part of a strip in its elongation, the mean of both faces; faces on supports and rigid
+/// blocks do not stretch. Empty in a dry joint.
 pub(crate) fn stretched(model: &Model, contact: &JointPoint) -> Vec<(Anchor, Vector2<f64>)> {
     let Some(film) = contact.film.filter(|film| film.stretch.is_some()) else { return Vec::new() };
     let half = model.joints[contact.joint.index()].tangent() * 0.5;

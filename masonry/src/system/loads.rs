@@ -1,4 +1,4 @@
-//! Loads of a block: what accelerates its mass, and what acts on it.
+//! Loads of a block: accelerations of its mass, and forces on it.
 
 use crate::element::quad4;
 use crate::model::mesh::BlockMesh;
@@ -6,7 +6,7 @@ use crate::model::{Model, PlacedBlock};
 use crate::rounding::{cleared, largest};
 use crate::system::rigid::Modes;
 
-/// Consistent nodal loads \[N\] of everything that acts on a block but its contacts, two per node.
+/// Consistent nodal loads \[N\] of everything that acts on a block except its contacts, two per node.
 pub fn nodal_loads(model: &Model, block: &PlacedBlock, mesh: &BlockMesh) -> Vec<f64> {
     let mut load = vec![0.0; 2 * mesh.nodes.len()];
     let acceleration = model.acceleration();

@@ -7,8 +7,8 @@ use crate::model::{Model, PlacedBlock};
 use crate::system::rigid::Modes;
 use nalgebra::Vector2;
 
-/// The density of blocks that have none, as far as they move \[kg/m^3\]. Chosen: the way hardly depends on it, since drag and
-/// mass are in proportion.
+/// The density of blocks that have none, if they move \[kg/m^3\]. Chosen: the motion hardly depends on it, since drag
+/// and mass are in proportion.
 const UNIT: f64 = 1.0;
 
 /// The warning about blocks that move without a density.
@@ -24,8 +24,8 @@ pub(crate) fn of_unit_density(model: &Model) -> Option<String> {
     ))
 }
 
-/// The mass \[kg\] that moves with every displacement of the blocks, in the order of the system: of a node twice, of a rigid
-/// block that of its two translations and of its rotation.
+/// The mass \[kg\] that moves with every displacement of the blocks, in the order of the system: that of a node twice,
+/// that of a rigid block for its two translations and its rotation.
 pub(crate) fn lumped(model: &Model, system: &System) -> Vec<f64> {
     let mut mass = Vec::new();
     for (block, body) in model.blocks.iter().zip(&system.bodies) {
@@ -50,7 +50,7 @@ pub(crate) fn lumped(model: &Model, system: &System) -> Vec<f64> {
     mass
 }
 
-/// The masses of the motions of a rigid block with a mass \[kg/m^2\] of its face.
+/// The masses of the motions of a rigid block with a mass per area of its face \[kg/m^2\].
 fn rigid(block: &PlacedBlock, density: f64) -> [f64; 3] {
     let modes = Modes::of(&block.corners);
     let mass = density * geometry::area(&block.corners);

@@ -1,4 +1,4 @@
-//! Rigid motions of the blocks, and the choice of rows that hold the blocks statically determinate.
+//! Rigid motions of the blocks, and the choice of rows that hold the blocks in a statically determinate way.
 
 use faer::Mat;
 use nalgebra::{Matrix3, Point2, Vector2, Vector3};
@@ -41,8 +41,8 @@ impl Modes {
         self.at(place).iter().zip(amplitudes).map(|(mode, amplitude)| mode * *amplitude).sum()
     }
 
-    /// The amplitudes \[m\] of the rigid motion nearest to displacements \[m\] of places, and the largest displacement \[m\] that
-    /// it leaves over.
+    /// The amplitudes \[m\] of the rigid motion nearest to displacements \[m\] of places, and the largest rest of the
+    /// displacements \[m\].
     ///
     /// # Panics
     /// As [`amplitudes`](Self::amplitudes).
@@ -50,7 +50,7 @@ impl Modes {
         let amplitudes = self.amplitudes(places, moved);
         let rest = places.iter().zip(moved);
         let rest = rest.map(|(place, u)| (u - self.displacement(*place, &amplitudes)).norm());
-        // A result that is no number stays none.
+        // NaN stays NaN.
         (amplitudes, rest.fold(0.0, |max, it| if it > max || it.is_nan() { it } else { max }))
     }
 

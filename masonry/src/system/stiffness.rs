@@ -13,8 +13,8 @@ use crate::model::{Elasticity, Model, PlacedBlock};
 use crate::rounding::cleared;
 use crate::system::rigid::Modes;
 
-/// Corners, relative to the block's size, closer than this make blocks equal: rounding of the places
-/// of equal bricks in a wall, and nothing that matters.
+/// Blocks are equal if their corners, relative to the block's size, differ by less than this: by the
+/// rounding of the places of equal bricks in a wall.
 const SAME_SHAPE: f64 = 1e-12;
 
 /// The stiffness of a block without supports, with its three zero modes.
@@ -22,7 +22,7 @@ const SAME_SHAPE: f64 = 1e-12;
 pub struct Stiffness {
     /// `K` \[N/m\], two rows per node of the mesh.
     pub matrix: SparseColMat<usize, f64>,
-    /// Factor of `K` with its rigid motions held; dense, and only if a system is to be reduced.
+    /// Factor of `K` with its rigid motions held; dense, and only built if a system is to be reduced.
     factor: Option<Llt<f64>>,
 }
 
@@ -31,7 +31,7 @@ pub struct Stiffness {
 pub(super) enum Built {
     /// The sparse matrix.
     Matrix,
-    /// Also its dense factor.
+    /// The sparse matrix and its dense factor.
     MatrixAndFactor,
 }
 
@@ -152,7 +152,7 @@ pub(super) struct Shared {
 }
 
 struct Key {
-    /// From the first corner to the others.
+    /// Vectors from the first corner to the others.
     sides: Vec<Vector2<f64>>,
     divisions: [usize; 2],
     elasticity: Elasticity,
@@ -163,7 +163,7 @@ impl Shared {
         Self { parts, list: Vec::new(), keys: Vec::new() }
     }
 
-    /// The stiffness of a block that has a mesh and elastic constants; built when it is new.
+    /// The index of the stiffness of a block with a mesh and elastic constants; built when it is new.
     pub(super) fn index_of(
         &mut self,
         model: &Model,

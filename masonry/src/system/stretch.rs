@@ -8,7 +8,7 @@ use crate::model::Model;
 /// The bar in one part of a strip of mortar: a spring between the blocks of its joint that always acts.
 ///
 /// The elongation is `e = L u`, the mean over both faces of the change of distance of the part's two ends along the
-/// joint, and the force on them `q = -k e`. No rigid motion of a block stretches it.
+/// joint, and the force on them `q = -k e`. No rigid motion of a block stretches the bar.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct StretchRow {
     /// The contact point that stands for the part.
@@ -17,7 +17,7 @@ pub struct StretchRow {
     pub stiffness: f64,
 }
 
-/// The rows of all strips between blocks of which at least one is elastic, given also to these blocks.
+/// Builds the rows of all strips that touch an elastic block, and adds them to these blocks.
 pub(super) fn add_rows(model: &Model, bodies: &mut [BodySystem]) -> Vec<StretchRow> {
     let mut rows = Vec::new();
     for (k, contact) in model.contacts.iter().enumerate() {
@@ -39,8 +39,9 @@ pub(super) fn add_rows(model: &Model, bodies: &mut [BodySystem]) -> Vec<StretchR
     rows
 }
 
-/// One entry for every degree of freedom. Both ends of a short part hang on the same nodes, and what remains of their
-/// entries is small: left apart, the stiff bar would lose it among products that cancel.
+/// One entry for every degree of freedom. Both ends of a short part depend on the same nodes, and the sum of their
+/// entries is small: the product with the stiff bar would lose it among products that cancel if the entries stayed
+/// apart.
 fn summed(mut entries: Vec<(usize, f64)>) -> Vec<(usize, f64)> {
     entries.sort_by_key(|(dof, _)| *dof);
     let same = entries.chunk_by(|(a, _), (b, _)| a == b);

@@ -1,4 +1,4 @@
-//! The result of a step, as everything after the routes has it.
+//! The result of a step, as used by everything after the routes.
 
 use nalgebra::Vector2;
 
@@ -17,26 +17,27 @@ pub(crate) struct StepResult {
     pub(crate) info: SolveInfo,
     pub(crate) state: Option<State>,
     pub(crate) checks: Option<Checks>,
-    /// A motion that nothing stops: displacement rates of the corners of every block.
+    /// A motion that no contact stops: displacement rates of the corners of every block.
     pub(crate) mechanism: Option<Vec<Vec<Vector2<f64>>>>,
     /// The decision on admissible forces, if it was made.
     pub(crate) statics: Option<Statics>,
-    /// The end of a loading of rigid blocks at rest, if that was asked.
+    /// The end of a loading of rigid blocks at rest, if it was computed.
     pub(crate) loading: Option<LoadingEnd>,
-    /// The basis at which pivots ended, if that is a state.
+    /// The last basis of the pivots, if it gives a state.
     pub(crate) basis: Option<Start>,
-    /// How far every contact point slid \[m\] before the slip of the state, if a motion led there.
+    /// The slip \[m\] of every contact point before the slip of the state, if a motion led to the state.
     pub(crate) moved: Option<Vec<f64>>,
     /// Works and energies on the way, if blocks moved.
     pub(crate) account: Option<lcp::Account>,
 }
 
-/// The end of a loading, from a state without stresses, of rigid blocks that some forces within friction would hold.
+/// The end of a loading, from a state without stresses, of rigid blocks that are in equilibrium under some forces
+/// within friction.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum LoadingEnd {
     ToRest,
     ToFall,
-    /// Neither came out.
+    /// Neither rest nor a fall was found.
     Nowhere,
 }
 

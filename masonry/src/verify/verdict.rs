@@ -1,12 +1,11 @@
-//! The verdict: whether a wall stands, falls, or this is undecided; with the evidence, a sentence for people, and
-//! warnings. Nothing else in the crate decides this.
+//! The verdict: whether a wall stands, falls, or is undecided; with the evidence, a sentence for people, and warnings.
+//! Nothing else in the crate decides the verdict.
 //!
-//! * **Stands**: an equilibrium was found and verified. For rigid blocks at rest any forces within friction that
-//!   balance the loads are an equilibrium; loading from a state without stresses has to lead to rest as well.
-//! * **Falls**: no contact forces within friction balance the loads, with a [proof](crate::data::statics::Proof)
-//!   that was checked in the geometry; or the blocks move and do not come to rest, which is evidence.
-//! * **Undecided**: all other cases. Neither a secondary ray nor springs that keep their load prove that a wall
-//!   falls.
+//! * **Stands**: an equilibrium was found and verified. Any forces within friction that balance the loads are an
+//!   equilibrium of rigid blocks at rest; loading from a state without stresses has to lead to rest as well.
+//! * **Falls**: no contact forces within friction balance the loads, with a [proof](crate::data::statics::Proof) that
+//!   was checked in the geometry; or the blocks move and do not come to rest, which is evidence.
+//! * **Undecided**: all other cases. Neither a secondary ray nor springs that keep their load prove that a wall falls.
 
 mod sentence;
 mod unique;
@@ -29,20 +28,20 @@ use crate::verify::step::{LoadingEnd, StepResult};
 
 pub(crate) use unique::circulating;
 
-/// All that the verdict depends on.
+/// All data on which the verdict depends.
 #[derive(Clone, Copy)]
 pub(crate) struct Findings<'a> {
-    /// What a sentence calls the structure: `wall` or `arch`.
+    /// The noun for the structure in sentences: `wall` or `arch`.
     pub(crate) structure: &'static str,
     pub(crate) model: &'a Model,
     pub(crate) step: &'a StepResult,
-    /// The load history, of several steps only.
+    /// The load history, if there are several steps.
     pub(crate) history: Option<&'a History>,
     /// Unusual magnitudes of the scene.
     pub(crate) unusual: &'a [String],
-    /// The blocks are at rest whatever the forces are.
+    /// Whether the blocks are at rest under any forces.
     pub(crate) at_rest: bool,
-    /// Contact points whose forces are not unique.
+    /// Number of contact points whose forces are not unique.
     pub(crate) circulating: usize,
 }
 
@@ -75,8 +74,8 @@ impl Judgement {
     }
 }
 
-/// Whether displacements are too large for the state to mean anything. One that only a motion leads to may be at the end of
-/// a fall.
+/// Whether displacements are too large for the state to have a meaning. A state that was reached only by a motion may
+/// be the end of a fall.
 fn is_too_far(known: &Findings<'_>, movement: Drift) -> bool {
     movement.is_too_large() || (known.step.info.way == Way::Motion && movement.is_large())
 }
@@ -114,19 +113,19 @@ fn warnings(known: &Findings<'_>, verdict: Verdict, movement: Option<Drift>) -> 
     list
 }
 
-/// How far blocks have moved against each other, relative to their size.
+/// The movements of blocks against each other, relative to their size.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Drift {
-    /// The largest displacement of one side of a contact against the other, relative to the smaller of the blocks there;
-    /// or of a node against the rigid motion of its block.
+    /// The largest displacement of one side of a contact against the other, relative to the smaller of the blocks
+    /// there; or of a node against the rigid motion of its block.
     pub(crate) share: f64,
     /// The largest rotation of a block \[rad\].
     pub(crate) turned: f64,
 }
 
-/// Parts of the size of a block, and of a radian, from which the geometry has changed visibly,
+/// Parts of the size of a block, and of a radian, from which the geometry has changed visibly.
 const LARGE: f64 = 0.1;
-/// and from which the contacts of the scene are no longer those of the wall.
+/// Parts of the size of a block, and of a radian, from which the contacts of the scene are no longer those of the wall.
 const TOO_LARGE: [f64; 2] = [1.0, 0.5];
 
 impl Drift {
@@ -153,13 +152,13 @@ impl Drift {
         self.share > LARGE || self.turned > LARGE
     }
 
-    /// Whether the answer has no meaning.
+    /// Whether displacements are so large that the answer has no meaning.
     pub(crate) fn is_too_large(self) -> bool {
         self.share > TOO_LARGE[0] || self.turned > TOO_LARGE[1]
     }
 }
 
-/// How far the sides of a contact have moved against each other \[m\], beyond what a support was moved.
+/// The movement of the sides of a contact against each other \[m\], without the movement of a support.
 fn apart(model: &Model, state: &State, contact: &JointPoint) -> f64 {
     let moved = match model.joints[contact.joint.index()].a {
         Body::Support(id) => model.supports[id.index()].displacement_at(contact.position),

@@ -1,4 +1,4 @@
-//! Which rows of `G = C N` carry the statically determinate part of the contact forces (3.18).
+//! The rows of `G = C N` that carry the statically determinate part of the contact forces (3.18).
 
 use faer::linalg::solvers::ColPivQr;
 use faer::{Mat, MatRef};
@@ -50,12 +50,12 @@ impl std::fmt::Display for FreeMotion {
 /// The reason why blocks are not held.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum RigidError {
-    /// Some blocks can move without any contact noticing.
+    /// Some blocks can move without any change at a contact.
     #[error("block {block} can {motion}, and no contact resists (free motions in all: {free})")]
     Free {
         /// The position in the model of the block that moves most.
         block: usize,
-        /// How it moves.
+        /// The motion of the block.
         motion: FreeMotion,
         /// Number of independent motions that nothing resists.
         free: usize,
@@ -64,11 +64,10 @@ pub enum RigidError {
 
 /// Chooses the isostatic rows of `g` (all rows by three columns per block).
 ///
-/// The first `normal` rows are preferred: a column-pivoted orthogonal factorisation of their transpose
-/// takes the best conditioned of them. Tangential rows are taken only if normals lack rank (no normal resists
-/// the horizontal motion of a column on a floor), projected on the free motions.
-/// `weights`, one positive number per row, favour rows with large weights among equals; the state
-/// that is finally recovered does not depend on the choice.
+/// The first `normal` rows are preferred: a column-pivoted orthogonal factorisation of their transpose takes
+/// the best conditioned of them. Tangential rows, projected on the free motions, are taken only if normals
+/// lack rank (no normal resists the horizontal motion of a column on a floor). `weights`, one positive number
+/// per row, favour rows with large weights among equals; the recovered state does not depend on the choice.
 ///
 /// # Errors
 /// [`RigidError::Free`] when all rows together leave a motion free.
@@ -114,8 +113,8 @@ struct Pivoted {
 }
 
 impl Pivoted {
-    /// `reference` is the size of the data that the matrix was computed from: one of nothing but
-    /// rounding errors has rank zero.
+    /// The pivoted factorisation. `reference` is the size of the data from which the matrix was computed: a
+    /// matrix of rounding errors only has rank zero.
     fn of(matrix: MatRef<'_, f64>, reference: f64) -> Self {
         let (height, width) = matrix.shape();
         if width == 0 {

@@ -1,4 +1,4 @@
-//! The forces on every block: what they leave over, and how large they are.
+//! The forces on every block: their unbalanced rest, and their size.
 
 use nalgebra::{Point2, Vector2};
 
@@ -15,15 +15,15 @@ pub(super) struct Bodies(Vec<BodyForces>);
 /// The forces on a block.
 struct BodyForces {
     force: Vector2<f64>,
-    /// About the centroid, divided by the size of the block \[N\].
+    /// The moment about the centroid, divided by the size of the block \[N\].
     moment: f64,
-    /// The sum of the sizes of its loads \[N\].
+    /// The sum of the sizes of the block's loads \[N\].
     load: f64,
-    /// The sum of the sizes of all its forces and the tensile strengths of its points \[N\].
+    /// The sum of the sizes of all forces on the block and of the tensile strengths of its points \[N\].
     size: f64,
-    /// How many these are.
+    /// The number of these forces.
     count: usize,
-    /// Error of the balance by errors of the forces around the block \[N\].
+    /// Error of the balance due to errors of the forces around the block \[N\].
     rounding: f64,
 }
 
@@ -55,7 +55,7 @@ impl BodyForces {
         self.count += 1;
     }
 
-    /// A force relative to all on the block.
+    /// A force relative to all forces on the block.
     fn share(&self, part: f64) -> f64 {
         known(part, self.size, self.rounding)
     }
@@ -70,13 +70,13 @@ impl Bodies {
             for (anchor, force) in [(Some(contact.b), on_b), (contact.a, -on_b)] {
                 let Some(Anchor { block, edge, at }) = anchor else { continue };
                 let (body, block) = (&mut list[block.index()], &model.blocks[block.index()]);
-                // The faces of a film feel its force in the middle between them.
+                // The force acts on both faces of a film in the middle between them.
                 let place = match contact.film {
                     Some(_) => contact.position,
                     None => geometry::on_edge(&block.corners, edge, at),
                 };
                 body.add(block, place, force);
-                // A force is computed as what it has beyond the tensile strength.
+                // A contact force is computed as its excess over the tensile strength.
                 body.size += contact.law.tension;
             }
         }
@@ -94,7 +94,7 @@ impl Bodies {
             let terms = nodes.as_ref().map_or(0.0, |nodes| nodes.inside);
             let own = nodes.as_ref().map_or(0, |nodes| nodes.count);
             body.rounding = f64::EPSILON * (count + own) as f64 * around.max(terms);
-            // A block without a load has forces of its neighbours only, with their errors.
+            // A block without a load has only the forces of its neighbours, with their errors.
             if body.load <= 0.0 {
                 body.rounding = body.rounding.max(LARGEST_ERROR * around);
             }
@@ -102,12 +102,12 @@ impl Bodies {
         Self(list)
     }
 
-    /// Errors of the balances by errors of the forces around the blocks \[N\].
+    /// Errors of the balances due to errors of the forces around the blocks \[N\].
     pub(super) fn roundings(&self) -> impl Iterator<Item = f64> {
         self.0.iter().map(|body| body.rounding)
     }
 
-    /// The sums of the sizes of the forces on them \[N\].
+    /// The sums of the sizes of the forces on the blocks \[N\].
     pub(super) fn sizes(&self) -> impl Iterator<Item = f64> {
         self.0.iter().map(|body| body.size)
     }
@@ -122,8 +122,8 @@ impl Bodies {
         self.0.iter().map(|body| body.share(body.moment.abs())).fold(0.0, larger)
     }
 
-    /// The largest part of a load that is not carried; unbalanced forces below `none` of all forces on a block are
-    /// zero.
+    /// The largest part of a load that is not carried; unbalanced forces below the part `none` of all forces on a
+    /// block count as zero.
     pub(super) fn uncarried(&self, none: f64) -> f64 {
         let total: f64 = self.0.iter().map(|body| body.load).sum();
         let of_body = |body: &BodyForces| {
@@ -141,7 +141,7 @@ impl Bodies {
         blocks.iter().map(|block| self.0[*block].share(part)).fold(0.0, larger)
     }
 
-    /// The forces on the block with the most relative to those on the one with the least.
+    /// The forces on the block with the largest forces, relative to those on the block with the smallest.
     pub(super) fn spread(&self) -> f64 {
         let loaded = || self.sizes().filter(|size| *size > 0.0);
         let least = loaded().fold(f64::INFINITY, f64::min);

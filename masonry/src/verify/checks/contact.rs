@@ -7,11 +7,11 @@ use crate::law::PointLaw;
 use crate::model::{JointPoint, Model};
 use crate::recover;
 
-/// Gap, slip and forces of a contact point, with the data to which they are compared.
+/// Gap, slip and forces of a contact point, with the data for their comparison.
 pub(super) struct Pair {
-    /// The gap by the displacements \[m\].
+    /// The gap from the displacements \[m\].
     pub(super) gap: f64,
-    /// The slip in the step, by the displacements \[m\].
+    /// The slip in the step, from the displacements \[m\].
     pub(super) slip: f64,
     pub(super) t_n: f64,
     pub(super) t_t: f64,
@@ -24,7 +24,7 @@ pub(super) struct Pair {
 
 impl Pair {
     pub(super) fn of(model: &Model, state: &State, contact: &JointPoint, it: &PointState) -> Self {
-        // Faces that are pressed come nearer than they were, which is no gap below zero.
+        // Faces that are pressed come nearer than at first, which is not a gap below zero.
         let [c_n, c_t] = contact.gives();
         let joint = &model.joints[contact.joint.index()];
         let apart = recover::relative_displacement(model, &state.displacements, contact);
@@ -42,19 +42,19 @@ impl Pair {
         }
     }
 
-    /// Pull beyond the tensile strength, and force along the joint beyond its bound.
+    /// Tension beyond the tensile strength, and force along the joint beyond its bound.
     pub(super) fn outside_cone(&self, bodies: &Bodies) -> f64 {
         let pull = bodies.share(&self.blocks, -self.law.tension - self.t_n);
         let violation = self.law.violation(self.t_n, self.t_t);
         larger(pull, bodies.share(&self.blocks, violation / self.sensitivity()))
     }
 
-    /// How deep the sides are in one another.
+    /// The depth by which the sides penetrate one another.
     pub(super) fn inside(&self, lengths: &Lengths) -> f64 {
         lengths.share(&self.blocks, -self.gap)
     }
 
-    /// Force across a gap, and sliding at another force than the bound against it.
+    /// Force across a gap, and sliding under a force other than the bound against it.
     pub(super) fn against_law(&self, bodies: &Bodies, lengths: &Lengths) -> f64 {
         let length = |part: f64| lengths.share(&self.blocks, part);
         let force = |part: f64| bodies.share(&self.blocks, part);
@@ -64,13 +64,13 @@ impl Pair {
         larger(across, smaller(length(self.slip.abs()), force(error)))
     }
 
-    /// How many times the bound of friction has the errors of the normal force.
+    /// The factor by which the bound of friction magnifies errors of the normal force.
     fn sensitivity(&self) -> f64 {
         self.law.cone().sensitivity()
     }
 }
 
-/// The smaller one; no number counts as wrong.
+/// The smaller number; NaN counts as an error.
 fn smaller(a: f64, b: f64) -> f64 {
     if a.is_nan() || b.is_nan() { f64::INFINITY } else { a.min(b) }
 }

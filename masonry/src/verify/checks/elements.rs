@@ -11,7 +11,7 @@ use crate::recover;
 use crate::system::kinematics::{shares, stretched, terms};
 use crate::system::nodal_loads;
 
-/// The terms at a node: eight of each of four elements.
+/// The number of terms at a node: eight of each of four elements.
 const TERMS: f64 = 32.0;
 
 /// The force at a node, and the sum of the sizes of its terms, which may circulate \[N\].
@@ -34,13 +34,13 @@ impl Nodal {
 
 /// The nodal forces of an elastic block.
 pub(super) struct NodeForces {
-    /// The largest that is left over \[N\].
+    /// The largest unbalanced force \[N\].
     left: f64,
     /// The largest sum of loads and contact forces at a node \[N\].
     outside: f64,
     /// The largest sum of terms of the elements at a node: stiffness times displacement \[N\].
     pub(super) inside: f64,
-    /// How many nodes there are.
+    /// The number of nodes.
     pub(super) count: usize,
 }
 
@@ -50,8 +50,8 @@ impl NodeForces {
         relative(self.left, self.inside.max(self.outside))
     }
 
-    /// The residual at a node, relative to the forces from outside, all of which on the block add up to `size`.
-    /// It has the rounding errors of the terms of the elements, and those of the forces around the block.
+    /// The residual at a node, relative to the forces from outside, which add up to `size` on the block. It has
+    /// the rounding errors of the terms of the elements, and those of the forces around the block.
     pub(super) fn error(&self, size: f64, around: f64) -> f64 {
         // Forces on a block that act elsewhere spread over its nodes.
         let outside = self.outside.max(size / self.count as f64);
@@ -60,7 +60,7 @@ impl NodeForces {
     }
 }
 
-/// The nodes of every block; `None` of rigid ones.
+/// The nodes of every block; `None` for rigid blocks.
 pub(super) fn nodes(model: &Model, state: &State) -> Vec<Option<NodeForces>> {
     let outside = outside(model, state);
     let blocks = model.blocks.iter().zip(&state.displacements).zip(&outside);
@@ -78,7 +78,7 @@ pub(super) fn nodes(model: &Model, state: &State) -> Vec<Option<NodeForces>> {
     blocks.map(of_block).collect()
 }
 
-/// Loads and contact forces at the nodes, and the bars of strips of mortar; empty of rigid blocks.
+/// Loads and contact forces at the nodes, and the bars of strips of mortar; empty for rigid blocks.
 fn outside(model: &Model, state: &State) -> Vec<Vec<Nodal>> {
     let loads = |block: &PlacedBlock| -> Vec<Nodal> {
         let mesh = block.mesh.as_ref();
@@ -98,7 +98,7 @@ fn outside(model: &Model, state: &State) -> Vec<Vec<Nodal>> {
         for term in terms(model, contact) {
             add(term.anchor, term.normal * it.t_n + term.tangent * it.t_t);
         }
-        // The bar that a part of a strip is always acts.
+        // The bar of a part of a strip always acts.
         let stiffness = contact.film.and_then(|film| film.stretch).map_or(0.0, |it| it.stiffness);
         let pull = stiffness * recover::film_elongation(model, &state.displacements, contact);
         for (anchor, along) in stretched(model, contact) {

@@ -1,4 +1,4 @@
-//! The work of loads against the energy that is stored and dissipated; and the shape of rigid blocks.
+//! The work of loads against the stored and dissipated energy; and the shape of rigid blocks.
 
 use nalgebra::Vector2;
 
@@ -10,7 +10,7 @@ use crate::recover;
 use crate::system::nodal_loads;
 use crate::system::rigid::Modes;
 
-/// `f.u + t.y = 2 U + t.x`, and friction that does work, relative to all terms.
+/// The error of `f.u + t.y = 2 U + t.x`, and friction that does positive work, relative to all terms.
 pub(super) fn error(model: &Model, state: &State, pairs: &[Pair]) -> f64 {
     let (mut work, mut size) = (0.0, 0.0);
     for (block, u) in model.blocks.iter().zip(&state.displacements) {
@@ -38,8 +38,8 @@ pub(super) fn error(model: &Model, state: &State, pairs: &[Pair]) -> f64 {
     larger(relative(rest.abs(), size), relative(-dissipated, size))
 }
 
-/// The loads of a block with their displacements, at its nodes or, on a rigid block, in their places; a moment is a force at
-/// the distance of the farthest corner.
+/// The loads of a block with their displacements, at its nodes or, for a rigid block, in their places; a moment is a
+/// force at the distance of the farthest corner.
 fn loads(model: &Model, block: &PlacedBlock, u: &[Vector2<f64>]) -> Vec<[Vector2<f64>; 2]> {
     if let Some(mesh) = &block.mesh {
         let loads = nodal_loads(model, block, mesh);
@@ -54,7 +54,7 @@ fn loads(model: &Model, block: &PlacedBlock, u: &[Vector2<f64>]) -> Vec<[Vector2
     model.forces_on(block).iter().flat_map(of_load).collect()
 }
 
-/// How much rigid blocks change their shape, relative to their largest displacement.
+/// The largest change of the shape of a rigid block, relative to its largest displacement.
 pub(super) fn deformation(model: &Model, state: &State) -> f64 {
     let blocks = model.blocks.iter().zip(&state.displacements);
     let rigid = blocks.filter(|(block, _)| block.mesh.is_none());

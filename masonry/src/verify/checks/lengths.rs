@@ -1,4 +1,4 @@
-//! How far blocks move: what gaps and slips are compared with.
+//! The movements of blocks, with which gaps and slips are compared.
 
 use nalgebra::Vector2;
 
@@ -10,12 +10,12 @@ use crate::model::{JointPoint, Model};
 
 /// The largest lengths \[m\].
 pub(super) struct Lengths {
-    /// The lengths of every block: displacements, and gaps and slips at first and compressions of joints at its points. A block
-    /// may be at rest between joints and supports that are not. Rigid blocks have the largest of all: nothing but others
-    /// tells how far they move, and many do not.
+    /// The lengths of every block: displacements, and initial gaps and slips and compressions of joints at its points.
+    /// A block may be at rest between joints and supports that move. Rigid blocks have the largest length of all: their
+    /// movements follow only from those of others, and many do not move.
     blocks: Vec<f64>,
     /// Rounding errors of the largest length of all, and on elastic blocks the deformations by rounding errors of the
-    /// forces around them: a block that carries nothing is deformed by these alone.
+    /// forces around them: only these errors deform a block that carries nothing.
     roundings: Vec<f64>,
 }
 
@@ -55,7 +55,7 @@ impl Lengths {
         Self { blocks, roundings }
     }
 
-    /// A length at a contact point of some blocks, relative to the largest of theirs.
+    /// A length at a contact point of some blocks, relative to the largest length of these blocks.
     pub(super) fn share(&self, blocks: &[usize], part: f64) -> f64 {
         let largest = |of: &[f64]| blocks.iter().map(|block| of[*block]).fold(0.0, larger);
         known(part, largest(&self.blocks), largest(&self.roundings))

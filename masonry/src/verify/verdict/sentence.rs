@@ -8,7 +8,7 @@ use crate::history::{History, HistoryStep, SecondLoading};
 use crate::model::Model;
 use crate::scene::Movement;
 
-/// The sentence of a verdict; of a load history two, the second of which says how far it went.
+/// The sentence of a verdict, or two for a load history, of which the second gives the last step.
 pub(super) fn of(
     known: &Findings<'_>,
     verdict: Verdict,
@@ -62,7 +62,7 @@ pub(super) fn of(
     }
 }
 
-/// The findings in the steps of a history, as far as they were checked.
+/// The findings in the steps of a history, if they were checked.
 fn in_all_steps(structure: &str, history: &History) -> String {
     let steps = history.steps;
     let stands = match history.steps_against_law() {
@@ -88,7 +88,7 @@ fn in_all_steps(structure: &str, history: &History) -> String {
     }
 }
 
-/// The size of a movement.
+/// The size of a movement in words.
 pub(super) fn of_movement(movement: Drift) -> String {
     let Drift { share, turned } = movement;
     format!(
@@ -125,7 +125,7 @@ fn undecided(known: &Findings<'_>, evidence: Evidence, movement: Option<Drift>) 
     }
 }
 
-/// The routes that were tried, and how near they came.
+/// The routes that were tried, and their residuals.
 fn tried(known: &Findings<'_>) -> String {
     let info = &known.step.info;
     let mut names: Vec<&str> = info.routes.iter().map(|end| end.route.name()).collect();
@@ -146,7 +146,7 @@ fn at_step(step: &HistoryStep) -> String {
     format!(" in step {} of {} of stage \"{}\"", step.number, step.of, step.stage)
 }
 
-/// How far a history went before the step that failed.
+/// The progress of a history before the step that failed.
 fn reached(model: &Model, history: &History) -> Option<String> {
     let failed = history.failed.as_ref()?;
     let Some(last) = history.records.last() else {
@@ -186,7 +186,7 @@ fn reached(model: &Model, history: &History) -> Option<String> {
     })
 }
 
-/// Without the digits that interpolation leaves.
+/// The value without the digits that interpolation leaves.
 fn short(value: f64) -> f64 {
     format!("{value:.5e}").parse().unwrap_or(value)
 }

@@ -1,4 +1,4 @@
-//! Whether contact forces are unique: forces that circulate between contacts without any effect on the blocks can be
+//! The uniqueness of contact forces: forces that circulate between contacts without any effect on the blocks can be
 //! added to them.
 
 use faer::sparse::{SparseColMat, SparseColMatRef};
@@ -9,19 +9,20 @@ use crate::columns::{ColumnMatrix, column};
 use crate::data::state::{PointState, State};
 use crate::model::{JointPoint, Model};
 
-/// Normal forces below this part of the largest are none, and forces this near to an edge of the cone are on it.
+/// Normal forces below this part of the largest count as zero, and forces within it of an edge of the cone count as on
+/// the edge.
 const NONE: f64 = 1e-9;
 /// The part of the stiffness of contacts that makes the matrix definite.
 const SHIFT: f64 = 1e-10;
-/// Circulating part of forces of order one, above rounding.
+/// The circulating part of forces of order one above which forces are not unique: above rounding.
 const CIRCULATES: f64 = 1e-3;
 
-/// How many contact points have forces that are not unique.
+/// The number of contact points whose forces are not unique.
 ///
-/// A force may change along both directions inside its cone, along the edge if it slides, and not at all if it is zero. Of
-/// blocks at rest no point slides: a force on the edge of its cone, as those of least size often are, may leave it inwards.
-/// The part `d - B^T (B B^T)^-1 B d` of such changes `d` of order one has no effect on the blocks; `B` maps changes to
-/// forces on displacements.
+/// A force may change along both directions inside its cone, along the edge if it slides, and not at all if it is zero.
+/// No point slides between blocks at rest: a force on the edge of its cone, as those of least size often are, may leave
+/// it inwards. The part `d - B^T (B B^T)^-1 B d` of such changes `d` of order one has no effect on the blocks; `B` maps
+/// changes to forces on displacements.
 pub(crate) fn circulating(
     model: &Model,
     problem: &Contact2d,
@@ -37,17 +38,17 @@ pub(crate) fn circulating(
     points.len()
 }
 
-/// Ways in which the forces at points may change, in the order of the points.
+/// Possible changes of the forces at points, in the order of the points.
 struct Changes {
     points: Vec<usize>,
-    /// The forces on displacements by each.
+    /// The forces on displacements by each change.
     effects: SparseColMat<usize, f64>,
 }
 
 /// The forces that may change, and the effects of their changes on the balance; `None` if memory does not suffice.
 fn changes(model: &Model, problem: &Contact2d, state: &State, at_rest: bool) -> Option<Changes> {
     let contacts = || model.contacts.iter().zip(&state.contacts);
-    // How far a force is from opening the joint.
+    // The distance of a force from opening the joint.
     let pressed = |(point, force): (&JointPoint, &PointState)| force.t_n + point.law.tension;
     let largest = contacts().map(pressed).fold(0.0, f64::max);
     let normals = problem.normal().as_ref().transpose().to_col_major().ok()?;
@@ -92,7 +93,7 @@ fn sum(
     entries
 }
 
-/// The part of changes of order one that no displacement feels.
+/// The part of changes of order one without an effect on any displacement.
 fn unfelt(effects: SparseColMatRef<'_, usize, f64>) -> Option<Vec<f64>> {
     let count = effects.ncols();
     let mut diagonal = vec![0.0; effects.nrows()];
@@ -106,7 +107,7 @@ fn unfelt(effects: SparseColMatRef<'_, usize, f64>) -> Option<Vec<f64>> {
     let mut factors = Gram::new(None, effects.symbolic()).ok()?;
     factors.factorise(None, effects, &vec![1.0; count], shift).ok()?;
     let mut left: Vec<f64> = (0..count).map(scattered).collect();
-    // The shift is gone after the second time.
+    // The effect of the shift is gone after the second time.
     for _ in 0..2 {
         let mut moved = vec![0.0; effects.nrows()];
         for (k, left) in left.iter().enumerate() {
@@ -120,7 +121,7 @@ fn unfelt(effects: SparseColMatRef<'_, usize, f64>) -> Option<Vec<f64>> {
     Some(left)
 }
 
-/// Numbers between 1/2 and 1 of either sign that have nothing to do with the structure.
+/// Numbers between 1/2 and 1 of either sign that are unrelated to the structure.
 fn scattered(k: usize) -> f64 {
     const GOLDEN: f64 = 0.618_033_988_749_894_9;
     let fraction = (GOLDEN * (k as f64 + 1.0)).fract();
