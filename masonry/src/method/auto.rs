@@ -8,6 +8,7 @@
 //!    ([`statics`](crate::method::statics)) decides either way.
 //! 2. All other walls: the interior-point method, at every size. If it has no solution after [`STEPS_BEFORE_PROOF`],
 //!    that program checks whether any forces balance the loads at all; a proof that none do is the result.
+//! 3. Lemke's method, for a second opinion, if its dense matrices take about a second.
 //!
 //! A result is final if it is a checked equilibrium, or a proof that there is no equilibrium. A secondary ray of
 //! Lemke's method is not a proof if there is friction: the next route follows, as after a route that refuses the scene.

@@ -79,18 +79,18 @@ pub fn bricks(wall: &Wall) -> Vec<PlacedBrick> {
 
 /// The bricks of a wall with mortar between them, in the order of [`bricks`].
 ///
-/// Every brick is laid with a head joint at its right end, so that lengths in courses count brick and
-/// joint: whole bricks have their length `l`, half bricks `(l - t_y) / 2`. The wall ends with a brick:
-/// one of `n` whole bricks is `n (l + t_y) - t_y` wide, one of `n` courses `n (h + t_y) - t_y` high.
+/// Every brick is laid with a head joint at its right end, so that lengths in courses count brick and joint: whole
+/// bricks have their length `l`, half bricks `(l - t_y) / 2`. The wall ends with a brick: a wall of `n` whole bricks is
+/// `n (l + t_y) - t_y` wide, and a wall of `n` courses `n (h + t_y) - t_y` high.
 ///
 /// ```
 /// use masonry::scene::bond::{JointThickness, bricks_in_mortar};
 /// use masonry::scene::{Brick, Wall};
 ///
 /// let brick = Brick { length: 0.2, height: 0.1 };
-/// Every brick is laid with a head joint at its right end, so that lengths in courses count brick and joint: whole
-/// bricks have their length `l`, half bricks `(l - t_y) / 2`. The wall ends with a brick: a wall of `n` whole bricks is
-/// `n (l + t_y) - t_y` wide, and a wall of `n` courses `n (h + t_y) - t_y` high.
+/// let wall = Wall::running_bond("wall", "brick", brick, 1.3, 2);
+/// let laid = bricks_in_mortar(&wall, JointThickness { bed: 0.02, head: 0.02 });
+/// let half = &laid[6];
 /// assert!((half.high[0] - half.low[0] - 0.09).abs() < 1e-15);
 /// assert!((laid[12].high[0] - 1.3).abs() < 1e-15 && (laid[12].low[1] - 0.12).abs() < 1e-15);
 /// ```
