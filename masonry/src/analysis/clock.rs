@@ -18,7 +18,7 @@ impl Clock {
         observer: &mut dyn FnMut(Event) -> ControlFlow<()>,
         work: impl FnOnce() -> T,
     ) -> T {
-        // Only the solver is long enough to be cancelled.
+        // Only the solver takes long enough to be cancelled.
         let _ = observer(Event::Phase(phase));
         let began = Instant::now();
         let result = work();

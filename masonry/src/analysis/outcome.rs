@@ -25,7 +25,7 @@ pub struct Outcome {
     pub model: Model,
     /// The effects and routes that were built, with reasons.
     pub plan: Plan,
-    /// How the complementarity problem was solved.
+    /// The record of the solution of the complementarity problem.
     pub solve: SolveInfo,
     /// The mechanical state, when solved.
     pub state: Option<State>,

@@ -57,7 +57,7 @@ pub enum SolveError {
     NotTreated {
         /// The route.
         route: Route,
-        /// The reason, and what to use instead.
+        /// The reason, and an alternative.
         reason: String,
     },
     /// A later step of the load history could not be solved; the steps before it are kept.

@@ -178,7 +178,7 @@ impl End {
     }
 }
 
-/// One route, one tolerance, one mesh.
+/// The result of one route to one tolerance on one mesh.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Record {
     /// The route.
@@ -259,7 +259,7 @@ pub struct StudyProgress {
 /// `Break`.
 pub type StudyObserver<'a> = dyn FnMut(StudyProgress) -> ControlFlow<()> + 'a;
 
-/// Studies a scene and reports to the observer what is being solved.
+/// Studies a scene and reports the running solve to the observer.
 ///
 /// Form and limit of pivots of the scene are kept for [`Route::Lemke`]; its route, tolerance and springs
 /// are replaced.

@@ -100,8 +100,8 @@ pub fn facing_normal(first: [Point2<f64>; 2], second: [Point2<f64>; 2]) -> Optio
     (e1.dot(&e2) < 0.0).then(|| turn_right((e1 - e2).normalize()))
 }
 
-/// Overlap of two segments that run in opposite directions and face each other, the second on the
-/// right-hand side of the first: two edges of counter-clockwise blocks, say.
+/// Overlap of two segments that run in opposite directions and face each other, the second on the right-hand side of
+/// the first, such as two edges of counter-clockwise blocks.
 ///
 /// `slack` \[m\] is the distance that counts as touching and `limit` \[m\] the largest gap that still counts as facing.
 /// Gaps below the slack are kept, too, if there is a limit; only gaps within the rounding errors of the coordinates are

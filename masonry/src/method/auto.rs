@@ -2,7 +2,7 @@
 //! and additional questions. Nothing else in the crate chooses routes: [`Plan::routes`](crate::plan::Plan::routes) has
 //! the list with its reasons, and [`analysis`](crate::analysis::solve) runs it.
 //!
-//! The cheapest method that can decide runs first; slower ones follow only to decide what no other method can:
+//! The cheapest method that can decide runs first; slower ones follow only for cases that they alone can decide:
 //!
 //! 1. Rigid blocks without gaps, in joints that do not give way: the program of admissible forces
 //!    ([`statics`](crate::method::statics)) decides either way.

@@ -25,12 +25,12 @@ pub const SOFT: f64 = 1e-3;
 const MAX_ROUNDS: usize = 2000;
 /// Sweeps of one round at most.
 const SWEEPS: usize = 2000;
-/// The residual of the sweeps of a round, relative to that of the last round. It is multiplied by the same factor after
+/// The tolerance of the sweeps of a round, relative to the last residual. It is multiplied by the same factor after
 /// every round that did not reduce the residual, down to `LEAST`.
 const BETTER: f64 = 0.1;
 const LEAST: f64 = 1e-6;
-/// The tolerance of the sweeps at first, and the least, relative to the tolerance of the route, since the springs'
-/// forces may be much larger than the loads; `ROUNDING` bounds it from below.
+/// The tolerance of the sweeps at first, and at last relative to the tolerance of the route, since the springs' forces
+/// may be much larger than the loads; `ROUNDING` bounds it from below.
 const FIRST: f64 = 0.1;
 const LAST: f64 = 1e-4;
 const ROUNDING: f64 = 1e-14;

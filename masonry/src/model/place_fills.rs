@@ -38,7 +38,7 @@ pub(super) enum Share {
 /// An axle in its place.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct PlacedAxle {
-    /// Its place along x \[m\].
+    /// The place of the axle along x \[m\].
     pub(super) x: f64,
     /// The top of the fill \[m\], if there is one.
     pub(super) level: Option<f64>,

@@ -75,7 +75,7 @@ pub struct Load {
     pub mass: Option<f64>,
 }
 
-/// All of something, nothing, or a part of it.
+/// The whole, nothing, or a part.
 #[cfg(test)]
 #[derive(schemars::JsonSchema)]
 #[serde(untagged)]

@@ -92,6 +92,6 @@ pub enum Form {
     Coulomb,
     /// Two friction forces and a slip bound: four unknowns a point.
     StewartTrinkle,
-    /// As Stewart-Trinkle, with the rigid amplitudes kept as unknowns.
+    /// The Stewart-Trinkle form with the rigid amplitudes kept as unknowns.
     Mixed,
 }

@@ -44,7 +44,7 @@ impl TrainPosition {
 #[derive(Debug, Clone)]
 #[non_exhaustive]
 pub struct CrossingTrain {
-    /// Its positions, in their order; after an interruption those that were reached.
+    /// The positions in their order, up to the last one that was reached.
     pub positions: Vec<TrainPosition>,
     /// Whether the limits of all positions are those of Coulomb's friction along paths, and not of associated flow.
     pub by_path: bool,

@@ -28,13 +28,13 @@ impl<'a> Watch<'a> {
         Self { observer, known: Bracket::default(), is_ended: false }
     }
 
-    /// Asks the observer; once it has ended the search, it is not asked again.
+    /// Calls the observer, unless it has ended the search.
     pub(super) fn ask(&mut self) -> ControlFlow<()> {
         self.is_ended = self.is_ended || (self.observer)(self.known).is_break();
         if self.is_ended { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     }
 
-    /// Asks the observer at the steps of a solver.
+    /// Calls the observer at the steps of a solver.
     pub(super) fn steps(&mut self) -> impl FnMut(&Iteration) -> ControlFlow<()> {
         |_| self.ask()
     }

@@ -96,7 +96,7 @@ impl<'a> Runner<'a> {
         self.settings.mesh_name(factor)
     }
 
-    /// One record.
+    /// Makes the record of one solve.
     pub(super) fn record(
         &mut self,
         scene: &Scene,
@@ -182,7 +182,7 @@ impl<'a> Runner<'a> {
         ran
     }
 
-    /// Asks the observer; once it has ended the study, it is not asked again.
+    /// Calls the observer, unless it has ended the study.
     fn ask(&mut self, at: StudyProgress) -> ControlFlow<()> {
         self.is_interrupted = self.is_interrupted || (self.observer)(at).is_break();
         if self.is_interrupted { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }

@@ -81,7 +81,7 @@ impl<'a> RigidMotion<'a> {
     fn apart(&self, model: &Model, contact: &JointPoint) -> [f64; 2] {
         let joint = &model.joints[contact.joint.index()];
         let side = |Anchor { block, edge, at }: Anchor| {
-            // Both faces of a film feel its force in the middle between them.
+            // The force of a film acts on both faces in the middle between them.
             let face = || geometry::on_edge(&model.blocks[block.index()].corners, edge, at);
             let place = contact.film.map_or_else(face, |_| contact.position);
             self.at(block, place)

@@ -48,7 +48,7 @@ pub enum SceneErrorKind {
         /// An alternative.
         otherwise: &'static str,
     },
-    /// Both of two keys are given of which exactly one is wanted.
+    /// Two keys are given of which exactly one is wanted.
     #[error("both `{first}` and `{second}` are given: keep one of them")]
     Both {
         /// One key.

@@ -13,7 +13,7 @@ const RANK_TOLERANCE: f64 = 1e-10;
 /// A split of the contact rows into isostatic rows and the others.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Isostatic {
-    /// As many rows as there are rigid amplitudes, linearly independent; increasing.
+    /// Linearly independent rows, as many as rigid amplitudes; increasing.
     pub rows: Vec<usize>,
     /// All other rows, increasing.
     pub others: Vec<usize>,

@@ -12,7 +12,7 @@ use crate::model::{JointPoint, Model};
 pub(super) struct Lengths {
     /// The lengths of every block: displacements, and initial gaps and slips and compressions of joints at its points.
     /// A block may be at rest between joints and supports that move. Rigid blocks have the largest length of all: their
-    /// movements follow only from those of others, and many do not move.
+    /// movements follow only from those of other blocks, and many do not move.
     blocks: Vec<f64>,
     /// Rounding errors of the largest length of all, and on elastic blocks the deformations by rounding errors of the
     /// forces around them: only these errors deform a block that carries nothing.

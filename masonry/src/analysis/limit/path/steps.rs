@@ -16,7 +16,7 @@ pub(super) struct AtRest {
     under: Contact2d,
 }
 
-/// How a step ended.
+/// The end of a step.
 pub(super) enum StepEnd {
     Rests(Box<AtRest>),
     /// The blocks flow, with these velocities of all displacements.
