@@ -35,8 +35,8 @@ pub struct Reduction {
     pub r: Mat<f64>,
     /// `t_0` of (3.18): forces of the isostatic rows that balance the loads \[N\].
     pub t0: Vec<f64>,
-    /// `A = W^T F W` \[m/N\], symmetric and positive semidefinite; empty if nothing deforms: rigid blocks in stiff
-    /// joints have only `R`.
+    /// `A = W^T F W` \[m/N\], symmetric and positive semidefinite; empty if nothing deforms: rigid blocks in joints
+    /// that do not give way have only `R`.
     pub a: Mat<f64>,
     /// `c` of (3.23) \[m\].
     pub c: Vec<f64>,

@@ -32,8 +32,8 @@ pub struct Sparse {
 /// The points of the problem that share a tangential force: `|t_t| <= mu t_n + C_0` is the sum of a part that friction
 /// carries and of a part that does not depend on the normal force.
 ///
-/// The second part is the friction, with a coefficient of one, of an extra point with the same slip that a force `C_0`
-/// presses. This force is the load of a displacement that acts on the extra point only and is held at zero there.
+/// The second part is the friction, with a coefficient of one, of an extra point with the same slip. A force `C_0`
+/// presses this point: the load of a displacement that enters only this point, which holds the displacement at zero.
 #[derive(Debug, Clone, Copy)]
 struct Carriers {
     friction: Option<usize>,

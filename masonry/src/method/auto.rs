@@ -127,7 +127,7 @@ pub(crate) fn may_be_cut(mut later: impl Iterator<Item = Route>) -> bool {
 }
 
 /// Whether the verdict depends on forces that balance the loads: if there is no answer, if the answer is far away, or
-/// if blocks are at rest. Such forces decide blocks at rest, at whatever tolerance another route found them.
+/// if blocks are at rest. Such forces decide the verdict on blocks at rest, whatever the tolerance of another route.
 pub(crate) fn needs_statics(status: Status, is_far: bool, at_rest: bool) -> bool {
     status != Status::Cancelled && (status != Status::Solved || is_far || at_rest)
 }
@@ -164,7 +164,7 @@ impl Rank {
         }
     }
 
-    /// Whether no other route can decide more. A ray is as good as a proof without friction.
+    /// Whether no other route can decide more. A ray is as good as a proof if there is no friction.
     pub(crate) fn is_final(self, has_friction: bool) -> bool {
         match self {
             Self::Solved | Self::Proved => true,

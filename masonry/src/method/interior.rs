@@ -2,7 +2,7 @@
 //!
 //! If there is friction and the path has no answer, blocks with mass move under their loads until they rest or fall
 //! ([`Evolution`](lcp::Evolution)). They always move in a load history, from the end of the previous step. Soft springs
-//! decide whether there is an equilibrium without friction.
+//! decide whether there is an equilibrium if there is no friction.
 
 use lcp::{
     Contact2d, ContactState, InteriorPoint, InteriorPointSettings, Iteration, Solver, Status,

@@ -20,8 +20,8 @@ const FIRST_DRAG: f64 = 1e-2;
 /// Displacements above this part of the median size of blocks, plus twice the movement of supports, invalidate the
 /// contacts of the scene. Theory: a brick in running bond has then lost half of its bed.
 const REACH: f64 = 0.25;
-/// Steps of the path before blocks move. Measured on walls of 1000 bricks: its first start solves in up to 60 steps, or
-/// not.
+/// Steps of the path before blocks move. Measured on walls of 1000 bricks: walls that its first start solves take up to
+/// 60.
 const STEPS_BEFORE_MOTION: usize = 60;
 /// The largest tolerance of steps: forces are judged against the largest of all forces in steps, and at the end, to
 /// 1e-9, against those on each block. Measured on walls of 100 to 1000 bricks: the latter are up to some hundred times

@@ -65,7 +65,7 @@ pub(crate) fn largest(rates: &[Vec<Vector2<f64>>]) -> f64 {
     rates.iter().flatten().map(nalgebra::Matrix::amax).fold(0.0, f64::max)
 }
 
-/// The mechanism of rigid amplitudes; `deformation` \[m\] is the rest of the displacements.
+/// The mechanism of rigid amplitudes; `deformation` \[m\] is the remainder of the displacements.
 fn of_amplitudes(
     model: &Model,
     system: &System,
@@ -91,8 +91,8 @@ fn of_amplitudes(
     Some(rates)
 }
 
-/// The rigid motions nearest to displacements, three amplitudes a block, and the largest rest of the displacements
-/// \[m\].
+/// The rigid motions nearest to displacements, three amplitudes a block, and the largest remainder of the
+/// displacements \[m\].
 fn rigid_part(model: &Model, system: &System, sparse: &Sparse, u: &[f64]) -> (Vec<f64>, f64) {
     let mut amplitudes = Vec::with_capacity(3 * model.blocks.len());
     let mut rest = 0.0_f64;

@@ -41,8 +41,8 @@ impl Modes {
         self.at(place).iter().zip(amplitudes).map(|(mode, amplitude)| mode * *amplitude).sum()
     }
 
-    /// The amplitudes \[m\] of the rigid motion nearest to displacements \[m\] of places, and the largest rest of the
-    /// displacements \[m\].
+    /// The amplitudes \[m\] of the rigid motion nearest to displacements \[m\] of places, and the largest remainder of
+    /// the displacements \[m\].
     ///
     /// # Panics
     /// As [`amplitudes`](Self::amplitudes).

@@ -24,7 +24,8 @@ use crate::system::{System, mass};
 const STEPS: f64 = 16.0;
 /// The search ends at this relative difference between the factors at which blocks rest and at which they flow.
 const NEAR: f64 = 5e-5;
-/// The difference at which the search ends if blocks take long to fall, and of events. Chosen: three digits.
+/// The difference at which the search ends if blocks take long to fall, and to which events are located. Chosen: three
+/// digits.
 const NEAR_ENOUGH: f64 = 1e-3;
 /// Steps of the solver in a long fall. Measured: walls of a few blocks fall within 100, walls of a hundred within some
 /// hundred.

@@ -269,7 +269,7 @@ impl Run {
         StepResult::new(SolveInfo { because: "planned; no route has ended".to_owned(), ..info })
     }
 
-    /// Keeps a result. Nothing else is remembered of an only step.
+    /// Keeps a result. There is nothing else to remember if there is only one step.
     fn take(
         &mut self,
         step: HistoryStep,

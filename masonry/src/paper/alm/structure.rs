@@ -105,8 +105,8 @@ impl<'a> Structure<'a> {
         ratio(largest(&rest), if self.load > 0.0 { self.load } else { largest(&state.t_n) })
     }
 
-    /// Residuals of a state, from the data. The evaluation of the law of films satisfies it, and the forces that films
-    /// take are no longer loads of the contact problem.
+    /// Residuals of a state, from the data. The law of films holds by its evaluation, and the forces that films take
+    /// are no longer loads of the contact problem.
     ///
     /// # Errors
     /// [`lcp::Error::NotFinite`] if the forces of films overflow.

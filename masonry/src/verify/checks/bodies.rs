@@ -1,4 +1,4 @@
-//! The forces on every block: their unbalanced rest, and their size.
+//! The forces on every block: their unbalanced part, and their size.
 
 use nalgebra::{Point2, Vector2};
 
