@@ -2,7 +2,7 @@
 //!
 //! | route | problem | method |
 //! |---|---|---|
-//! | [`forces`] | [`System`](crate::system::System) | admissible forces, by one convex program, or the proof that there are no such forces |
+//! | [`forces`] | [`System`](crate::system::System) | admissible forces, by one convex program, or the proof that none exist |
 //! | [`lemke`] | [`Reduction`](crate::forms::reduction::Reduction), dense | Lemke's method |
 //! | [`interior`] | [`Sparse`](crate::forms::Sparse) | interior-point method, with evidence if there is no equilibrium |
 //! | [`qp`] | [`Sparse`](crate::forms::Sparse) | convex quadratic programs, with proofs if there is no equilibrium |
