@@ -12,12 +12,12 @@ use masonry::analysis::outcome::Outcome;
 use masonry::rounding::largest;
 use masonry::scene::Combined;
 
-/// What was found of all cases, a line for each.
+/// The results of all cases, a line for each.
 #[derive(Debug, Clone)]
 pub struct Cases {
     kind: Kind,
     governs: usize,
-    /// What governs.
+    /// The name of the case that governs.
     name: String,
     rows: Table,
     /// The factor against the position of a train.
@@ -30,7 +30,7 @@ struct Kind {
     /// The list in JSON.
     key: &'static str,
     title: &'static str,
-    /// What the case is that the rest of a report is of.
+    /// The words after the name of the case that the rest of a report is about.
     governs: &'static str,
 }
 
@@ -43,7 +43,7 @@ const POSITIONS: Kind = Kind {
 const POSITIONS_BY_PATH: Kind =
     Kind { key: "positions", title: "Positions of the train, path", governs: "governs" };
 
-/// What becomes of a train at a position.
+/// The answer for a train at a position, in words.
 fn answer(it: Option<Answer>) -> &'static str {
     match it {
         Some(Answer::Fails) => "fails",
@@ -54,7 +54,7 @@ fn answer(it: Option<Answer>) -> &'static str {
     }
 }
 
-/// The worst verdict; if verdicts are equal, the outcome that uses most of the friction of a joint.
+/// The worst verdict; the outcome that uses most of the friction of a joint if verdicts are equal.
 fn worst(list: &[Combined<Outcome>]) -> Option<usize> {
     let rank = |it: &Outcome| match it.verdict() {
         Verdict::Falls => 2,
@@ -63,7 +63,7 @@ fn worst(list: &[Combined<Outcome>]) -> Option<usize> {
     };
     let used = |it: &Outcome| friction_used(it).unwrap_or(0.0);
     let worse = |a: &Outcome, b: &Outcome| rank(a).cmp(&rank(b)).then(used(a).total_cmp(&used(b)));
-    // Of equals the first one.
+    // The first one of equals.
     (0..list.len()).rev().max_by(|a, b| worse(&list[*a].of, &list[*b].of))
 }
 
@@ -85,7 +85,7 @@ fn compare_checks(list: &mut [Combined<Limit>], governs: usize) {
     }
 }
 
-/// The largest part of its friction that a joint uses \[-\], if there is a state.
+/// The largest part of the friction of a joint that is used \[-\], if there is a state.
 fn friction_used(outcome: &Outcome) -> Option<f64> {
     let state = outcome.state.as_ref()?;
     let forces = joints::forces(&outcome.model, &state.contacts);
@@ -93,8 +93,8 @@ fn friction_used(outcome: &Outcome) -> Option<f64> {
 }
 
 impl Cases {
-    /// The verdicts of all combinations. The worst one governs; if verdicts are equal, the one that uses most of the friction of a
-    /// joint. `None` of no combinations.
+    /// The verdicts of all combinations. The worst one governs; if verdicts are equal, the outcome that uses most of
+    /// the friction of a joint. `None` without combinations.
     pub fn of_outcomes(list: &[Combined<Outcome>]) -> Option<Self> {
         let governs = worst(list)?;
         let rows = Columns::<&Combined<Outcome>>::new()
@@ -107,8 +107,8 @@ impl Cases {
         Some(Self { kind: COMBINATIONS, governs, name, rows, curve: None })
     }
 
-    /// The limit loads of all combinations. The smallest factor governs; it is warned of the worst seismic check, if that is of
-    /// another combination. `None` of no combinations.
+    /// The limit loads of all combinations. The smallest factor governs; its limit load has a warning if another
+    /// combination has the worst seismic check. `None` without combinations.
     pub fn of_limits(list: &mut [Combined<Limit>]) -> Option<Self> {
         let governs = smallest(list)?;
         compare_checks(list, governs);
@@ -165,17 +165,18 @@ impl Cases {
         self.governs
     }
 
-    /// The head of a report: the lines, and which one the rest of the report is of.
+    /// The head of a report: the lines, and the case that the rest of the report is about.
     pub fn head(&self) -> String {
         section(self.title()).trim_start().to_owned()
             + &table(&self.shown())
             + &format!("\n{}:\n\n", self.governing())
     }
 
-    /// The object of `--json` of several cases, pretty-printed: which one `governs`; the `combinations`, of `masonry solve` with
-    /// `verdict` and `friction_used`, of `masonry limit` with the `load_factor` that is carried, the one that `falls` and whether
-    /// the limit is `decided`, and `a_0`, `a_0_least` and `satisfied` of their seismic checks, or the `positions` of a train with `load_factor`, `bound` and `answer`; and, with a key of its
-    /// own, the `object` of the one that governs.
+    /// The object of `--json` of several cases, pretty-printed: the case that `governs`; the `combinations`, of
+    /// `masonry solve` with `verdict` and `friction_used`, of `masonry limit` with the `load_factor` that is carried,
+    /// the one that `falls`, whether the limit is `decided`, and `a_0`, `a_0_least` and `satisfied` of their seismic
+    /// checks, or the `positions` of a train with `load_factor`, `bound` and `answer`; and the `object` of the case
+    /// that governs, under its own `key`.
     ///
     /// # Errors
     /// None that this data can cause; the signature is that of the serialiser.
@@ -191,7 +192,7 @@ impl Cases {
         self.kind.title
     }
 
-    /// What governs: the name of a combination is in quotes.
+    /// The name of the case that governs, in quotes if it is a combination.
     fn quoted(&self) -> String {
         if self.kind.key == COMBINATIONS.key {
             format!("\"{}\"", self.name)
@@ -200,12 +201,12 @@ impl Cases {
         }
     }
 
-    /// Which case governs, as the beginning of a sentence.
+    /// The case that governs, as the beginning of a sentence.
     pub fn governing(&self) -> String {
         format!("{} {}", self.quoted(), self.kind.governs)
     }
 
-    /// What a page says of its table.
+    /// The note of a page on its table.
     pub(super) fn note(&self) -> String {
         format!("{}; this page shows it.", self.governing())
     }

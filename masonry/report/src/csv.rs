@@ -13,10 +13,9 @@ use masonry::model::Model;
 /// Columns carry the units of the scene in their names: `index`, `joint`, `class`, the names of
 /// the sides `a` and `b`, position `x_m`, `y_m`, `area_m2`, forces `t_n_kN` (compression positive)
 /// and `t_t_kN`, tractions `traction_n_kN/m2` and `traction_t_kN/m2` (force over area), `gap_m`,
-/// `slip_m`, `mu`, and `status` (`open`, `stick`, `slip`). Where there are mortar films, also
-/// `film_sigma_y_kN/m2` (tension positive) and `film_tau_kN/m2`, empty for points of dry joints, and before them
-/// `film_sigma_x_kN/m2` if films are whole strips. Numbers read back exactly; fields are
-/// quoted if RFC 4180 asks for it, and lines end with CR LF.
+/// `slip_m`, `mu`, and `status` (`open`, `stick`, `slip`). If there are mortar films, also `film_sigma_y_kN/m2`
+/// (tension positive) and `film_tau_kN/m2`, empty for points of dry joints, and before them `film_sigma_x_kN/m2` if
+/// films are whole strips. Numbers read back exactly; fields are quoted as RFC 4180 requires, and lines end with CR LF.
 pub fn contacts(model: &Model, state: &State) -> String {
     text(&tables::contacts(model, state))
 }
@@ -37,7 +36,7 @@ pub fn history(model: &Model, history: &History) -> String {
     text(&figures::history::in_csv(model, history))
 }
 
-/// A table with its heads, each with its unit.
+/// A table with its column heads, each with its unit.
 pub(super) fn text(table: &Table) -> String {
     let head = |it: &Column| match table.units.unit(it.quantity).as_str() {
         "" => quoted(&it.key).into_owned(),
@@ -59,8 +58,8 @@ fn field(value: &Value) -> String {
     }
 }
 
-/// A name as RFC 4180 wants it: in quotes when it contains a comma, a quote or a line break. After an apostrophe when spreadsheets
-/// would take it for a formula.
+/// A name as RFC 4180 requires: in quotes if it contains a comma, a quote or a line break. After an apostrophe if
+/// spreadsheets would take it for a formula.
 fn quoted(name: &str) -> Cow<'_, str> {
     let is_formula = name.starts_with(['=', '+', '-', '@']);
     let name = if is_formula { Cow::Owned(format!("'{name}")) } else { Cow::Borrowed(name) };

@@ -1,4 +1,4 @@
-//! A structure and what was found of it as a drawing: DXF of release 12, which CAD programs read, with a layer for each kind.
+//! A structure and its results as a drawing: DXF of release 12, which CAD programs read, with a layer for each kind.
 //!
 //! `masonry import` reads blocks, supports and joints back, and leaves out the layers of results.
 
@@ -26,12 +26,12 @@ const MECHANISM: &str = "result_mechanism";
 const COLOURS: [(&str, u8); 4] = [(BLOCKS, 7), (FORCES, 1), (PATHS, 3), (MECHANISM, 5)];
 /// The colour of all other layers, grey.
 const GREY: u8 = 8;
-/// The longest line of a force, and the farthest way in a mechanism, relative to the longer side of the structure. Chosen: both
-/// are seen, and hide little.
+/// The longest line of a force, and the longest movement in a mechanism, relative to the longer side of the structure.
+/// Chosen: large enough to be seen, and small enough to hide little.
 const LONGEST: f64 = 0.1;
 /// The height of letters, relative to the longer side of the structure. Chosen: a fifth of the longest line.
 const LETTERS: f64 = 0.02;
-/// Characters of the name of a layer in release 12.
+/// The largest number of characters in the name of a layer in release 12.
 const LONGEST_NAME: usize = 31;
 
 /// The drawing of an outcome, in the units of the scene.
@@ -41,8 +41,8 @@ const LONGEST_NAME: usize = 31;
 /// | `blocks` | closed outlines |
 /// | `support_NAME` | supports |
 /// | `joint_CLASS` | joints |
-/// | `result_forces` | the resultant of every joint, in its direction through its place; a text tells the scale |
-/// | `result_thrust` | from the forces at every joint of a block to their middle: the line of thrust of an arch |
+/// | `result_forces` | the resultant of every joint, in its direction through its place; a text gives the scale |
+/// | `result_thrust` | lines from the forces at every joint of a block to their middle: the line of thrust of an arch |
 /// | `result_mechanism` | outlines moved by a mechanism |
 pub fn drawing(outcome: &Outcome) -> String {
     let model = &outcome.model;
@@ -66,7 +66,7 @@ pub fn drawing(outcome: &Outcome) -> String {
     drawing.finish()
 }
 
-/// A layer named after a part of the scene, with `_` for what names of layers do not have.
+/// A layer named after a part of the scene, with `_` for characters that names of layers cannot have.
 fn layer(kind: &str, name: &str) -> String {
     let kept = |c: char| if c.is_ascii_alphanumeric() || c == '-' { c } else { '_' };
     format!("{kind}_{name}").chars().map(kept).take(LONGEST_NAME).collect()

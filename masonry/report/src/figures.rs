@@ -1,8 +1,8 @@
 //! Figures and tables that a user sees of a result, as one kind of value in the units of the scene, with their names,
 //! quantities and digits.
 //!
-//! Text, pages, JSON and CSV write them as they are; they only have an order of their own for some. A figure is added
-//! here and nowhere else, except for its unit and its fixed place in `json.rs`.
+//! Text, pages, JSON and CSV write these values as they are; some formats have only an order of their own. A figure is
+//! added here and nowhere else, except for its unit and its fixed place in `json.rs`.
 
 pub(super) mod history;
 pub(super) mod limit;
@@ -18,15 +18,15 @@ pub(super) use value::{Members, Value, members};
 /// A name and the words beside it.
 pub(super) type Said = (&'static str, String);
 
-/// A number or a few, as files and readers see them.
+/// One number or a few, as files and readers see them.
 #[derive(Debug, Clone)]
 pub(super) struct Figure {
-    /// Its name in JSON; empty if it is not there.
+    /// The key in JSON; empty if the figure is not in JSON.
     pub(super) key: &'static str,
     pub(super) value: Value,
-    /// Its words in the report as text, if it is there.
+    /// Name and words in the report as text, if the figure is there.
     text: Option<Said>,
-    /// Its words on a page, if it is there.
+    /// Name and words on a page, if the figure is there.
     page: Option<Said>,
 }
 
@@ -39,7 +39,7 @@ impl Figure {
         Self { text: Some((name, text)), ..self }
     }
 
-    /// The same in text and on a page.
+    /// Gives the figure the same name and words in text and on a page.
     pub(super) fn both(self, name: &'static str, text: String) -> Self {
         self.text(name, text.clone()).page(name, text)
     }
@@ -59,7 +59,7 @@ pub(super) fn on_page(figures: &[Figure]) -> Vec<Said> {
     figures.iter().filter_map(|it| it.page.clone()).collect()
 }
 
-/// Takes the figures of these keys out, as members of an object of JSON, null if they are not known.
+/// Takes out the figures with these keys, as members of an object of JSON; null for unknown ones.
 pub(super) fn taken(figures: &mut Vec<Figure>, keys: &str) -> Members {
     let mut member = |key: &str| {
         let found = figures.extract_if(.., |it| it.key == key).last();

@@ -95,10 +95,10 @@ impl InUnits {
     }
 }
 
-/// A stress \[Pa\] for people, in pascals or thousands, millions or billions of them, with its unit after a space that does not break.
+/// A stress \[Pa\] for people, in Pa, kPa, MPa or GPa, with its unit after a space that does not break.
 pub(super) fn stress_text(pascals: f64) -> String {
     let prefixes = [(1e9, "G"), (1e6, "M"), (1e3, "k")];
-    // A value that is rounded to a thousand of a unit is one of the next.
+    // A value that is rounded to a thousand of a unit is written in the next unit.
     let fits = |(unit, _): &(f64, &str)| pascals.abs() >= unit * (1.0 - 5e-5);
     let (unit, prefix) = prefixes.into_iter().find(fits).unwrap_or((1.0, ""));
     format!("{}\u{a0}{prefix}Pa", significant(pascals / unit, 4))
@@ -132,8 +132,8 @@ pub(super) fn significant(value: f64, digits: usize) -> String {
     trim_zeros(&format!("{value:.decimals$}")).to_owned()
 }
 
-/// How numbers of one column are written: with equally many decimals, so that the largest has `digits` significant
-/// digits; with exponents if that would take too many zeros.
+/// The format of the numbers of one column: equally many decimals, so that the largest has `digits` significant digits;
+/// exponents if that would take too many zeros.
 pub(super) fn aligned(values: &[f64], digits: usize) -> impl Fn(f64) -> String + use<> {
     let largest = largest(values);
     let exponent = if largest > 0.0 { decimal(largest, digits).1 } else { 0 };
@@ -147,7 +147,7 @@ pub(super) fn aligned(values: &[f64], digits: usize) -> impl Fn(f64) -> String +
             return format!("{:.*e}", digits - 1, value + 0.0);
         }
         let text = format!("{value:.decimals$}");
-        // No minus sign before what was rounded to zero.
+        // A number that is rounded to zero has no minus sign.
         let zero = text.bytes().all(|byte| matches!(byte, b'-' | b'.' | b'0'));
         if zero { text.trim_start_matches('-').to_owned() } else { text }
     }
@@ -162,7 +162,7 @@ pub(super) fn round_down(value: f64) -> f64 {
         Some(b'2'..=b'4') => 2,
         _ => 1,
     };
-    // Parsed rather than computed, so that 0.002 is the double nearest to 0.002.
+    // The text is parsed, not computed, so that 0.002 is the double nearest to 0.002.
     format!("{first}e{exponent}").parse().unwrap_or(value)
 }
 

@@ -6,25 +6,26 @@ use masonry::ids::JointId;
 use masonry::model::{Anchor, Model};
 use masonry::rounding::largest;
 
-/// Joints that move by less than this part of the fastest are taken for closed. Chosen: hardly seen in a picture, and above what
-/// springs in joints make of a motion.
+/// Joints that move by less than this part of the fastest count as closed. Chosen: hardly seen in a picture, and above
+/// the motion that springs in joints add.
 const STILL: f64 = 1e-2;
-/// Relative difference up to which a joint opens as associated flow lifts it. Chosen: far above rounding errors.
+/// Relative difference up to which the opening of a joint counts as that of associated flow. Chosen: far above rounding
+/// errors.
 const AS_LIFTED: f64 = 1e-6;
 
 /// Behaviour of a joint in a mechanism.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Yield {
-    /// It opens about a place that stays closed.
+    /// The joint opens about a place that stays closed.
     Hinge,
-    /// Its sides slide on each other.
+    /// The sides slide on each other.
     Slides,
-    /// Its sides come apart.
+    /// The sides come apart.
     Opens,
 }
 
 impl Yield {
-    /// The word for it: `hinge`, `slides`, `opens`.
+    /// The word for the behaviour: `hinge`, `slides`, `opens`.
     pub fn name(self) -> &'static str {
         match self {
             Self::Hinge => "hinge",
@@ -39,19 +40,20 @@ impl Yield {
 pub struct YieldingJoint {
     /// The joint.
     pub joint: JointId,
-    /// Its behaviour.
+    /// The behaviour.
     pub does: Yield,
-    /// Where its sides touch, or its middle \[m\].
+    /// The place at which the sides touch, or the middle of the joint \[m\].
     pub at: Point2<f64>,
-    /// How that place moves: the mean of both sides.
+    /// The rate of that place: the mean of both sides.
     pub rate: Vector2<f64>,
-    /// The largest rate at which it opens, relative to the fastest joint.
+    /// The largest rate of opening, relative to the fastest joint.
     pub opens: f64,
-    /// The largest rate at which it slides, relative to the fastest joint.
+    /// The largest rate of sliding, relative to the fastest joint.
     pub slides: f64,
-    /// Whether it slides and opens just so far that no force inside its friction cone does work: associated flow.
+    /// Whether the joint slides and opens just so far that no force inside its friction cone does work: associated
+    /// flow.
     pub dilates: bool,
-    /// Its number in pictures and tables, from one; `None` if its sides come apart, which is seen without a mark.
+    /// The number in pictures and tables, from one; `None` if the sides come apart, which is seen without a mark.
     pub number: Option<usize>,
 }
 
@@ -61,11 +63,12 @@ struct PointRate {
     mean: Vector2<f64>,
     opens: f64,
     slides: f64,
-    /// Opening by associated flow, `mu` times the slip of the joint, at which its sides still touch.
+    /// The opening by associated flow, `mu` times the slip of the joint, at which the sides still touch.
     lifts: f64,
 }
 
-/// The joints that yield in a mechanism, the displacement rates of the corners of all blocks, in the order of the joints.
+/// The joints that yield in a mechanism with these displacement rates of the corners of all blocks, in the order of the
+/// joints.
 pub fn yielding(model: &Model, rates: &[Vec<Vector2<f64>>]) -> Vec<YieldingJoint> {
     let mut of_joints: Vec<Vec<PointRate>> = model.joints.iter().map(|_| Vec::new()).collect();
     for contact in &model.contacts {
@@ -92,7 +95,7 @@ pub fn yielding(model: &Model, rates: &[Vec<Vector2<f64>>]) -> Vec<YieldingJoint
     list
 }
 
-/// The behaviour of a joint with these points; `None` if it stays as it is.
+/// The behaviour of a joint with these points; `None` if its rates are negligible.
 fn of_joint(joint: JointId, points: &[PointRate], fastest: f64) -> Option<YieldingJoint> {
     let still = STILL * fastest;
     let opens = largest(points.iter().map(|it| it.opens));

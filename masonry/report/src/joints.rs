@@ -1,4 +1,4 @@
-//! The forces in every joint, the part of its friction that is used, and its opening.
+//! The forces in every joint, the part of the friction that they use, and the opening.
 
 use nalgebra::{Point2, Vector2};
 
@@ -13,7 +13,7 @@ const NO_FORCE: f64 = 1e-9;
 /// Openings and slips below this part of the size of the structure are rounding errors.
 const NO_WIDTH: f64 = 1e-9;
 
-/// So far beyond the ends of a support, in its lengths, its reaction is still on it.
+/// A reaction counts as on its support up to this distance beyond the ends, in lengths of the support.
 const BESIDE: f64 = 1e-6;
 
 /// The resultant of the contact forces of a joint.
@@ -21,13 +21,13 @@ const BESIDE: f64 = 1e-6;
 pub struct JointForce {
     /// The joint.
     pub joint: JointId,
-    /// Where the line of the resultant crosses the joint \[m\].
+    /// The place at which the line of the resultant crosses the joint \[m\].
     pub at: Point2<f64>,
     /// The force on the body in front \[N\].
     pub force: Vector2<f64>,
-    /// Its part across the joint \[N\], compression positive.
+    /// The part of the force across the joint \[N\], compression positive.
     pub normal: f64,
-    /// Its part along the joint \[N\].
+    /// The part of the force along the joint \[N\].
     pub tangential: f64,
     /// Distance of `at` from the middle of the joint, in lengths of the joint: `-0.5` and `0.5` at its ends, more than
     /// a sixth outside its middle third.
@@ -108,12 +108,12 @@ pub fn paths<'a>(
     of_blocks.into_iter().flat_map(of_block).collect()
 }
 
-/// Where the reaction of a support acts, and its size.
+/// The place and the size of the reaction of a support.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SupportForce {
     /// The support.
     pub support: SupportId,
-    /// A point of its line \[m\].
+    /// A point of the line of the reaction \[m\].
     pub at: Point2<f64>,
     /// The force on the structure \[N\].
     pub force: Vector2<f64>,
@@ -137,14 +137,14 @@ pub fn reactions(model: &Model, forces: &[JointForce]) -> Vec<SupportForce> {
     (0..model.supports.len()).filter_map(of).collect()
 }
 
-/// How far a joint has opened and slid.
+/// The opening and the slip of a joint.
 #[derive(Debug, Clone, PartialEq)]
 pub struct JointOpening {
     /// The joint.
     pub joint: JointId,
-    /// Place along the joint from its start, and width there \[m\], from the start to the end.
+    /// Place along the joint and opening there \[m\], from the start to the end.
     pub widths: Vec<[f64; 2]>,
-    /// The largest width \[m\].
+    /// The largest opening \[m\].
     pub widest: f64,
     /// The largest slip of points that are closed, without its sign \[m\].
     pub slip: f64,
@@ -169,7 +169,7 @@ pub fn openings(model: &Model, contacts: &[PointState]) -> Vec<JointOpening> {
         let [width, slip] = [state.y_n, state.y_t.abs()].map(|it| if it > none { it } else { 0.0 });
         opening.widths.push([along, width]);
         opening.widest = opening.widest.max(width);
-        // Sides that are apart have moved, not slid.
+        // Sides that are apart have moved without slip.
         opening.slip = opening.slip.max(if width > 0.0 { 0.0 } else { slip });
     }
     openings.retain(|it| it.widest > 0.0 || it.slip > 0.0);

@@ -11,13 +11,13 @@ use masonry::model::Model;
 ///
 /// `verdict`, `evidence`, `sentence` and `warnings` come first, as in [`Judgement`](masonry::data::verdict::Judgement).
 ///
-/// Physical quantities are in the units of the scene, which `units` names one by one. Without a
-/// solution `residuals`, `balance`, `reactions`, `contacts`, `strain_energy`, `max_displacement` and the stresses
-/// are null, and `reason` says why; `mechanism` gives displacement rates of the corners of every
-/// block, the largest component one, if one is known. `films`, the extremes of the stresses in
-/// mortar films, is there with films only, and `history`, one record a step, with a load history only: if a step failed, the state
-/// is that after the step before. `springs`, `proved` and `soft` are those of
-/// [`SolveInfo`](masonry::analysis::outcome::SolveInfo). Numbers that are not finite become null.
+/// Physical quantities are in the units of the scene, which `units` names one by one. Without a solution, `residuals`,
+/// `balance`, `reactions`, `contacts`, `strain_energy`, `max_displacement` and the stresses are null, and `reason`
+/// gives the cause; `mechanism` gives displacement rates of the corners of every block, the largest component one, if a
+/// mechanism is known. `films`, the extremes of the stresses in mortar films, exists only if there are films, and
+/// `history`, one record a step, only if there is a load history: if a step failed, the state is that after the step
+/// before. `springs`, `proved` and `soft` are those of [`SolveInfo`](masonry::analysis::outcome::SolveInfo). Numbers
+/// that are not finite become null.
 ///
 /// # Errors
 /// None that this data can cause; the signature is that of the serialiser.
@@ -78,7 +78,7 @@ pub fn result(outcome: &Outcome, files: &[String]) -> Result<String, serde_json:
     Value::Object(object).file()
 }
 
-/// The unit of every physical quantity in the object; `1` marks what has none.
+/// The unit of every physical quantity in the object; `1` for pure numbers.
 fn names_of_units(units: InUnits) -> Value {
     let units = units.0;
     let (length, force) = (units.length_name(), units.force_name());
@@ -129,7 +129,7 @@ fn parts(units: InUnits, sum: Resultant) -> Members {
     forces(units, [("", sum)]).without("support").objects().remove(0)
 }
 
-/// Groups with their sums and their loads, each with its factor, times that of the step, and its resultant.
+/// Groups with their sums and their loads; every load with its factor, times that of the step, and its resultant.
 fn groups(model: &Model) -> Value {
     let units = InUnits(model.units);
     let of = |group: LoadGroup<'_>| {

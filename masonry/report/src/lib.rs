@@ -57,10 +57,10 @@ impl OutputFormat {
     pub const ALL: [Self; 5] = [Self::Svg, Self::Vtu, Self::Csv, Self::Text, Self::Json];
 }
 
-/// The choice of files that [`write_all`] writes; by default all.
+/// The choice of files that [`write_all`] writes; all by default.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ReportOptions {
-    /// The formats wanted.
+    /// The formats of the files.
     pub formats: Vec<OutputFormat>,
     /// Lines to compare the principal stresses with.
     pub reference: Option<ReferenceLines>,
@@ -97,7 +97,7 @@ pub const FILES: [&str; 21] = [
     "train.svg",
 ];
 
-/// Why files could not be written.
+/// The reason for which files could not be written.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum OutputError {
@@ -114,20 +114,20 @@ pub enum OutputError {
     Files {
         /// The files that were written.
         written: Vec<PathBuf>,
-        /// The files that were not, and what the system said.
+        /// The files that were not written, with the errors of the system.
         failed: Vec<(PathBuf, io::Error)>,
     },
 }
 
 /// Writes the files of `options` into `dir`, which is created, and returns their paths.
 ///
-/// Each file appears whole or not at all: it is written under a temporary name and renamed. One
-/// that fails does not keep the others from being written. `result.json` comes last and lists the
-/// files of this call; files of earlier calls stay.
+/// Each file appears whole or not at all: it is written under a temporary name and renamed. A file that fails does not
+/// keep the others from being written. `result.json` comes last and lists the files of this call; files of earlier
+/// calls stay.
 ///
 /// # Errors
-/// [`OutputError::Directory`] when the directory cannot be made, [`OutputError::Files`] when at
-/// least one file could not be written.
+/// [`OutputError::Directory`] if the directory cannot be made, [`OutputError::Files`] if at least one file could not be
+/// written.
 pub fn write_all(
     outcome: &Outcome,
     dir: &Path,
@@ -137,7 +137,7 @@ pub fn write_all(
     write_files(dir, contents(outcome, options), listing, |names| json::result(outcome, names))
 }
 
-/// Names and contents of all files but `result.json`.
+/// Names and contents of all files except `result.json`.
 fn contents(outcome: &Outcome, options: &ReportOptions) -> Vec<(&'static str, Vec<u8>)> {
     let (model, state) = (&outcome.model, outcome.state.as_ref());
     let title = &titled(outcome);
@@ -172,7 +172,7 @@ fn files(pictures: Vec<Pictures>) -> impl Iterator<Item = (&'static str, Vec<u8>
     pictures.into_iter().flat_map(of_kind)
 }
 
-/// The title of the pictures: the verdict, and of what.
+/// The title of the pictures: the verdict, and the title of the scene.
 fn titled(outcome: &Outcome) -> String {
     let verdict = outcome.judgement.verdict;
     if outcome.title.is_empty() {
@@ -182,8 +182,8 @@ fn titled(outcome: &Outcome) -> String {
     }
 }
 
-/// Writes files into a directory, which is created: each whole or not at all, whatever becomes of the others; and last
-/// the one that lists those that were written, itself among them.
+/// Writes files into a directory, which is created: each file whole or not at all, even if others fail; and last the
+/// file that lists the written files, itself among them.
 fn write_files(
     dir: &Path,
     files: Vec<(&str, Vec<u8>)>,

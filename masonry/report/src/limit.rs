@@ -18,9 +18,9 @@ use masonry::analysis::limit::{Limit, Path, Thickness};
 use masonry::data::state::{PointState, Reaction};
 use masonry::model::Model;
 
-/// Writes `forces.svg` and `mechanism.svg`, if there are forces and a mechanism, the same of the path with its curve, and
-/// `limit.json`, which lists them and has a line for each case, into `dir`, which is created; and `train.svg` if the cases are
-/// the positions of a train.
+/// Writes into `dir`, which is created: `forces.svg` and `mechanism.svg`, if there are forces and a mechanism; the same
+/// pictures of the path with its curve; `train.svg` if the cases are the positions of a train; and `limit.json`, which
+/// lists the pictures and has a line for each case.
 ///
 /// # Errors
 /// [`OutputError`] for a directory that cannot be made, and for files that cannot be written.
@@ -39,8 +39,8 @@ pub fn write(
     write_files(dir, list, Some("limit.json"), object)
 }
 
-/// The same of the least thickness of an arch: the forces at the thickness that stands, and the mechanism of the one that
-/// falls.
+/// Writes the pictures and the JSON object of the least thickness of an arch: the forces at the thickness that stands,
+/// and the mechanism of the thickness that falls.
 ///
 /// # Errors
 /// As [`write()`].
@@ -51,7 +51,7 @@ pub fn write_thickness(thickness: &Thickness, dir: &Folder) -> Result<Vec<PathBu
 
 /// The answer by one law of friction.
 pub(super) struct ByLaw<'a> {
-    /// The law, in titles.
+    /// The law of friction, in titles.
     pub(super) of: &'static str,
     /// The files of the pictures of forces and of the mechanism.
     files: [&'static str; 2],
@@ -104,7 +104,7 @@ pub(super) fn pictures(limit: &Limit, for_page: bool) -> Vec<Pictures> {
     by_law(limit).flat_map(of_law).chain(curve).collect()
 }
 
-/// The forces in an arch at the thickness that stands, and the mechanism of the one that falls.
+/// The forces in an arch at the thickness that stands, and the mechanism of the thickness that falls.
 pub(super) fn pictures_of_thickness(thickness: &Thickness, for_page: bool) -> Vec<Pictures> {
     let Thickness { title, model, forces, mechanism, .. } = thickness;
     let forces = forces.as_ref().map(|it| svg::forces(title, model, it));

@@ -1,10 +1,10 @@
 //! The report as one page of HTML, which opens without a network: verdict, key figures, pictures to choose from with a
 //! slider for the step and one for the scale of displacements, and tables that can be sorted.
 //!
-//! Pictures are those of the files. In pictures of displacements every element knows where it was before, so that the
-//! page itself can magnify them otherwise. Without scripts, and on paper, everything is there, one below the other.
+//! Pictures are those of the files. Every element in pictures of displacements carries its undeformed place, so that
+//! the page can change the magnification. Without scripts, and on paper, all pictures are shown, one below the other.
 //!
-//! The hash of the address chooses what is seen first, such as `#picture=deformed&step=3&scale=0.5`.
+//! The hash of the address chooses the picture that is seen first, such as `#picture=deformed&step=3&scale=0.5`.
 
 mod limit;
 mod solved;
@@ -23,7 +23,7 @@ use masonry::model::Model;
 const STYLE: &str = include_str!("page/page.css");
 const SCRIPT: &str = include_str!("page/page.js");
 
-/// Files of pictures and names of their switches, in their order. The first that exists is shown first.
+/// Files of pictures and names of their switches, in this order. The first that exists is shown first.
 const CHOICES: [(&str, &str); 8] = [
     ("path_mechanism.svg", "Mechanism, path"),
     ("mechanism.svg", "Mechanism"),
@@ -47,9 +47,9 @@ struct Page {
     figures: Vec<Said>,
     /// Pictures without a switch are curves, which are always shown.
     pictures: Vec<Pictures>,
-    /// The steps that pictures have; empty or one without a history.
+    /// The steps that have pictures; at most one without a history.
     steps: Vec<PictureStep>,
-    /// One below the other.
+    /// Tables, one below the other.
     tables: String,
     /// The report as text.
     text: String,
@@ -59,15 +59,15 @@ struct Page {
 #[derive(Debug)]
 struct PictureStep {
     name: String,
-    /// Its position among all steps, from zero: the curves have them all.
+    /// The position among all steps, from zero: the curves show all of them.
     position: usize,
 }
 
-/// Pictures of one kind, of which one is seen: one for every step, or one for all.
+/// Pictures of one kind, one of which is seen: one for every step, or one for all.
 struct Choice<'a> {
-    /// Its name in the address of the page.
+    /// The name in the address of the page.
     key: &'a str,
-    /// On the switch.
+    /// The name on the switch.
     name: &'a str,
     pictures: &'a [String],
 }
@@ -179,13 +179,13 @@ impl Page {
     }
 }
 
-/// How many blocks and joints there are.
+/// The numbers of blocks and joints, in words.
 fn size(model: &Model) -> String {
     let (blocks, joints) = (model.blocks.len(), model.joints.len());
     format!("{}, {}", counted(blocks, "block"), counted(joints, "joint"))
 }
 
-/// The time of all phases.
+/// The total time of all phases.
 fn taken(times: &[PhaseTime]) -> String {
     let seconds: f64 = times.iter().map(|it| it.seconds).sum();
     format!("{} s", significant(seconds, 2))
@@ -196,7 +196,7 @@ fn bare(picture: &str) -> String {
     picture.replacen(svg::STYLE, "", 1)
 }
 
-/// Text in which lines stay lines.
+/// A text whose line breaks are kept.
 fn text_of(text: &str) -> String {
     text.lines().map(|line| escaped(line) + "\n").collect()
 }

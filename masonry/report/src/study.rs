@@ -16,8 +16,8 @@ pub use table::table;
 use super::{OutputError, csv, write_files};
 use masonry::analysis::study::Study;
 
-/// Writes `study.csv`, the picture `accuracy.svg` if there is something in it, and `study.json`, which lists them
-/// all, into `dir`, which is created.
+/// Writes `study.csv`, the picture `accuracy.svg` if it shows anything, and `study.json`, which lists all files, into
+/// `dir`, which is created.
 ///
 /// # Errors
 /// [`OutputError`] for a directory that cannot be made, and for files that cannot be written.
@@ -31,10 +31,10 @@ pub fn write(study: &Study, dir: &Path) -> Result<Vec<PathBuf>, OutputError> {
 
 /// The text of `study.csv`: one row for each mesh, route and tolerance.
 ///
-/// Columns: `mesh` (factor), `route`, `tolerance`, `status` (a status, `Refused` or `Skipped`), `residual`,
-/// `time_s`, `overrun` (whether that is more than the limit), `iterations` (pivots by `lemke`), relative errors `error_force`, `error_stress`, `error_energy`,
-/// and the `reason` why it was refused or skipped. Unknown values are empty. Numbers read back exactly,
-/// and lines end with CR LF.
+/// Columns: `mesh` (factor), `route`, `tolerance`, `status` (a status, `Refused` or `Skipped`), `residual`, `time_s`,
+/// `overrun` (whether the time exceeds the limit), `iterations` (pivots by `lemke`), relative errors `error_force`,
+/// `error_stress`, `error_energy`, and the `reason` for which the solve was refused or skipped. Unknown values are
+/// empty. Numbers read back exactly, and lines end with CR LF.
 pub fn csv(study: &Study) -> String {
     csv::text(&figures::records(study, study.records.iter()).without("asked took"))
 }

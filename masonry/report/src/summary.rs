@@ -99,12 +99,12 @@ pub fn extreme_stresses(state: &State) -> (Option<ExtremeStress>, Option<Extreme
 /// Extremes of the stresses in the mortar films.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FilmExtremes {
-    /// Where the film is compressed most across the joint.
+    /// The stresses at the place of the largest compression across the joint.
     pub compression: FilmStress,
-    /// Where the film is sheared most, in either direction.
+    /// The stresses at the place of the largest shear, in either direction.
     pub shear: FilmStress,
-    /// The place of the largest stress along the film, pressure or tension; there is none if films act
-    /// across their joints only.
+    /// The stresses at the place of the largest stress along the film, pressure or tension; `sigma_x` is `None` if
+    /// films act only across their joints.
     pub along: FilmStress,
 }
 
@@ -157,9 +157,9 @@ fn resultant(model: &Model, counts: impl Fn(Cause) -> bool) -> Resultant {
 pub struct LoadGroup<'a> {
     /// Name of the group.
     pub name: &'a str,
-    /// Its loads, in the order of the scene, each with its resultant.
+    /// The loads of the group, in the order of the scene, each with its resultant.
     pub loads: Vec<(&'a LoadCase, Resultant)>,
-    /// The resultant of all of them.
+    /// The resultant of all loads of the group.
     pub sum: Resultant,
 }
 
@@ -202,14 +202,14 @@ pub fn total_reaction(outcome: &Outcome) -> Resultant {
 /// Supports that meet in a corner of the structure, and the resultant of all of them.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CornerSum {
-    /// Their names.
+    /// Names of the supports.
     pub supports: Vec<String>,
-    /// The sum of their reactions.
+    /// The sum of the reactions of these supports.
     pub sum: Resultant,
 }
 
-/// Supports that hold a block at the same place: what each of them carries there is not unique, and only their
-/// sum is.
+/// Supports that hold a block at the same place: their reactions there are not unique one by one; only the sum is
+/// unique.
 pub fn corner_sums(outcome: &Outcome) -> Vec<CornerSum> {
     let groups = groups_at_corners(&outcome.model);
     let of_group = |group: Vec<usize>| {
@@ -255,7 +255,7 @@ pub fn loaded_part(block: &PlacedBlock, load: &EdgeLoad) -> (Point2<f64>, Point2
     (place(load.from), place(load.to))
 }
 
-/// Why the scene is not solved, in a sentence or two; `None` when it is.
+/// The reason for which the scene is not solved, in a sentence or two; `None` if it is solved.
 pub fn reason(outcome: &Outcome) -> Option<String> {
     let mut why = why(outcome)?.to_owned();
     if outcome.judgement.evidence == Evidence::NoAdmissibleForces

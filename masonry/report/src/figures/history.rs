@@ -13,13 +13,13 @@ const ACTIONS: &str = "stage step of gravity";
 const FOUND: &str = "route way factorisations residual work dissipation friction_power energy_created dragged \
                      strain_energy balance max_displacement";
 
-/// A step, and sums up to it.
+/// A step, and the sums up to it.
 struct Row<'a> {
     number: usize,
     it: &'a StepRecord,
     work: f64,
     dissipated: f64,
-    /// The work that friction has not taken.
+    /// The work that friction has not dissipated.
     left: f64,
 }
 
@@ -99,7 +99,7 @@ pub(crate) fn on_page(model: &Model, history: &History) -> Table {
         .only("number stage step max_displacement work dissipation open stick slip")
 }
 
-/// The table of the report as text; a paragraph below it tells the meanings and units of its short names.
+/// The table of the report as text; a paragraph below the table gives the meanings and units of its short names.
 pub(crate) fn in_text(model: &Model, history: &History) -> Table {
     steps(model, history)
         .only("stage place W D strain_energy balance max_displacement open stick slip way")

@@ -51,7 +51,7 @@ fn moves(model: &Model, rates: &[Vec<nalgebra::Vector2<f64>>]) -> Figure {
     Figure::new("mechanism", rates_by_name(model, rates)).both("moves", part)
 }
 
-/// The factor that the rest of a structure carries if the part that moves is held.
+/// The factor that the rest of a structure carries if the moving part is held.
 fn carried_by_rest(Rest { load_factor, bound }: Rest) -> String {
     let told = |it, side| outwards(it, side, |it| significant(it, 5));
     let if_held = "if the blocks that move are held (they may support others)";
@@ -148,7 +148,7 @@ pub(crate) fn range(range: &Range) -> Option<Table> {
     let units = InUnits(range.model.units);
     let is_whole = !range.is_interrupted;
     let value = move |it: Extreme| match it {
-        // Less than what is left open is nothing, if the search came to its end.
+        // A value below the gap of the bounds is zero if the search came to its end.
         Extreme::Value { value, bound } if is_whole && value.abs() <= (bound - value).abs() => {
             Value::from("0")
         }

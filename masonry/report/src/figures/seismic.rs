@@ -5,7 +5,7 @@ use crate::format::{InUnits, acceleration_text, significant};
 use masonry::analysis::limit::SeismicCheck;
 use masonry::rounding::{BoundSide, outwards};
 
-/// The law of the factor and of the mechanism.
+/// The law of friction of the factor and the mechanism, as a key and in words.
 fn law(it: &SeismicCheck) -> [&'static str; 2] {
     if it.is_of_path {
         ["path", "Coulomb's law, along the path"]
@@ -14,12 +14,12 @@ fn law(it: &SeismicCheck) -> [&'static str; 2] {
     }
 }
 
-/// An acceleration that is carried, which is not rounded upwards.
+/// An acceleration that is carried, not rounded upwards.
 fn carried(value: f64) -> String {
     outwards(value, BoundSide::Below, |it| significant(it, 4))
 }
 
-/// The answer of the check in words, or, without a demand, what it would be compared with.
+/// The answer of the check in words, or, without a demand, the quantity to compare with it.
 pub(crate) fn answer(it: &SeismicCheck) -> String {
     let [found, least] = [it.capacity, it.least_capacity].map(carried);
     let Some(demand) = it.demand else {

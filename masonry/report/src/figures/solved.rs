@@ -14,7 +14,7 @@ use masonry::data::state::{FilmStress, State};
 use masonry::model::Model;
 use masonry::rounding::largest;
 
-/// Errors of balances, and how many contact points are open, stick and slip.
+/// Errors of balances, and the numbers of contact points that are open, stick and slip.
 pub(crate) fn checks(outcome: &Outcome) -> Vec<Figure> {
     let Some(it) = &outcome.checks else { return Vec::new() };
     // Keys, names and values.

@@ -3,11 +3,11 @@
 use super::{Members, Value};
 use crate::format::{InUnits, Quantity};
 
-/// How a text writes the numbers of a column.
+/// The way in which a text writes the numbers of a column.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Digits {
-    /// As many decimals as give the largest number so many significant digits, in it and in its neighbours of the same
-    /// quantity.
+    /// As many decimals as give the largest number so many significant digits, in this column and in its neighbours of
+    /// the same quantity.
     Aligned(usize),
     /// So many significant digits.
     Significant(usize),
@@ -18,18 +18,18 @@ pub(crate) enum Digits {
 /// A column of a table.
 #[derive(Debug, Clone)]
 pub(crate) struct Column {
-    /// Its name in JSON and CSV.
+    /// The name in JSON and CSV.
     pub(crate) key: String,
-    /// Its name for readers.
+    /// The name for readers.
     pub(crate) name: String,
     pub(crate) quantity: Quantity,
     pub(crate) digits: Digits,
-    /// Whether a text has it on the right.
+    /// Whether a text aligns the column on the right.
     pub(crate) is_right: bool,
 }
 
 impl Column {
-    /// Its name and its unit.
+    /// The name and the unit.
     pub(crate) fn head(&self, units: InUnits) -> String {
         match units.unit(self.quantity).as_str() {
             "" => self.name.clone(),
@@ -71,12 +71,12 @@ impl<'a, T> Columns<'a, T> {
         self
     }
 
-    /// Gives the last column a name of its own for readers.
+    /// Gives the last column another name for readers.
     pub(crate) fn named(self, name: &str) -> Self {
         self.last(|it| name.clone_into(&mut it.name))
     }
 
-    /// Puts the last column of a text on the right, or on the left.
+    /// Aligns the last column of a text on the right, or on the left.
     pub(crate) fn right(self, is_right: bool) -> Self {
         self.last(|it| it.is_right = is_right)
     }
@@ -137,13 +137,13 @@ impl Table {
         Self { units: self.units, columns, rows: self.rows.iter().map(row).collect() }
     }
 
-    /// The table with other names of its columns, all of which have one.
+    /// The table with other column names; there is one for each column.
     pub(crate) fn with_names<const N: usize>(mut self, names: [&str; N]) -> Self {
         self.columns.iter_mut().zip(names).for_each(|(it, name)| name.clone_into(&mut it.name));
         self
     }
 
-    /// The table with so many digits of all numbers.
+    /// The table with so many significant digits in all numbers.
     pub(crate) fn with_digits(mut self, digits: usize) -> Self {
         self.columns.iter_mut().for_each(|it| it.digits = Digits::Significant(digits));
         self

@@ -38,7 +38,7 @@ struct LoadRow<'a> {
     sum: Resultant,
 }
 
-/// The loads of groups; with sums as readers like it, each group named once.
+/// The loads of groups; with sums for readers, and the name of a group once.
 pub(crate) fn loads(units: InUnits, groups: &[LoadGroup<'_>], with_sums: bool) -> Table {
     let mut rows = Vec::new();
     for LoadGroup { name, loads, sum } in groups {
@@ -126,7 +126,7 @@ pub(crate) fn hinges(model: &Model, rates: &[Vec<Vector2<f64>>]) -> Table {
         .table(InUnits(model.units), yielding(model, rates))
 }
 
-/// A contact point and what happens there.
+/// A contact point and its state.
 struct PointRow<'a> {
     index: usize,
     contact: &'a JointPoint,

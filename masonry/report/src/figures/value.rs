@@ -13,7 +13,7 @@ pub(crate) enum Value {
     Words(String),
     List(Vec<Value>),
     Object(Members),
-    /// The pretty-printed text of something else.
+    /// The pretty-printed text of another value.
     Json(String),
 }
 
@@ -30,7 +30,7 @@ macro_rules! members {
 pub(crate) use members;
 
 impl Value {
-    /// The value of something that knows by itself how it is written.
+    /// The value of an object that can serialise itself.
     pub(crate) fn of(it: &(impl Serialize + ?Sized)) -> Result<Self, serde_json::Error> {
         serde_json::to_string_pretty(it).map(Self::Json)
     }

@@ -10,20 +10,21 @@ use masonry::analysis::limit::{
 use masonry::data::statics::Extreme;
 use masonry::model::Model;
 
-/// A value, unless it cannot be written.
+/// A value, or the error of the serialiser.
 type Written = Result<Value, serde_json::Error>;
 
 /// The object of `limit.json` and of `masonry limit --json`, pretty-printed.
 ///
-/// `associative` has the `answer`, the `load_factor` that forces carry, the `bound` above which it is proved that none do, the
-/// `gap` between them, whether the answer is `proved`, the `reactions` under the load factor, and the `mechanism`: rates of the
-/// corners of every block, the largest component one. If a single block or a tenth of them at most move in the mechanism, `rest` has the
-/// `load_factor` and the `bound` of the other blocks while the moving ones are held. `path` has the `load_factor` up to which blocks rest, the factor at which
-/// it `falls`, whether that is `decided`, the `last_stable` state, the `mechanism` after it, the `events` on the way and the
-/// `curve`. `seismic` has the check of a group of accelerations: the `law` of factor and mechanism, `alpha_0`, the `weight` that
-/// moves, `mass` M* in kg, `fraction` e*, `FC`, `a_0` in m/s^2, the least `a_0_least` of all mechanisms of the limit, the data of the
-/// site, the `demand` and whether it is `satisfied`: null if it is by this mechanism, but not by all.
-/// Unknown values are null, and so is a law of friction that was not chosen. `units` names the units.
+/// `associative` has the `answer`, the `load_factor` that forces carry, the `bound` above which it is proved that none
+/// do, the `gap` between them, whether the answer is `proved`, the `reactions` under the load factor, and the
+/// `mechanism`: rates of the corners of every block, the largest component one. If a single block or a tenth of them at
+/// most move in the mechanism, `rest` has the `load_factor` and the `bound` of the other blocks while the moving ones
+/// are held. `path` has the `load_factor` up to which blocks rest, the factor at which the structure `falls`, whether
+/// the limit is `decided`, the `last_stable` state, the `mechanism` after it, the `events` on the way and the `curve`.
+/// `seismic` has the check of a group of accelerations: the `law` of factor and mechanism, `alpha_0`, the `weight` that
+/// moves, `mass` M* in kg, `fraction` e*, `FC`, `a_0` in m/s^2, the least `a_0_least` of all mechanisms of the limit,
+/// the data of the site, the `demand` and whether it is `satisfied`: null if this mechanism satisfies it, but not every
+/// mechanism. Unknown values are null, and so are laws of friction that were not chosen. `units` names the units.
 ///
 /// # Errors
 /// None that this data can cause; the signature is that of the serialiser.
@@ -31,9 +32,9 @@ pub fn json(limit: &Limit, files: &[String]) -> Result<String, serde_json::Error
     report(limit, files)?.file()
 }
 
-/// The object of `masonry limit --both --json`, pretty-printed: the object of [`json`] for the `given` direction of the load and for
-/// the `opposite` one, and which of them `governs` (`both` if they carry the same, `unknown` if one is not decided); files are of
-/// that one, else of the given one.
+/// The object of `masonry limit --both --json`, pretty-printed: the object of [`json`] for the `given` direction of the
+/// load and for the `opposite` one, and the direction that `governs` (`both` if the directions carry the same,
+/// `unknown` if one is not decided); files are those of the governing direction, or else of the given one.
 ///
 /// # Errors
 /// As [`json`].
@@ -101,7 +102,7 @@ fn path(path: &Path) -> Written {
     Ok(Value::Object(object))
 }
 
-/// The two bodies that meet, the middle of their joint, and what it does between two factors.
+/// The two bodies that meet, the middle of their joint, and its behaviour between two factors.
 fn event(model: &Model, event: &JointEvent) -> Written {
     let units = InUnits(model.units);
     let joint = &model.joints[event.joint.index()];
@@ -165,8 +166,8 @@ fn ends([min, max]: [Extreme; 2], units: InUnits) -> Value {
     Value::Object(members! { "min": end(min), "max": end(max) })
 }
 
-/// The object of `masonry limit --thickness ARCH --json`, pretty-printed: the largest thickness that `falls` and the smallest that
-/// `stands`, and whether they are `proved` to be one number.
+/// The object of `masonry limit --thickness ARCH --json`, pretty-printed: the largest thickness that `falls` and the
+/// smallest that `stands`, and whether the two are `proved` to be one number.
 ///
 /// # Errors
 /// As [`json`].

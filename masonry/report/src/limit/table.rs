@@ -7,10 +7,10 @@ use crate::text::{head, heads, pairs, section, table as columns};
 use masonry::analysis::limit::{Directions, Governs, Limit, Path, Range, Thickness};
 use masonry::data::state::Reaction;
 
-/// So many events are printed; all are in the JSON object.
+/// The number of events that are printed; the JSON object has all.
 const EVENTS: usize = 20;
 
-/// The report: the sentence, what was found by each law, the seismic check, and the times.
+/// The report: the sentence, the results of each law, the seismic check, and the times.
 pub fn table(limit: &Limit) -> String {
     let mut text = heads(&limit.sentence, &limit.warnings);
     let units = InUnits(limit.model.units);
@@ -42,7 +42,7 @@ pub fn table(limit: &Limit) -> String {
     text + &pairs(&rows)
 }
 
-/// The sentences and seismic checks of both directions, and the report of the one that governs.
+/// The sentences and seismic checks of both directions, and the report of the direction that governs.
 pub fn table_both(both: &Directions) -> String {
     let which = match both.governs {
         Governs::Given => "The given direction governs:",
@@ -83,7 +83,7 @@ fn of_reactions(title: &str, list: &[Reaction], units: InUnits) -> String {
     section(title) + &columns(&reactions(units, list)) + " Moments are about the origin.\n"
 }
 
-/// The report of ranges: by support the least and the largest reaction.
+/// The report of ranges: the least and the largest reaction of every support.
 pub fn range_table(range: &Range) -> String {
     let text = head(&range.sentence);
     let Some(list) = figures::limit::range(range) else { return text };

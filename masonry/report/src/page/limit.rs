@@ -9,7 +9,7 @@ use crate::limit::{ByLaw, by_law, pictures, pictures_of_thickness, table, thickn
 use crate::svg::{self, pictures::Pictures};
 use masonry::analysis::limit::{Answer, Associative, Limit, Path, Thickness};
 
-/// The page of a limit load, with a table of the cases of which it governs, if there are several.
+/// The page of a limit load, with a table of the cases if it governs several.
 pub fn limit(limit: &Limit, cases: Option<&Cases>) -> String {
     let mut pictures = pictures(limit, true);
     pictures.push(Pictures::one("scene.svg", svg::scene(&limit.title, &limit.model)));
@@ -88,7 +88,7 @@ fn verdict_of(thickness: &Thickness) -> &'static str {
     }
 }
 
-/// Whether the structure stands under the loads that stay, and some part of those that grow.
+/// Whether the structure stands under the constant loads, and some part of the growing ones.
 fn verdict(limit: &Limit) -> &'static str {
     if limit.falls_by_weight || limit.associative.as_ref().is_some_and(Associative::carries_nothing)
     {
@@ -113,7 +113,7 @@ fn figures(limit: &Limit) -> Vec<Said> {
     }
     if let Some(found) = &limit.associative {
         let mut found = figures::limit::associative(found, &limit.model);
-        // Readers see the answer first and the proof last, and one motion.
+        // The answer is shown first and the proof last, with one motion.
         let place = |key: &str| {
             ["load_factor", "bound", "mechanism", "rest"].iter().position(|it| *it == key)
         };

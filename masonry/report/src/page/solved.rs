@@ -14,17 +14,18 @@ use masonry::analysis::outcome::{Frame, Outcome};
 use masonry::data::verdict::Verdict;
 use masonry::history;
 
-/// So many steps of a load history have pictures; of more, every second, third and so on.
+/// The largest number of steps of a load history that have pictures; longer histories show every second step, third and
+/// so on.
 const FRAMES: usize = 40;
 
-/// Whether a page has pictures of a step, counted from zero, of so many steps.
+/// Whether a page shows a picture of a step, counted from zero, in a history of `steps` steps.
 pub fn is_framed(position: usize, steps: usize) -> bool {
     let every = steps.div_ceil(FRAMES).max(1);
     (position + 1).is_multiple_of(every) || position == 0 || position + 1 == steps
 }
 
-/// The page of an outcome, with a table of the cases of which it governs, if there are several. `frames` are the steps of a load
-/// history that have pictures; the last one that was solved has them always.
+/// The page of an outcome, with a table of the cases if it governs several. `frames` are the steps of a load history
+/// that have pictures; the last solved step always has pictures.
 pub fn solved(
     outcome: &Outcome,
     frames: &[Frame],
@@ -55,7 +56,7 @@ pub(super) fn verdict(verdict: Verdict) -> &'static str {
     }
 }
 
-/// The steps that have pictures: those before the last one that was solved, and that one.
+/// The steps that have pictures: the last one that was solved, and those before it.
 fn steps(outcome: &Outcome, frames: &[Frame]) -> Vec<PictureStep> {
     let records = outcome.history.iter().flat_map(|history| &history.records);
     let Some((last, record)) = records.enumerate().last() else { return Vec::new() };
@@ -68,7 +69,7 @@ fn steps(outcome: &Outcome, frames: &[Frame]) -> Vec<PictureStep> {
     earlier.chain([step(&record.step, last)]).collect()
 }
 
-/// Pictures of the steps, or of the outcome if it has none.
+/// Pictures of the steps, or of the outcome if there are no steps.
 fn pictures(
     outcome: &Outcome,
     frames: &[Frame],

@@ -6,7 +6,7 @@ use crate::format::Quantity::{Energy, Force, Length, Pure};
 use crate::format::{InUnits, significant};
 use masonry::analysis::study::{Mesh, Record, Study};
 
-/// A row for each mesh, route and tolerance; text has its own columns of tolerances and times.
+/// A row for each mesh, route and tolerance; the text report has its own columns of tolerances and times.
 pub(super) fn records<'a>(study: &Study, list: impl Iterator<Item = &'a Record>) -> Table {
     let took = |it: &&Record| it.seconds.map_or("-".to_owned(), |it| significant(it, 3));
     Columns::<&Record>::new()

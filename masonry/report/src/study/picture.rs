@@ -4,7 +4,7 @@ use crate::svg::diagram::{Diagram, Look, Series, picture};
 use masonry::analysis::study::{Record, Study};
 use masonry::scene::Route;
 
-/// Errors below this are drawn at it: they are rounding, or those of the reference itself.
+/// Smaller errors are drawn at this value: they are rounding errors, or errors of the reference itself.
 const ROUNDING: f64 = 1e-16;
 
 /// The work-precision diagram of the first mesh: the worst algebraic error against the time, one line for

@@ -9,17 +9,17 @@ use masonry::scene::Route;
 
 /// Tolerances that are compared: the nearest ones of the study.
 const COMPARED: [f64; 2] = [1e-4, 1e-8];
-/// The largest algebraic error of an answer that the fastest route is named for.
+/// The largest algebraic error at which an answer counts for the fastest route.
 const ACCURATE: f64 = 1e-6;
-/// Answers this far from the reference at the tightest tolerance are others.
+/// Answers farther than this from the reference at the tightest tolerance are different solutions.
 const ELSEWHERE: f64 = 1e-3;
-/// Algebraic errors below this part of that of the mesh do not matter.
+/// Algebraic errors below this part of the error of the mesh do not matter.
 const NEGLIGIBLE: f64 = 0.1;
-/// Times that grow by less are the same, as far as can be measured; so are those that fall.
+/// Times that grow by a smaller factor count as equal within the accuracy of measurement, and so do times that fall.
 const NOISE: f64 = 1.2;
 
-/// The results of a study in sentences: what a tight tolerance costs, which route gets there first, and whether the
-/// mesh is worth it; and what that rests on.
+/// The results of a study in sentences: the cost of a tight tolerance, the fastest route, the benefit of a finer mesh,
+/// and the reference behind these results.
 pub fn summary(study: &Study) -> Vec<String> {
     let found = [interrupted(study), cost(study), in_short(study), mesh(study)];
     let mut sentences: Vec<String> = found.into_iter().flatten().collect();
@@ -29,7 +29,7 @@ pub fn summary(study: &Study) -> Vec<String> {
     sentences
 }
 
-/// The one sentence that a user needs: the fastest way to an accurate answer, and what the mesh makes of it.
+/// The one sentence that a user needs: the fastest route to an accurate answer, and the error of the mesh.
 pub fn in_short(study: &Study) -> Option<String> {
     let (record, seconds) = fastest_record(study)?;
     let mesh = study.meshes.first()?;
@@ -90,7 +90,7 @@ fn cost(study: &Study) -> Option<String> {
     ))
 }
 
-/// The routes that have no answer to a tolerance, each with how it ended at the loosest that it does not reach.
+/// The routes that do not reach a tolerance, each with its end at the loosest tolerance that it does not reach.
 fn without(study: &Study, tolerance: f64) -> String {
     let failed = study.routes().into_iter().filter_map(|route| {
         let here = |it: &&Record| it.route == route && it.tolerance.total_cmp(&tolerance).is_eq();

@@ -11,7 +11,7 @@ use masonry::analysis::study::{End, Mesh, Study};
 const RECORDS: &str =
     "route asked status residual took iterations error_force error_stress error_energy";
 
-/// The whole report: what it comes to, the records, the meshes.
+/// The whole report: the summary, the records, the meshes.
 pub fn table(study: &Study) -> String {
     let title = format!("{}: what accuracy costs", study.title);
     let mut text = underlined(&title, "=") + "\n";
