@@ -1,8 +1,8 @@
 //! Pictures as SVG: the scene, principal stresses, the deformed structure, forces in joints, cracks, a mechanism, curves
 //! of load histories, diagrams.
 //!
-//! Every function returns the text of a whole file, with the legend outside the drawing. Numbers have two decimals at most,
-//! so that equal input gives equal bytes.
+//! Every function returns the text of a whole file, with the legend outside the drawing. Numbers have at most two
+//! decimals, so that equal input gives equal bytes.
 
 mod arrows;
 mod axis;

@@ -18,8 +18,8 @@ use masonry::plan::{Effect, Plan, PlannedRoute};
 use masonry::scene::Route;
 use masonry::units::Units;
 
-/// The whole report: verdict, reactions, state, history and loads; then how they were found, what was built, and
-/// times. If there is no solution, what this means.
+/// The whole report: verdict, reactions, state, history and loads; then the method, the model, and times. Without a
+/// solution, the report explains the reason.
 pub fn report(outcome: &Outcome) -> String {
     let title = if outcome.title.is_empty() { "Untitled scene" } else { &outcome.title };
     let judgement = &outcome.judgement;
@@ -63,7 +63,7 @@ pub fn plan(plan: &Plan) -> String {
     format!("{}\n{}", text::table(&effects(plan)), pairs(&figures(plan)))
 }
 
-/// The plan of a solve: what is off in one line.
+/// The plan of a solve; the unused effects are in one line.
 fn built(plan: &Plan) -> String {
     let mut on = effects(plan).without("is_on");
     on.retain(|k| plan.effects[k].on);
@@ -119,8 +119,8 @@ fn residuals(it: &lcp::Residuals) -> String {
     ])
 }
 
-/// Memory of the first route, and of the one that needs most if it is run, in units of 10^6 bytes, which are few for
-/// the smallest scenes.
+/// Memory of the first route, and of the route that needs most if it is run, in units of 10^6 bytes, which are small
+/// numbers for the smallest scenes.
 fn memory(routes: &[PlannedRoute]) -> String {
     let megabytes =
         |it: &PlannedRoute| format!("{} MB", significant(it.memory_bytes as f64 / 1e6, 2));
@@ -196,7 +196,7 @@ fn reactions(outcome: &Outcome) -> String {
     text
 }
 
-/// Loads with factor and resultant; groups of several loads with their sum.
+/// Loads with factor and resultant; groups of several loads also with their sum.
 fn loads(model: &Model) -> String {
     let table = tables::loads(InUnits(model.units), &load_groups(model), true);
     text::table(&table.only("group load factor fx fy m"))

@@ -53,7 +53,7 @@ pub(super) fn table(table: &Table) -> String {
     drawn(table).trim_fmt() + "\n"
 }
 
-/// The same, of which the widths of columns can be changed.
+/// The table as a `comfy_table::Table`, whose column widths can be changed.
 pub(super) fn drawn(table: &Table) -> comfy_table::Table {
     let mut drawn = comfy_table::Table::new();
     let rule = LineStyle::none().fill('-').junction('-');
@@ -76,7 +76,7 @@ pub(super) fn drawn(table: &Table) -> comfy_table::Table {
     drawn
 }
 
-/// Writes the numbers of a column.
+/// A function that writes the numbers of a column.
 type Writer = Box<dyn Fn(f64) -> String>;
 
 fn writers(table: &Table) -> Vec<Writer> {

@@ -15,10 +15,10 @@ const POLYGON: u8 = 7;
 /// The bytes of `panel.vtu`: every element as a quadrilateral, and every rigid block as one
 /// polygon.
 ///
-/// Blocks share no points, so that joints can open. Point data: `displacement_m` (3 components).
-/// Cell data: `block` (position in the model), `deformable` (0 for rigid blocks, whose stresses are
-/// unknown and written as zero), and, if stresses were recovered, `sigma_x_kN/m2` and so on.
-/// The names carry the units of the scene. Without a state only the geometry is written.
+/// Blocks share no points, so that joints can open. Point data: `displacement_m` (3 components). Cell data: `block`
+/// (position in the model), `deformable` (0 for rigid blocks, whose stresses are unknown and written as zero), and
+/// `sigma_x_kN/m2` and so on if stresses were recovered. The names carry the units of the scene. Only the geometry is
+/// written without a state.
 pub fn vtu(model: &Model, state: Option<&State>) -> Vec<u8> {
     let units = InUnits(model.units);
     let grid = Grid::of(model);
@@ -76,15 +76,15 @@ const STRESSES: [(&str, Component); 5] = [
 /// All blocks as one list of points and cells.
 #[derive(Debug, Default)]
 struct Grid {
-    /// Three coordinates a point \[m\].
+    /// Three coordinates for each point \[m\].
     points: Vec<f64>,
     connectivity: Vec<i64>,
-    /// Where each cell ends in it.
+    /// The end of each cell in `connectivity`.
     ends: Vec<usize>,
     types: Vec<u8>,
     blocks: Vec<i64>,
     deformable: Vec<u8>,
-    /// First cell of every block.
+    /// The first cell of every block.
     first_cell: Vec<usize>,
 }
 
@@ -136,7 +136,7 @@ impl Grid {
     }
 }
 
-/// The raw data behind the XML, and the tags that refer into it.
+/// The raw data after the XML, and the tags that refer to the data.
 #[derive(Debug, Default)]
 struct Appended {
     data: Vec<u8>,

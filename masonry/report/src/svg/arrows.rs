@@ -17,15 +17,15 @@ use masonry::ids::{BlockId, LoadId};
 use masonry::model::{Model, PlacedBlock, PointLoad};
 use masonry::rounding::largest;
 
-/// Lengths of the arrow of the largest load of a kind, and of one that is small beside it.
+/// Lengths of the arrow of the largest load of a kind, and of a load that is small beside it.
 const LONGEST: f64 = 34.0;
 const SHORTEST: f64 = 14.0;
-/// Most that is between arrows on an edge, and from an edge to arrows along it.
+/// Largest distances between arrows on an edge, and from an edge to arrows along it.
 const SPACING: f64 = 24.0;
 const ASIDE: f64 = 7.0;
-/// Height that an acceleration takes beside the structure: its arrow, its label and room between.
+/// Height of an acceleration beside the structure: arrow, label and room between.
 const ROW: f64 = LONGEST + 2.0 * TEXT;
-/// What the label of a load that is not uniform begins with.
+/// The beginning of the label of a load that is not uniform.
 const UP_TO: &str = "up to ";
 /// Forces of joints and supports below this part of the largest are not drawn.
 pub(super) const LEAST: f64 = 1e-6;
@@ -37,12 +37,13 @@ pub(crate) struct Growth<'a> {
     pub(crate) factor: f64,
 }
 
-/// The target of a load: a part of an edge of a block, or a place, which is both of its ends. Reactions act on no block alone.
+/// The target of a load: a part of an edge of a block, or a place, at which both ends lie. Reactions do not act on a
+/// single block.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Pushed {
     pub(super) block: Option<BlockId>,
     pub(super) ends: [Point2<f64>; 2],
-    /// Its traction at both ends, or its force.
+    /// The traction at both ends, or the force.
     values: [Vector2<f64>; 2],
 }
 
@@ -55,33 +56,33 @@ impl Pushed {
         self.values[0] == self.values[1]
     }
 
-    /// The larger of its values.
+    /// The larger of the two values.
     fn largest(&self) -> Vector2<f64> {
         let [first, last] = self.values;
         if first.norm() < last.norm() { last } else { first }
     }
 }
 
-/// A load or a reaction, of which all arrows share a label; a moment has an arrow around its place.
+/// A load or a reaction, whose arrows share a label; a moment has an arrow around its place.
 #[derive(Debug)]
 struct Push {
-    /// Parts of edges in one line, or one place; nothing for an acceleration of all mass.
+    /// Parts of edges in one line, or one place; empty for an acceleration of all mass.
     on: Vec<Pushed>,
-    /// The largest of its values.
+    /// The largest value.
     value: Vector2<f64>,
-    /// Direction away from the blocks that it pushes, or from a place to its arrow.
+    /// Direction away from the pushed blocks, or from a place to its arrow.
     outwards: Vector2<f64>,
     /// The sign of a moment; `None` for a force.
     turn: Option<f64>,
-    /// Its own value.
+    /// The text of the value.
     label: String,
-    /// Attributes of its elements.
+    /// Attributes of the elements.
     name: String,
-    /// Size, relative to the largest of its kind.
+    /// The size relative to the largest push of the same kind.
     part: f64,
 }
 
-/// Pushes of one kind, which have one entry in the legend.
+/// Pushes of one kind, with one entry in the legend.
 #[derive(Debug)]
 struct Kind {
     names: [&'static str; 2],
@@ -89,14 +90,14 @@ struct Kind {
     pushes: Vec<Push>,
 }
 
-/// How pushed blocks are displaced in a picture, as far as its motion magnifies it \[m\].
+/// The displacement of pushed blocks in a picture \[m\], as magnified by its motion.
 pub(super) struct Displaced<'a> {
     pub(super) motion: Motion,
     pub(super) rate: &'a dyn Fn(&Pushed) -> Vector2<f64>,
 }
 
 impl Displaced<'_> {
-    /// Blocks stay in their places.
+    /// The blocks stay in their places.
     pub(super) const NOT: Displaced<'static> =
         Displaced { motion: Motion::NONE, rate: &|_| Vector2::new(0.0, 0.0) };
 
@@ -115,7 +116,7 @@ impl Push {
         SHORTEST + (LONGEST - SHORTEST) * self.part
     }
 
-    /// The cosine of the angle between it and its outward side.
+    /// The cosine of the angle between the value and the outward side.
     fn outward_part(&self) -> f64 {
         self.value.normalize().dot(&self.outwards)
     }
@@ -125,7 +126,7 @@ impl Push {
         self.outward_part().abs() < 0.2
     }
 
-    /// Its arrows on a part of an edge, or at a place.
+    /// The arrows on a part of an edge, or at a place.
     fn arrows(&self, on: &Pushed, [from, to]: [Pixel; 2]) -> Vec<[Pixel; 2]> {
         let count = parts([from, to], SPACING).saturating_sub(1).max(1);
         let arrow = |at: f64| {
@@ -149,7 +150,7 @@ impl Push {
         self.length() * (value.norm() / self.value.norm())
     }
 
-    /// The line that joins the tails of arrows which press an edge.
+    /// The line that joins the tails of arrows pressing an edge.
     fn bar(&self, on: &Pushed, ends: [Pixel; 2]) -> Option<[Pixel; 2]> {
         let presses = on.values.iter().all(|it| it.dot(&self.outwards) <= 0.0);
         let tails = [0, 1].map(|k| ends[k].along(-on.values[k], self.length_of(on.values[k])));
@@ -173,7 +174,7 @@ impl Push {
         }
     }
 
-    /// Where its label is best.
+    /// The best place for the label.
     fn label_at(&self, frame: &Frame, displaced: &Displaced<'_>) -> Pixel {
         let ends = self.on.iter().flat_map(|on| displaced.ends(frame, on));
         let extent = Bounds::of(ends.map(|it| Point2::new(it.x, it.y))).middle();
@@ -182,7 +183,7 @@ impl Push {
         Pixel::new(extent.x, extent.y).along(self.outwards, reach + 5.0)
     }
 
-    /// Room for its arrows and label around the structure.
+    /// Room for arrows and label around the structure.
     fn margins(&self) -> Sides {
         let (n, length) = (self.outwards, self.length() + 14.0);
         let beside = |part: f64| if part > 0.5 { length + label_room(&self.label) } else { 0.0 };
@@ -190,12 +191,12 @@ impl Push {
         Sides { left: beside(-n.x), right: beside(n.x), top: above(n.y), bottom: above(-n.y) }
     }
 
-    /// Whether an acceleration stands right of the structure: one to the left pushes from there.
+    /// Whether an acceleration stands right of the structure: one to the left pushes from the right.
     fn is_right(&self) -> bool {
         self.value.x < -0.5 * self.value.norm()
     }
 
-    /// Room that an acceleration takes beside the structure.
+    /// Width of an acceleration beside the structure.
     fn width(&self) -> f64 {
         label_room(&self.label).max(LONGEST) + 8.0
     }
@@ -237,7 +238,7 @@ impl Kind {
 pub(super) struct Arrows(Vec<Kind>);
 
 impl Arrows {
-    /// The loads that act and are not zero; those of a group that grows also have its factor.
+    /// The loads that act and are not zero; loads of a growing group also have its factor.
     pub(super) fn of_loads(model: &Model, growth: Option<Growth<'_>>) -> Self {
         let labelled = |load: LoadId, value: String| {
             let group = model.loads.get(load.index()).map(|it| it.group.as_str());
@@ -264,7 +265,7 @@ impl Arrows {
         ])
     }
 
-    /// The same with the reactions of supports.
+    /// These arrows with the reactions of supports.
     pub(super) fn and_reactions(mut self, model: &Model, forces: &[JointForce]) -> Self {
         let units = InUnits(model.units);
         let mut all = joints::reactions(model, forces);
@@ -306,7 +307,7 @@ impl Arrows {
         self.pushes().filter(move |it| it.on.is_empty() && it.is_right() == is_right)
     }
 
-    /// Room that they take.
+    /// Room for the accelerations on one side.
     fn beside(&self, is_right: bool) -> f64 {
         largest(self.accelerations(is_right).map(Push::width))
     }
@@ -350,7 +351,7 @@ impl Arrows {
         self.0.iter().for_each(|kind| kind.explain(sheet));
     }
 
-    /// Accelerations at the outer side of all else, one below the other at half the height of the structure.
+    /// Draws accelerations outside all else, one below the other at half the height of the structure.
     fn draw_accelerations(&self, sheet: &mut Sheet, model: &Model) {
         let margins = self.margins();
         let [low, high] = structure::bounds(model).ends().map(|end| sheet.frame.at(end));
@@ -375,7 +376,8 @@ impl Arrows {
     }
 }
 
-/// All loads on edges, those of one load together if they have one traction in one line, or linear ones in one line or one way.
+/// All loads on edges. Parts of one load are joined if they have one traction in one line, or if they are linear in one
+/// line or one direction.
 fn tractions(model: &Model, labelled: &dyn Fn(LoadId, String) -> String) -> Vec<Push> {
     let near = 1e-9 * structure::bounds(model).size().norm();
     let mut list: Vec<(LoadId, Push)> = Vec::new();
@@ -419,7 +421,7 @@ fn tractions(model: &Model, labelled: &dyn Fn(LoadId, String) -> String) -> Vec<
     list.into_iter().map(with_label).collect()
 }
 
-/// All forces at places of blocks: one that pulls at an edge begins there, all others end in their places.
+/// All forces at places of blocks: a force that pulls at an edge begins there; all others end in their places.
 fn forces(model: &Model, labelled: &dyn Fn(LoadId, String) -> String) -> Vec<Push> {
     let units = InUnits(model.units);
     let blocks = model.blocks.iter().enumerate();
@@ -445,7 +447,7 @@ fn forces(model: &Model, labelled: &dyn Fn(LoadId, String) -> String) -> Vec<Pus
     all.map(push).collect()
 }
 
-/// All moments at places of blocks. Their values point up, which places the labels above.
+/// All moments at places of blocks. Their values point up, so that the labels are above.
 fn moments(model: &Model, labelled: &dyn Fn(LoadId, String) -> String) -> Vec<Push> {
     let units = InUnits(model.units);
     let blocks = model.blocks.iter().enumerate();

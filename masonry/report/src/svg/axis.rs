@@ -1,4 +1,4 @@
-//! Axes of diagrams: where values are, and lines with labels.
+//! Axes of diagrams: the places of values, and lines with labels.
 
 use std::ops::Range;
 
@@ -7,11 +7,11 @@ use crate::format::round_down;
 /// Logarithmic axes of fewer decades have lines at 2 and 5 too.
 const FEW: f64 = 3.0;
 const MOST_LABELS: f64 = 9.0;
-/// Logarithmic axes within these have no exponents.
+/// Logarithmic axes within these values have no exponents.
 const PLAIN: Range<f64> = 0.9e-4..1.1e4;
-/// Lines on a linear axis are at most so many.
+/// The largest number of lines on a linear axis.
 const TICKS: f64 = 7.0;
-/// Labels of a linear axis have no more decimals, but an exponent.
+/// Labels of a linear axis that need more decimals have an exponent.
 const DECIMALS: f64 = 5.0;
 
 /// Meaning of equal lengths on an axis.
@@ -31,7 +31,7 @@ pub(super) struct Axis {
     /// Values, or their decimal logarithms.
     ends: [f64; 2],
     pixels: [f64; 2],
-    /// Where lines are, and their labels.
+    /// Places of lines, and their labels.
     lines: Vec<(f64, String)>,
 }
 
@@ -58,13 +58,13 @@ impl Axis {
         (self.pixels[0] + share * (self.pixels[1] - self.pixels[0])).round()
     }
 
-    /// Where lines are, and their labels.
+    /// Places of lines, and their labels.
     pub(super) fn labels(&self) -> impl Iterator<Item = (f64, &str)> {
         self.lines.iter().map(|(value, label)| (self.at(*value), label.as_str()))
     }
 }
 
-/// Ends with room, and round values, whole ones if all values are counted.
+/// Ends with room, and round values, which are whole if all values are counted.
 fn linear([low, high]: [f64; 2], is_count: bool) -> ([f64; 2], Vec<(f64, String)>) {
     // Zero belongs to an axis that would begin or end near it.
     let [low, high] = match [low, high] {
@@ -88,7 +88,7 @@ fn linear([low, high]: [f64; 2], is_count: bool) -> ([f64; 2], Vec<(f64, String)
     (ends, values.map(|value| (value, label(value, step))).collect())
 }
 
-/// As many decimals as a round number has.
+/// The number of decimals of a round number.
 fn decimals(of: f64) -> f64 {
     (-of.log10() - 1e-9).ceil().max(0.0)
 }
@@ -106,8 +106,8 @@ fn label(value: f64, step: f64) -> String {
     if is_zero { "0".to_owned() } else { text }
 }
 
-/// Ends with room; decades and, if these are few, their second and fifth multiples. Labels are alike: all with exponents, or
-/// none.
+/// Ends with room; decades and, if these are few, their second and fifth multiples. Labels have the same form: all with
+/// exponents or all without.
 fn logarithmic([low, high]: [f64; 2]) -> ([f64; 2], Vec<(f64, String)>) {
     let room = (0.03 * (high - low)).max(0.1);
     let ends = [low - room, high + room];

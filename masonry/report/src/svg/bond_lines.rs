@@ -8,21 +8,20 @@ use masonry::scene::{Scene, Wall};
 /// Two thin lines to compare the flow of stresses with, leaning towards each other.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ReferenceLines {
-    /// Where the lines start \[m\]. The left one rises to the right and the right one to the left,
-    /// until they meet or leave the structure.
+    /// The places at which the lines start \[m\]. The left line rises to the right and the right one to the left, until
+    /// they meet or leave the structure.
     pub origins: [Point2<f64>; 2],
     /// Angle from the vertical \[rad\], in `[0, pi/2)`.
     pub angle: f64,
-    /// Their name in the legend, such as `arctan(l / 2h) = 26.57°`.
+    /// The name of the lines in the legend, such as `arctan(l / 2h) = 26.57°`.
     pub label: String,
 }
 
 impl ReferenceLines {
-    /// The running-bond lines to compare the principal stresses with: from the inner ends of the
-    /// lowest supports at both corners of the first wall, half a brick and half a head joint sideways
-    /// for every course and its bed joint.
-    /// `None` for a scene without such a wall, or with one that is turned, with a support all along its foot, or with an opening in the way
-    /// of a line.
+    /// The running-bond lines to compare the principal stresses with: from the inner ends of the lowest supports at
+    /// both corners of the first wall, half a brick and half a head joint sideways for every course and its bed joint.
+    /// `None` for a scene without such a wall, and if the wall is turned, has a support all along its foot, or has an
+    /// opening in the way of a line.
     pub fn of(scene: &Scene) -> Option<Self> {
         let wall = scene.walls.first().filter(|wall| wall.turn().abs() <= 0.0)?;
         let [_, foot] = wall.origin;
@@ -42,7 +41,7 @@ impl ReferenceLines {
         Some(Self { origins, angle: (length / (2.0 * height)).atan(), label: label.to_owned() })
     }
 
-    /// Both lines, which rise to the same height: that of the place in which they meet, or the top of the structure \[m\].
+    /// Both lines, up to the same height: the height at which they meet, or the top of the structure \[m\].
     pub(super) fn within(&self, top: f64) -> [[Point2<f64>; 2]; 2] {
         let [mut left, mut right] = self.origins;
         if left.x > right.x {
@@ -58,10 +57,10 @@ impl ReferenceLines {
     }
 }
 
-/// Whether there are bricks all along the lines that rise from these places at the foot of a wall until they meet, and
-/// every whole one lies half over a joint of the course below: the lines are those of running bond.
+/// Whether there are bricks all along the lines from these places at the foot of a wall until they meet, and every
+/// whole brick lies half over a joint of the course below: the bond is a running bond.
 fn is_filled(wall: &Wall, joints: JointThickness, [left, right]: [f64; 2]) -> bool {
-    /// Lengths, in those of a brick, that are none.
+    /// Lengths up to this part of the length of a brick are zero.
     const NEAR: f64 = 1e-6;
     let length = wall.brick.length + joints.head;
     let bricks = bond::bricks_in_mortar(wall, joints);
@@ -73,7 +72,7 @@ fn is_filled(wall: &Wall, joints: JointThickness, [left, right]: [f64; 2]) -> bo
         (brick.fraction - 1.0).abs() > NEAR || distances.any(|it| it.abs() <= NEAR * length)
     };
     courses.iter().enumerate().all(|(k, course)| {
-        // Half a course below its top.
+        // The line is taken half a course below the top of the course.
         let along = (course[0].course as f64 - 0.5) * 0.5 * length;
         let is_laid = |x: f64| {
             let reach = |it: &PlacedBrick| it.low[0] - joints.head..=it.high[0] + joints.head;

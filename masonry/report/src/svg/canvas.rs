@@ -19,12 +19,12 @@ impl Pixel {
         Self { x, y }
     }
 
-    /// From here to another point, y up.
+    /// The vector from this point to another one, y up.
     pub(super) fn towards(self, other: Self) -> Vector2<f64> {
         Vector2::new(other.x - self.x, self.y - other.y)
     }
 
-    /// The point at a distance in a direction, y up, of any length; the same point if the direction has none.
+    /// The point at a distance in a direction, y up, of any length; the same point for a zero direction.
     pub(super) fn along(self, direction: Vector2<f64>, distance: f64) -> Self {
         let way = direction.try_normalize(0.0).unwrap_or_default() * distance;
         Self::new(self.x + way.x, self.y - way.y)
@@ -39,7 +39,7 @@ impl Pixel {
     }
 }
 
-/// Which part of a text stands at its point.
+/// The part of a text that stands at its point.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Anchor {
     Start,
@@ -140,32 +140,32 @@ pub(super) fn arrow([tail, tip]: [Pixel; 2]) -> String {
 
 /// The data of an arrow on three quarters of a circle, counter-clockwise if `sign` is positive.
 pub(super) fn turning(centre: Pixel, radius: f64, sign: f64) -> String {
-    // Chords of 30 degrees, the last of which has the head.
+    // Chords of 30 degrees; the last one has the head.
     let place = |k: u32| {
         let angle = (f64::from(k) - 4.5) * PI / 6.0;
         centre.along(Vector2::new(angle.sin() * -sign, angle.cos()), radius)
     };
-    // A stroke of its own for each, since paths are filled.
+    // Each chord is a stroke of its own, since paths are filled.
     let chords: String = (0..8).map(|k| open([place(k), place(k + 1)])).collect();
     chords + &arrow([place(8), place(9)])
 }
 
-/// How many parts a stroke has, none of which is longer than `most`.
+/// The number of equal parts of a stroke that are not longer than `most`.
 pub(super) fn parts([from, to]: [Pixel; 2], most: f64) -> u32 {
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
     let count = (from.distance(to) / most).ceil() as u32;
     count
 }
 
-/// A number with two decimals at most.
+/// A number with at most two decimals.
 pub(super) fn fixed(value: f64) -> String {
     let text = format!("{value:.2}");
     let text = trim_zeros(&text);
     if text == "-0" { "0" } else { text }.to_owned()
 }
 
-/// Text with the characters escaped that mean something in XML; control characters, which XML
-/// forbids, become spaces.
+/// A text in which the characters with a meaning in XML are escaped; control characters, which XML forbids, become
+/// spaces.
 pub(crate) fn escape(text: &str) -> String {
     let mut escaped = String::with_capacity(text.len());
     for character in text.chars() {
@@ -181,7 +181,7 @@ pub(crate) fn escape(text: &str) -> String {
     escaped
 }
 
-/// Width of a text in a font of the given size, rather too large than too small.
+/// The width of a text in a font of the given size, rather too large than too small.
 pub(super) fn text_width(text: &str, size: f64) -> f64 {
     let ems = |character: char| match character {
         'i' | 'j' | 'l' | '.' | ',' | ':' | ';' | '\'' | '|' | ' ' | '\u{a0}' => 0.34,
@@ -216,7 +216,7 @@ pub(super) fn wrapped(text: &str, size: f64, width: f64) -> Vec<String> {
     lines
 }
 
-/// Bytes of the longest start of `text` that fits, at least one character.
+/// The number of bytes of the longest start of `text` that fits, at least one character.
 fn fitting(text: &str, size: f64, width: f64) -> usize {
     let ends = text.char_indices().map(|(at, character)| at + character.len_utf8());
     let first = ends.clone().next().unwrap_or(0);

@@ -1,4 +1,4 @@
-//! Open joints in colours that go with their width, and joints that have slid.
+//! Open joints in colours that depend on their width, and joints that have slid.
 
 use super::canvas::{Pixel, open};
 use super::forces::Loaded;
@@ -13,7 +13,7 @@ use masonry::ids::JointId;
 use masonry::model::{Model, PlacedJoint};
 use masonry::rounding::largest;
 
-/// The lower ends of classes, in parts of a round width below the largest; what is below the second is a hairline.
+/// The lower ends of classes, as parts of a round width below the largest; a width below the second is a hairline.
 const CLASSES: [f64; 6] = [0.0, 0.05, 0.1, 0.2, 0.5, 1.0];
 /// Pieces into which a joint is divided if its width changes.
 const PIECES: usize = 6;
@@ -21,13 +21,13 @@ const PIECES: usize = 6;
 const LEAST_SLIP: f64 = 0.01;
 
 /// The structure with its open joints, wider ones darker; the legend is in millimetres. Joints that are closed and have
-/// slid have a line of their own colour. `None` if no joint has opened or slid.
+/// slid have a separate colour. `None` if no joint has opened or slid.
 pub fn cracks(title: &str, model: &Model, contacts: &[PointState]) -> Option<String> {
     let is_closed = joints::openings(model, contacts).is_empty();
     (!is_closed).then(|| cracks_or_none(title, model, contacts))
 }
 
-/// The same [`cracks`], or the structure with a note that no joint has opened or slid.
+/// The picture of [`cracks`], or the structure with a note that no joint has opened or slid.
 pub fn cracks_or_none(title: &str, model: &Model, contacts: &[PointState]) -> String {
     let by = widest(&joints::openings(model, contacts));
     compared(&Loaded { title, model, contacts }, by)
@@ -38,7 +38,7 @@ pub(crate) fn widest(openings: &[JointOpening]) -> f64 {
     largest(openings.iter().map(|it| it.widest))
 }
 
-/// The same in the colours of the widest crack of all that are compared.
+/// The picture of [`cracks`] in the colours of the widest crack of all compared pictures.
 pub(crate) fn compared(loaded: &Loaded<'_>, widest_of_all: f64) -> String {
     let Loaded { title, model, contacts } = *loaded;
     let openings = joints::openings(model, contacts);
@@ -64,7 +64,7 @@ fn millimetres(metres: f64) -> String {
 struct Piece {
     joint: JointId,
     ends: [Pixel; 2],
-    /// Its width in its middle \[m\].
+    /// The width in the middle of the piece \[m\].
     width: f64,
 }
 
@@ -79,7 +79,7 @@ fn draw_widths(sheet: &mut Sheet, model: &Model, openings: &[JointOpening], wide
         let pieces = pieces(opening, &model.joints[opening.joint.index()], &sheet.frame);
         let open: Vec<Piece> = pieces.filter(|it| it.width > 0.0).collect();
         let is_one = |a: &Piece, b: &Piece| class(a) == class(b) && a.ends[1] == b.ends[0];
-        // One stroke as long as the class stays the same.
+        // One stroke is drawn as long as the class stays the same.
         for run in open.chunk_by(is_one) {
             let ends = [run[0].ends[0], run[run.len() - 1].ends[1]];
             classes[class(&run[0])].push(Piece { ends, ..run[0] });
@@ -115,7 +115,7 @@ fn explain_widths(sheet: &mut Sheet, round: f64, widest: f64, widest_of_all: f64
     }
 }
 
-/// Pieces of a joint: between its points the width changes evenly, beyond them it is that of the next.
+/// Pieces of a joint: the width changes linearly between contact points and is that of the nearest point beyond them.
 fn pieces<'a>(
     opening: &'a JointOpening,
     joint: &'a PlacedJoint,

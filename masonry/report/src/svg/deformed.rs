@@ -15,17 +15,17 @@ use masonry::model::mesh::BlockMesh;
 use masonry::model::{Model, PlacedBlock};
 use masonry::rounding;
 
-/// Scale and room that pictures of displacements share, so that those of a load history can be compared.
+/// The scale and room that pictures of displacements share, so that those of a load history can be compared.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Magnified {
     motion: Motion,
     bounds: Bounds,
-    /// The largest displacement of all \[m\].
+    /// The largest of all displacements \[m\].
     largest: f64,
 }
 
 impl Magnified {
-    /// So that the largest displacement of these states is readable; for a page with room for more.
+    /// A scale at which the largest displacement of these states is readable; a page has room for more.
     pub(crate) fn of(all: &[Shown<'_>], for_page: bool) -> Self {
         let largest = rounding::largest(all.iter().map(largest));
         let still = Bounds::of(all.iter().flat_map(|it| structure::bounds(it.model).ends()));
@@ -55,14 +55,14 @@ pub(super) fn moved<'a>(
     points.iter().zip(moves).map(move |(point, u)| point + u * factor)
 }
 
-/// The deformed structure, magnified by a round factor that the legend states, over the undeformed
-/// outline. Joints that open show the white of the paper.
+/// The deformed structure, magnified by a round factor in the legend, over the undeformed outline. Joints that open
+/// show the white of the paper.
 pub fn deformed(title: &str, model: &Model, state: &State) -> String {
     let shown = Shown { title, model, state };
     compared(&shown, &Magnified::of(&[shown], false))
 }
 
-/// The same, magnified like others.
+/// The picture of [`deformed`], magnified like others.
 pub(crate) fn compared(shown: &Shown<'_>, by: &Magnified) -> String {
     let Shown { title, model, state } = *shown;
     let mut sheet = Sheet::new(format!("{title}: deformed"), model, by.bounds, Sides::HATCH);
@@ -117,7 +117,7 @@ fn explain(sheet: &mut Sheet, shown: &Shown<'_>, by: &Magnified) {
     let text = if largest > 0.0 { "deformed" } else { "no displacement" };
     sheet.legend.add(text, "deformed", legend::block);
     if largest > 0.0 {
-        // A line of its own, which a page changes.
+        // The note is a separate line, which a page changes.
         sheet.legend.note(&format!("magnified {factor} times"));
         let largest = InUnits(shown.model.units).length_text(largest);
         sheet.legend.note(&format!("largest component {largest}"));

@@ -8,7 +8,7 @@ use super::legend::{self, Legend};
 use super::sheet::Sides;
 use super::style::{COLOURS, EDGE, TEXT, TEXT_LINE, TICK, WIDTH};
 
-/// Heights of a diagram with logarithmic axes alone and with linear ones, and the size of one of several.
+/// Heights of a diagram with logarithmic axes alone and of one with linear axes, and the size of one of several.
 const HEIGHT: f64 = 430.0;
 const LINEAR_HEIGHT: f64 = 300.0;
 const ONE_OF_MANY: [f64; 2] = [560.0, 340.0];
@@ -18,7 +18,7 @@ const COLUMNS: usize = 3;
 const LEFT: f64 = 76.0;
 const RIGHT: f64 = 15.0;
 const BELOW: f64 = 52.0;
-/// Between rows of diagrams.
+/// The distance between rows of diagrams.
 const GAP: f64 = 8.0;
 /// Corners of markers, in pixels.
 const SHAPES: [&[[f64; 2]]; COLOURS] = [
@@ -33,7 +33,7 @@ const SHAPES: [&[[f64; 2]]; COLOURS] = [
 /// Lines through more points have no markers.
 const MARKED: usize = 60;
 
-/// How a series is drawn.
+/// The look of a series.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Look {
     /// A line with markers.
@@ -51,11 +51,11 @@ pub enum Look {
 pub struct Series {
     /// Its name in the legend, unless it is empty.
     pub name: String,
-    /// Which colour and marker it has.
+    /// The number of the colour and marker.
     pub style: usize,
     /// How it is drawn.
     pub look: Look,
-    /// Those that have no place on the axes are left out.
+    /// Points without a place on the axes are left out.
     pub points: Vec<[f64; 2]>,
 }
 
@@ -66,7 +66,7 @@ impl Series {
         self.points.iter().filter(move |it| it.iter().all(has_place)).copied()
     }
 
-    /// The class of its lines.
+    /// The class of the lines.
     fn class(&self) -> String {
         let line = match self.look {
             Look::Full | Look::Hollow => "curve",
@@ -109,36 +109,36 @@ impl Series {
     }
 }
 
-/// A place where something begins, and its name.
+/// A place at which a stage begins, and its name.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CurveStart {
-    /// On the axis across.
+    /// The value on the horizontal axis.
     pub at: f64,
-    /// Beside a line there.
+    /// The text beside the line at that value.
     pub name: String,
 }
 
-/// Two axes and what stands between them.
+/// Two axes and the curves between them.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Diagram {
-    /// Above it; empty if it is the only one.
+    /// The title above the diagram; empty for a single diagram.
     pub title: String,
-    /// Names of the values across and up, with units.
+    /// Names of the horizontal and the vertical values, with units.
     pub axes: [String; 2],
     /// Scale of both axes.
     pub scale: AxisScale,
-    /// Values that the vertical axis has at least, whatever the points are.
+    /// Values that the vertical axis includes for any points.
     pub least: Option<[f64; 2]>,
-    /// Later ones are drawn over earlier ones.
+    /// Later series are drawn over earlier ones.
     pub series: Vec<Series>,
-    /// Where stages begin.
+    /// The places at which stages begin.
     pub stages: Vec<CurveStart>,
-    /// Where a page marks the step that it shows: a place for every step; none in a file.
+    /// The places at which a page marks its step: one for every step; empty in a file.
     pub steps: Vec<f64>,
 }
 
 impl Diagram {
-    /// A diagram of full lines with linear axes, in colours of their own; bounds keep their style.
+    /// A diagram of full lines with linear axes, in separate colours; bounds keep their style.
     pub(crate) fn linear(axes: [&str; 2], mut series: Vec<Series>) -> Self {
         let full = series.iter_mut().filter(|it| it.look == Look::Full);
         full.enumerate().for_each(|(style, it)| it.style = style);
@@ -159,8 +159,9 @@ impl Diagram {
     }
 }
 
-/// The text of an SVG file; `None` if no series has a point, and without the diagrams in which none has. Diagrams with
-/// logarithmic axes share a legend and stand in two columns, others stand one below the other, each with its legend.
+/// The text of an SVG file, without diagrams in which no series has a point; `None` if there is no other diagram.
+/// Diagrams with logarithmic axes share a legend and stand in two columns; others stand one below the other, each with
+/// its legend.
 pub fn picture(title: &str, diagrams: &[Diagram], notes: &[String]) -> Option<String> {
     let drawn: Vec<&Diagram> = diagrams.iter().filter(|it| !it.is_empty()).collect();
     let first = drawn.first()?;
@@ -265,7 +266,7 @@ impl<'a> Panel<'a> {
         canvas.path(&axes, "class=\"axes\"");
     }
 
-    /// Where stages begin, with their names if there is room.
+    /// Draws the places at which stages begin, with their names if there is room.
     fn draw_stages(&self, canvas: &mut Canvas, labels: &mut Labels) {
         let Sides { top, bottom, .. } = self.inner;
         let line = |at: f64| [bottom, top].map(|y| Pixel::new(self.across.at(at), y));
@@ -282,7 +283,7 @@ impl<'a> Panel<'a> {
         });
     }
 
-    /// Where a page marks its step: the last one at first.
+    /// Draws the mark of the step that a page shows: at first the last one.
     fn draw_step(&self, canvas: &mut Canvas) {
         let places: Vec<f64> = self.diagram.steps.iter().map(|it| self.across.at(*it)).collect();
         let Some(last) = places.last() else { return };

@@ -7,7 +7,7 @@ use super::style::{TEXT, TICK};
 use crate::format::InUnits;
 use masonry::model::Model;
 
-/// From what else stands beside the structure to a dimension line, and room for its text.
+/// The distance of a dimension line from the other marks beside the structure, and room for its text.
 const GAP: f64 = 10.0;
 const ROOM: f64 = GAP + TEXT + 8.0;
 
@@ -15,7 +15,7 @@ const ROOM: f64 = GAP + TEXT + 8.0;
 #[derive(Debug)]
 pub(super) struct Dimensions {
     bounds: Bounds,
-    /// Room of all else beside the structure.
+    /// Room for the other marks beside the structure.
     others: Sides,
 }
 
@@ -24,13 +24,13 @@ impl Dimensions {
         Self { bounds: structure::blocks(model), others }
     }
 
-    /// Room with that of all else.
+    /// Room for the dimensions and the other marks.
     pub(super) fn margins(&self) -> Sides {
         let Sides { left, bottom, .. } = self.others;
         Sides { left: left + ROOM, bottom: bottom + ROOM, ..self.others }
     }
 
-    /// The width below and the height left of the structure.
+    /// Draws the width below and the height left of the structure.
     pub(super) fn draw(&self, sheet: &mut Sheet, units: InUnits) {
         let [low, high] = self.bounds.ends().map(|end| sheet.frame.at(end));
         let x = sheet.drawn.left - self.others.left - GAP;

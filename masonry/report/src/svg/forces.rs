@@ -1,4 +1,5 @@
-//! The forces in the joints: resultants at their places, the paths between them, and the part of friction that is used.
+//! The forces in the joints: resultants at their places, the paths between them, and the part of friction that they
+//! use.
 
 use std::collections::BTreeMap;
 
@@ -17,18 +18,18 @@ use crate::joints::{self, JointForce};
 use masonry::data::state::PointState;
 use masonry::model::{Body, Model};
 
-/// Resultants below this part are left out of structures with many joints, from so many on.
+/// In structures with more than `MANY` joints, resultants below this part of the largest are not drawn.
 const LEAST_OF_MANY: f64 = 1e-2;
 const MANY: usize = 150;
-/// Structures with so few joints have the value of every resultant.
+/// The value of every resultant is shown in structures with at most this number of joints.
 const FEW: usize = 24;
-/// Least use of friction, class, and what the legend says.
+/// Least use of friction, class, and text of the legend.
 const USES: [(f64, &str, &str); 3] = [
     (0.995, "used up", "friction used up"),
     (0.8, "used much", "80 % of friction used or more"),
     (0.5, "used", "50 % of friction used or more"),
 ];
-/// Width of the widest path of forces, in bricks.
+/// Width of the widest path of forces, in sizes of a brick.
 const WIDEST: f64 = 0.15;
 /// Half the middle third, in lengths of a joint, with room for rounding errors.
 const MIDDLE_THIRD: f64 = 1.0 / 6.0 + 1e-9;
@@ -40,10 +41,10 @@ const ENDS: f64 = 0.5 + 1e-6;
 pub(crate) struct Shared {
     /// The largest resultant \[N\].
     largest: f64,
-    /// Side of a middling brick \[m\], whose length the largest resultant nearly has.
+    /// Side of a middling brick \[m\]: nearly the length of the largest resultant in the picture.
     brick: f64,
     bounds: Bounds,
-    /// Room for the arrows and labels of all.
+    /// Room for the arrows and labels of all pictures.
     margins: Sides,
 }
 
@@ -77,18 +78,18 @@ impl<'a> From<&Shown<'a>> for Loaded<'a> {
     }
 }
 
-/// The structure with the resultant of every joint as a stroke in its direction, through the place where it crosses the
-/// joint; the length goes with the force.
+/// The structure with the resultant of every joint as a stroke in its direction, through the place at which it crosses
+/// the joint; the length is proportional to the force.
 ///
-/// Behind them are the paths of the forces: lines from joint to joint, as wide as the force is large; in an arch the
-/// line of thrust. Dots are hollow if the resultant has left the middle third. Joints in colour use much of their
-/// friction. Supports have their reactions. Loads are those of the model.
+/// The paths of the forces are drawn behind: lines from joint to joint, whose width is proportional to the force; they
+/// are the line of thrust in an arch. Dots are hollow if the resultant has left the middle third. Joints in colour use
+/// much of their friction. Supports have their reactions. Loads are those of the model.
 pub fn forces(title: &str, model: &Model, contacts: &[PointState]) -> String {
     let loaded = Loaded { title, model, contacts };
     compared(&loaded, &Shared::of(&[loaded]))
 }
 
-/// The same, as long and as wide as others.
+/// The picture of [`forces`], as long and as wide as others.
 pub(crate) fn compared(loaded: &Loaded<'_>, by: &Shared) -> String {
     let Loaded { title, model, contacts } = *loaded;
     let all = joints::forces(model, contacts);
@@ -99,7 +100,7 @@ pub(crate) fn compared(loaded: &Loaded<'_>, by: &Shared) -> String {
     let least = if all.len() > MANY { LEAST_OF_MANY } else { LEAST };
     let is_large = |it: &&JointForce| it.force.norm() > least * by.largest;
     let large: Vec<&JointForce> = all.iter().filter(is_large).collect();
-    // A joint with tensile strength can carry a moment whose resultant passes beside it.
+    // A joint with tensile strength can carry a moment whose resultant passes beside the joint.
     let is_on = |it: &&JointForce| it.eccentricity.abs() <= ENDS;
     let drawn =
         Drawn { model, largest: by.largest, list: large.iter().copied().filter(is_on).collect() };
@@ -132,13 +133,14 @@ pub(crate) fn compared(loaded: &Loaded<'_>, by: &Shared) -> String {
 /// The resultants that are drawn.
 struct Drawn<'a> {
     model: &'a Model,
-    /// The largest of all that are compared \[N\].
+    /// The largest resultant of all compared pictures \[N\].
     largest: f64,
     list: Vec<&'a JointForce>,
 }
 
 impl Drawn<'_> {
-    /// Lines from every joint of a block to the middle of its forces: of a block with two joints one straight line.
+    /// Draws lines from every joint of a block to the middle of its forces: one straight line for a block with two
+    /// joints.
     fn draw_paths(&self, sheet: &mut Sheet) {
         let paths = joints::paths(self.model, self.list.iter().copied());
         if paths.is_empty() {
@@ -146,7 +148,7 @@ impl Drawn<'_> {
         }
         let widest = WIDEST * sheet.marks();
         sheet.layer("paths", |canvas, frame| {
-            // One element for each width: viewers and scripts are slow with thousands of elements.
+            // There is one element for each width: viewers and scripts are slow with thousands of elements.
             let mut by_width: BTreeMap<String, String> = BTreeMap::new();
             for path in paths {
                 let width = fixed((widest * path.force / self.largest).max(0.3));
@@ -159,7 +161,7 @@ impl Drawn<'_> {
         sheet.legend.add("path of forces, as wide as the force is large", "paths", legend::line);
     }
 
-    /// Joints that use much of their friction.
+    /// Draws joints that use much of their friction.
     fn draw_uses(&self, sheet: &mut Sheet) {
         let mut below = f64::INFINITY;
         for (least, class, name) in USES {
@@ -194,7 +196,7 @@ impl Drawn<'_> {
                 }
             });
             sheet.layer(&places, |canvas, frame| {
-                // Two elements for all: strokes below them have the names of joints.
+                // Two elements serve all dots: the strokes below them have the names of joints.
                 for (is_class, class) in [(true, ""), (false, outside)] {
                     let of_class = own.iter().filter(|it| is_inside(it) == is_class);
                     let dots: String = of_class.map(|it| dot(frame.at(it.at), radius)).collect();
@@ -226,7 +228,7 @@ impl Drawn<'_> {
         [-half, half].map(|half| sheet.frame.at(it.at).along(it.force, half))
     }
 
-    /// The value of every resultant between blocks beside it, if there is room; supports have their reactions.
+    /// Writes the value of every resultant between blocks beside it, if there is room; supports have their reactions.
     fn draw_values(&self, sheet: &mut Sheet, labels: &mut Labels) {
         let units = InUnits(self.model.units);
         sheet.layer("pressing labels", |canvas, frame| {

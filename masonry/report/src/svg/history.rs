@@ -10,18 +10,18 @@ use masonry::history::{History, StepRecord};
 use masonry::model::Model;
 use masonry::rounding::largest;
 
-/// Curves of one diagram are at most so many.
+/// The largest number of curves in one diagram.
 const MOST: usize = 7;
 /// Values that change by less than this part of the largest one are constant.
 const CONSTANT: f64 = 1e-9;
 
 /// Factors of loads against the largest displacement, reactions against the movement of a support, and the largest
-/// displacement and the reactions step by step. `None` for less than two steps.
+/// displacement and the reactions step by step. `None` for fewer than two steps.
 pub fn history(title: &str, model: &Model, history: &History) -> Option<String> {
     curves(title, model, history, false)
 }
 
-/// The same, for a page with marks of the steps.
+/// The curves of [`history`], with marks of the steps for a page.
 pub(crate) fn curves(
     title: &str,
     model: &Model,
@@ -71,7 +71,7 @@ impl Column {
     }
 }
 
-/// Curves of columns against one of them.
+/// Settings of curves of columns against one column.
 #[derive(Clone, Copy)]
 struct Against<'a> {
     table: &'a Table,
@@ -88,7 +88,7 @@ impl Against<'_> {
         Series { name, style: 0, look: Look::Full, points: points.map(<[f64; 2]>::from).collect() }
     }
 
-    /// The curves of what is not the same in all steps, those first that change most.
+    /// The curves of all columns that vary with the steps, by decreasing variation.
     fn varying(&self, columns: impl Iterator<Item = Column>) -> Vec<Series> {
         let mut list: Vec<Series> = columns.map(|column| self.curve(column)).collect();
         let values = |it: &Series| it.points.iter().map(|it| it[1]).collect::<Vec<_>>();
@@ -111,22 +111,22 @@ impl Against<'_> {
         Diagram { steps, ..Diagram::linear(axes, series) }
     }
 
-    /// Where the steps are on the axis.
+    /// The places of the steps on the axis.
     fn steps(&self) -> Vec<f64> {
         self.table.numbers(self.x).into_iter().map(|it| self.sense * it).collect()
     }
 }
 
-/// How a support moves.
+/// The movement of a support.
 struct Moved<'a> {
     support: &'a str,
-    /// The column, its sign at the largest movement, and what an axis calls the movement.
+    /// The column, its sign at the largest movement, and the name of the movement on an axis.
     x: String,
     sense: f64,
     axis: String,
 }
 
-/// The support that moves furthest, and how: up or down, to a side, or by turning alone.
+/// The support with the largest movement, and its kind: up or down, to a side, or by turning alone.
 fn most_moved<'a>(model: &'a Model, table: &Table) -> Option<Moved<'a>> {
     let furthest = |part: &'static str| {
         let names = model.supports.iter().map(|it| it.name.as_str());
@@ -161,7 +161,7 @@ fn stages(records: &[StepRecord]) -> Vec<CurveStart> {
 }
 
 /// The load factors of the states at rest against their displacements, and the factor above which the structure falls.
-/// `None` for less than two states.
+/// `None` for fewer than two states.
 pub fn path(title: &str, group: &str, path: &Path) -> Option<String> {
     let table = curve(path);
     let displacements = table.numbers("displacement");
@@ -182,11 +182,11 @@ pub fn path(title: &str, group: &str, path: &Path) -> Option<String> {
     picture(&format!("{title}: load factor along the path"), &[diagram], &[])
 }
 
-/// Factors of a train beyond this multiple of the least are not drawn. Chosen: curves show where the train is worst.
+/// Factors of a train beyond this multiple of the least are not drawn. Chosen: the curve shows its worst part clearly.
 const SHOWN: f64 = 10.0;
 
-/// The load factor of a train by a law against its position, from the table of its positions, and the worst position. `None`
-/// for less than two factors.
+/// The load factor of a train by a law against its position, from the table of its positions, and the worst position.
+/// `None` for fewer than two factors.
 pub(crate) fn train(title: &str, law: &str, positions: &Table, critical: usize) -> Option<String> {
     let places = positions.numbers("position");
     let factor = |row: &Vec<Value>| match row[1] {
@@ -198,7 +198,7 @@ pub(crate) fn train(title: &str, law: &str, positions: &Table, critical: usize) 
         points.map(|(place, row)| Some([*place, factor(row)?])).collect();
     let governs = points[critical]?;
     let is_shown = |it: &Option<[f64; 2]>| it.is_some_and(|it| it[1] <= SHOWN * governs[1]);
-    // The curve has gaps where a factor is too large or none.
+    // The curve has gaps at positions with a large factor or without a factor.
     let runs = points.chunk_by(|a, b| is_shown(a) == is_shown(b)).filter(|run| is_shown(&run[0]));
     let runs: Vec<Vec<[f64; 2]>> =
         runs.map(|run| run.iter().flatten().copied().collect()).collect();
@@ -215,7 +215,7 @@ pub(crate) fn train(title: &str, law: &str, positions: &Table, critical: usize) 
     series.push(Series { name, style: 1, look: Look::Full, points: vec![governs] });
     let length = positions.units.0.length_name();
     let axes = [&format!("position of the train [{length}]"), "factor of the train [-]"];
-    // All runs have the style of the one curve that they are.
+    // All runs are parts of one curve and have one style.
     let diagram = Diagram { series, ..Diagram::linear(axes, Vec::new()) };
     picture(&format!("{title}: load factor by position"), &[diagram], &[])
 }

@@ -1,11 +1,11 @@
-//! Labels that keep out of one another's way, and out of that of arrows and strokes.
+//! Labels that do not collide with one another, or with arrows and strokes.
 
 use nalgebra::{Rotation2, Vector2};
 
 use super::canvas::{Anchor, Canvas, Pixel, text_width};
 use super::sheet::Sides;
 
-/// Where else a label is tried, if its own place is taken: further away, and to the sides \[degrees\].
+/// Other places of a label whose own place is taken: distances, and angles to the sides \[degrees\].
 const FURTHER: [f64; 4] = [0.0, 7.0, 15.0, 24.0];
 const ASIDE: [f64; 7] = [0.0, 40.0, -40.0, 75.0, -75.0, 110.0, -110.0];
 
@@ -15,7 +15,7 @@ pub(super) struct Label<'a> {
     pub(super) text: &'a str,
     pub(super) size: f64,
     pub(super) at: Pixel,
-    /// The side of the place on which it is best, y up.
+    /// The best side of the place, y up.
     pub(super) side: Vector2<f64>,
     /// Attributes of the text.
     pub(super) name: &'a str,
@@ -24,14 +24,14 @@ pub(super) struct Label<'a> {
 /// The places that labels have taken, and the strokes that they avoid.
 #[derive(Debug)]
 pub(super) struct Labels {
-    /// Where labels may be.
+    /// The area in which labels may be.
     room: Sides,
     taken: Vec<Sides>,
     strokes: Vec<[Pixel; 2]>,
 }
 
 impl Labels {
-    /// No labels yet.
+    /// No labels yet, in an area.
     pub(super) fn within(room: Sides) -> Self {
         Self { room, taken: Vec::new(), strokes: Vec::new() }
     }
@@ -41,7 +41,7 @@ impl Labels {
         self.strokes.push(stroke);
     }
 
-    /// Draws a label on its side of its place, or near it; not at all if there is no room.
+    /// Draws a label on its side of its place, or near the place; draws nothing if there is no room.
     pub(super) fn draw(&mut self, canvas: &mut Canvas, label: &Label<'_>) {
         let Label { text, size, at, side, name } = *label;
         let half = Vector2::new(0.5 * text_width(text, size), 0.5 * size);
@@ -58,7 +58,7 @@ impl Labels {
         }
     }
 
-    /// Whether a rectangle was free; from now on it is not.
+    /// Takes a rectangle; `false` if the rectangle is not free.
     fn take(&mut self, it: Sides) -> bool {
         let room = &self.room;
         let is_free = it.left >= room.left
@@ -74,10 +74,10 @@ impl Labels {
     }
 }
 
-/// The middle of a box with these half sides that touches a place, or nearly, and lies on its side `n`, y up.
+/// The middle of a box with these half sides that touches a place, or is `gap` away from it, on its side `n`, y up.
 fn beside(at: Pixel, n: Vector2<f64>, half: Vector2<f64>, gap: f64) -> Pixel {
     let n = n.normalize();
-    // So that the box begins at the place whatever its direction.
+    // The box begins at the place for all directions.
     let reach = (half.x / n.x.abs()).min(half.y / n.y.abs());
     at.along(n, reach + gap)
 }

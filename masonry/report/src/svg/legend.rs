@@ -32,7 +32,7 @@ impl Legend {
         self.0.push(Entry { symbol: Canvas::default(), lines: lines(text) });
     }
 
-    /// Draws the entries in rows of so many, from a corner on, and returns the end of the last one.
+    /// Draws the entries in rows of `columns`, from a corner on, and returns the end of the last one.
     pub(super) fn draw(&self, canvas: &mut Canvas, corner: Pixel, columns: usize) -> f64 {
         let mut top = corner.y;
         for row in self.0.chunks(columns) {
@@ -73,7 +73,7 @@ pub(super) fn block(symbol: &mut Canvas) {
     symbol.path(&closed(corners.map(|[x, y]| Pixel::new(x, y))), "");
 }
 
-/// A bar of half a length, with marks at its ends, as a symbol.
+/// A bar with marks at its ends, given half its length, as a symbol.
 pub(super) fn bar(half: f64) -> impl FnOnce(&mut Canvas) {
     move |symbol| {
         let end = |x: f64| open([-4.0, 4.0].map(|y| Pixel::new(x, y)));
@@ -82,7 +82,7 @@ pub(super) fn bar(half: f64) -> impl FnOnce(&mut Canvas) {
     }
 }
 
-/// Draws a title at the top of a picture of a width, and returns its end.
+/// Draws a title at the top of a picture of this width, and returns the end of the title.
 pub(super) fn title(canvas: &mut Canvas, text: &str, width: f64) -> f64 {
     let mut top = EDGE;
     canvas.group("class=\"title\"", |canvas| {
@@ -94,7 +94,7 @@ pub(super) fn title(canvas: &mut Canvas, text: &str, width: f64) -> f64 {
     top
 }
 
-/// The text of a file of a size; `data` are attributes for a page.
+/// The text of a file of this size; `data` are attributes for a page.
 pub(super) fn file(
     title: &str,
     [width, height]: [f64; 2],

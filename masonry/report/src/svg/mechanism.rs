@@ -1,4 +1,4 @@
-//! The movement by which a structure without equilibrium gives way, with its hinges and sliding joints.
+//! The movement by which a structure without equilibrium collapses, with its hinges and sliding joints.
 
 use nalgebra::Vector2;
 
@@ -19,19 +19,20 @@ use masonry::model::Model;
 use masonry::rounding::largest;
 use masonry::verify::moving::{SLOW, speed};
 
-/// Rates below this part of the fastest are none: blocks are drawn as at rest.
+/// Rates below this part of the fastest are zero: blocks are drawn as at rest.
 const AT_REST: f64 = 1e-6;
-/// So many hinges and sliding joints have numbers; of more, numbers would hide the structure, and slow ones have no marks.
+/// The largest number of hinges and sliding joints with numbers; beyond it, numbers would hide the structure, and slow
+/// joints have no marks.
 const NUMBERED: usize = 48;
 
-/// A mechanism, and what its picture says of the loads.
+/// A mechanism and the loads in its picture.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Collapse<'a> {
     pub(crate) title: &'a str,
     pub(crate) model: &'a Model,
     /// Displacement rates of the corners of every block.
     pub(crate) rates: &'a [Vec<Vector2<f64>>],
-    /// The loads that grow, if it is that of a limit load.
+    /// The growing loads, if the mechanism is that of a limit load.
     pub(crate) growth: Option<Growth<'a>>,
 }
 
@@ -42,7 +43,7 @@ pub fn mechanism(title: &str, model: &Model, rates: &[Vec<Vector2<f64>>]) -> Str
     collapse(&Collapse { title, model, rates, growth: None }, false)
 }
 
-/// The same; on a page the amplitude can be changed.
+/// The picture of [`mechanism`]; a page can change the amplitude.
 pub(crate) fn collapse(collapse: &Collapse<'_>, for_page: bool) -> String {
     let Collapse { title, model, rates, growth } = *collapse;
     let fastest = largest(rates.iter().map(|rate| speed(rate)));
@@ -64,7 +65,7 @@ pub(crate) fn collapse(collapse: &Collapse<'_>, for_page: bool) -> String {
     draw_yielding(&mut sheet, model, &joints, motion, &mut labels);
     let rate = |on: &Pushed| rate_of(collapse, on);
     loads.draw(&mut sheet, model, &mut labels, &Displaced { motion, rate: &rate });
-    // A weight that grows has no arrow, which would tell its factor.
+    // A growing weight has no arrow, whose label would show the factor.
     let has_arrow = |it: &Growth<'_>| model.loads.iter().any(|load| load.group == it.group);
     if let Some(Growth { group, factor }) = growth.filter(|it| !has_arrow(it)) {
         let factor = significant(factor, 4);
@@ -74,7 +75,7 @@ pub(crate) fn collapse(collapse: &Collapse<'_>, for_page: bool) -> String {
     sheet.finish()
 }
 
-/// Blocks by their speeds, the fastest on top, and how many there are.
+/// Draws blocks by their speeds, the fastest on top, and writes their number.
 fn draw_blocks(sheet: &mut Sheet, collapse: &Collapse<'_>, motion: Motion, fastest: f64) {
     let Collapse { model, rates, .. } = *collapse;
     let kind = |rate: &[Vector2<f64>]| match speed(rate) {
@@ -102,7 +103,7 @@ fn draw_blocks(sheet: &mut Sheet, collapse: &Collapse<'_>, motion: Motion, faste
     }
 }
 
-/// Marks of hinges and sliding joints in their displaced places, with their numbers.
+/// Draws marks of hinges and sliding joints in their displaced places, with their numbers.
 fn draw_yielding(
     sheet: &mut Sheet,
     model: &Model,
@@ -163,29 +164,29 @@ fn draw_yielding(
 struct Mark {
     does: Yield,
     at: Pixel,
-    /// Direction of the joint.
+    /// The direction of the joint.
     along: Vector2<f64>,
     radius: f64,
     number: String,
-    /// Attributes of its elements.
+    /// Attributes of the elements.
     name: String,
 }
 
 impl Mark {
-    /// The mark of a level joint in a legend.
+    /// The mark of a level joint, for a legend.
     fn symbol(does: Yield) -> Self {
         let (number, name) = (String::new(), String::new());
         let (at, radius) = (Pixel::new(0.0, 0.0), HINGE * LARGEST_BRICK);
         Self { does, at, along: Vector2::x(), radius, number, name }
     }
 
-    /// Its ends along the joint.
+    /// The ends of the mark along the joint.
     fn ends(&self) -> [Pixel; 2] {
         let half = if self.does == Yield::Hinge { self.radius } else { 2.2 * self.radius };
         [-half, half].map(|half| self.at.along(self.along, half))
     }
 
-    /// A hinge is a ring, a sliding joint a line with half arrows on both sides.
+    /// Draws a ring for a hinge, and a line with half arrows on both sides for a sliding joint.
     fn draw(&self, canvas: &mut Canvas) {
         let radius = self.radius;
         if self.does == Yield::Hinge {
@@ -202,7 +203,7 @@ impl Mark {
     }
 }
 
-/// The rate of what a load pushes, which turns with its block.
+/// The rate of the target of a load, which turns with its block.
 fn rate_of(collapse: &Collapse<'_>, on: &Pushed) -> Vector2<f64> {
     let Some(block) = on.block else { return Vector2::zeros() };
     let corners = &collapse.model.blocks[block.index()].corners;

@@ -1,4 +1,4 @@
-//! Movements, magnified so that they are seen; a page can magnify them otherwise.
+//! Movements, magnified so that they are seen; a page can change the magnification.
 
 use nalgebra::Vector2;
 
@@ -6,14 +6,14 @@ use super::canvas::{Canvas, fixed};
 use super::sheet::{Bounds, Frame};
 use crate::format::round_down;
 
-/// Length that the largest movement should come close to: parts of the structure's diagonal and of its smaller side,
-/// whichever is less.
+/// The length that the largest movement should come close to: the lesser of these parts of the diagonal and of the
+/// smaller side of the structure.
 const OF_DIAGONAL: f64 = 0.07;
 const OF_SIDE: f64 = 0.3;
-/// A page magnifies up to so many times as much as a file.
+/// The largest magnification on a page, relative to that in a file.
 const PAGE: f64 = 2.0;
 
-/// How movements are magnified, alike in pictures that are compared.
+/// The magnification of movements, equal in pictures that are compared.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Motion {
     pub(super) factor: f64,
@@ -34,12 +34,12 @@ impl Motion {
         Self { factor, for_page }
     }
 
-    /// The largest factor that a page has.
+    /// The largest factor of a page.
     pub(super) fn furthest(self) -> f64 {
         if self.for_page { PAGE * self.factor } else { self.factor }
     }
 
-    /// Draws a path whose data depend on the factor; for a page with the data before the movement.
+    /// Draws a path whose data depend on the factor; a path for a page also has the data before the movement.
     pub(super) fn path(self, canvas: &mut Canvas, name: &str, data: impl Fn(f64) -> String) {
         let now = data(self.factor);
         let before = if self.for_page { data(0.0) } else { now.clone() };

@@ -1,4 +1,4 @@
-//! Attributes by which a script on a page knows what an element of a picture is, and finds it in another picture of the
+//! Attributes by which a script on a page identifies an element of a picture, and finds it in another picture of the
 //! same structure: names and numbers as users know them.
 
 use super::canvas::escape;

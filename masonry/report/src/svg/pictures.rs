@@ -1,4 +1,5 @@
-//! All pictures of an outcome; those of several states, one a step of a load history, are alike in scale.
+//! All pictures of an outcome; the pictures of several states, one for each step of a load history, have the same
+//! scale.
 
 use super::bond_lines::ReferenceLines;
 use super::cracks;
@@ -12,10 +13,10 @@ use super::stresses::{self, StressScale};
 use crate::joints;
 use masonry::analysis::outcome::Outcome;
 
-/// Pictures of one kind: one, or one of every step of a load history that is shown.
+/// Pictures of one kind: one picture, or one for every shown step of a load history.
 #[derive(Debug, Clone)]
 pub(crate) struct Pictures {
-    /// The name of a file with it.
+    /// The name of the file of such a picture.
     pub(crate) file: &'static str,
     pub(crate) pictures: Vec<String>,
 }
@@ -26,7 +27,7 @@ impl Pictures {
     }
 }
 
-/// The pictures of an outcome, with those of the states that are `shown`, in the order of the files. A page can change
+/// The pictures of an outcome, with those of the `shown` states, in the order of the files. A page can change
 /// displacements and amplitudes, and marks its step in curves.
 pub(crate) fn of_outcome(
     outcome: &Outcome,
@@ -74,8 +75,8 @@ impl StatePicture {
     }
 }
 
-/// Pictures of one kind of several states, with one scale of forces, stresses, displacements or widths; none if no state has
-/// anything to show.
+/// Pictures of one kind of several states, with one scale of forces, stresses, displacements or widths; empty if there
+/// is nothing to show in any state.
 pub fn compared(
     kind: StatePicture,
     shown: &[Shown<'_>],
@@ -115,7 +116,7 @@ fn drawn(
     }
 }
 
-/// The pictures of states, which have the same scales. Kinds of which no state has anything to show are left out.
+/// The pictures of states, which have the same scales. Kinds with nothing to show in any state are left out.
 fn of_states(
     shown: &[Shown<'_>],
     reference: Option<&ReferenceLines>,

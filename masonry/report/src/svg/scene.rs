@@ -1,4 +1,4 @@
-//! A scene before it is solved: blocks and what they are made of, supports, joints, contact points, loads.
+//! A scene before it is solved: blocks and their materials, supports, joints, contact points, loads.
 
 use nalgebra::Point2;
 
@@ -18,14 +18,14 @@ use masonry::ids::JointId;
 use masonry::law::JointLaw;
 use masonry::model::{Elasticity, Model, PlacedBlock};
 
-/// More names would hide the blocks.
+/// The largest number of blocks with names; more names would hide the blocks.
 const NAMED: usize = 120;
-/// Sizes of letters of names.
+/// Sizes of the letters of names.
 const LARGEST: f64 = 12.0;
 const READABLE: f64 = 7.0;
 
-/// The scene as it would be solved: bricks (with their names while they fit) and what they are made of, dimensions,
-/// hatched supports, joints in the colour of their class, contact points, and loads with values and units.
+/// The scene as it would be solved: bricks with their materials, and their names if there is room, dimensions, hatched
+/// supports, joints in the colour of their class, contact points, and loads with values and units.
 pub fn scene(title: &str, model: &Model) -> String {
     let units = InUnits(model.units);
     let loads = Arrows::of_loads(model, None);
@@ -71,7 +71,7 @@ impl Constants {
     }
 }
 
-/// Draws all blocks, and a legend entry for every material; the thickness of the structure is that of all.
+/// Draws all blocks, and a legend entry for every material; all blocks have the thickness of the structure.
 fn draw_materials(sheet: &mut Sheet, model: &Model) {
     let mut materials: Vec<Constants> = Vec::new();
     for constants in model.blocks.iter().map(Constants::of) {
@@ -118,7 +118,7 @@ fn draw_joints(sheet: &mut Sheet, model: &Model) {
     }
 }
 
-/// The law of a class: friction, and what strength and stiffness it has.
+/// The law of a class in words: friction, and strength and stiffness if there are any.
 fn law(law: &JointLaw) -> String {
     let strength = [("c", law.cohesion), ("f_t", law.tension)].into_iter();
     let strength = strength.filter(|(_, value)| *value > 0.0);
@@ -131,7 +131,7 @@ fn law(law: &JointLaw) -> String {
     texts.join(", ")
 }
 
-/// Names in the middle of the blocks, in one size that fits all, or not at all.
+/// Draws names in the middle of the blocks, in one size that fits all, or does not draw names.
 fn draw_names(sheet: &mut Sheet, model: &Model) {
     let fitting = |block: &PlacedBlock| {
         let [wide, high] = room(&block.corners).map(|it| it * sheet.frame.scale);
@@ -151,8 +151,8 @@ fn draw_names(sheet: &mut Sheet, model: &Model) {
     });
 }
 
-/// A place well inside of a block: its centroid, or, if the block is not convex, the deepest of the centroids of the triangles at
-/// its corners and of the block.
+/// A place well inside a block: the centroid, or, if the block is not convex, the deepest of the centroids of the block
+/// and of the triangles at its corners.
 fn inner_place(corners: &[Point2<f64>]) -> Point2<f64> {
     let centre = geometry::centroid(corners);
     if geometry::check_convex(corners).is_ok() {
@@ -168,7 +168,7 @@ fn inner_place(corners: &[Point2<f64>]) -> Point2<f64> {
     deepest.filter(|it| depth(it) > depth(&centre)).unwrap_or(centre)
 }
 
-/// Lengths of the horizontal and of the vertical line through the place of the name of a block, to its edges \[m\].
+/// Lengths of the horizontal and the vertical line to the edges, through the place of the name of a block \[m\].
 fn room(corners: &[Point2<f64>]) -> [f64; 2] {
     let centre = inner_place(corners);
     let chord = |along: usize, across: usize| {

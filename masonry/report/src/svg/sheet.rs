@@ -11,7 +11,7 @@ use masonry::geometry;
 use masonry::model::Model;
 
 const TALLEST: f64 = 760.0;
-/// Longest bar of the legend.
+/// The length of the longest bar in the legend.
 pub(super) const LONGEST_BAR: f64 = 58.0;
 
 /// An axis-parallel box \[m\].
@@ -22,7 +22,7 @@ pub(super) struct Bounds {
 }
 
 impl Bounds {
-    /// The smallest box around all finite points; the origin when there is none.
+    /// The smallest box around all finite points; the origin without points.
     pub(super) fn of(points: impl IntoIterator<Item = Point2<f64>>) -> Self {
         let points = points.into_iter().filter(|p| p.x.is_finite() && p.y.is_finite());
         let boxes = points.map(|p| Self { low: p, high: p });
@@ -44,7 +44,7 @@ impl Bounds {
     }
 }
 
-/// Lengths in pixels at the four sides of the drawing, or places of these sides.
+/// Lengths in pixels at the four sides of the drawing, or the places of these sides.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Sides {
     pub(super) left: f64,
@@ -57,7 +57,7 @@ impl Sides {
     /// Room for the hatches of supports.
     pub(super) const HATCH: Self = Self { left: 14.0, right: 14.0, top: 14.0, bottom: 14.0 };
 
-    /// Room for both.
+    /// The larger room on every side.
     pub(super) fn and(self, other: Self) -> Self {
         Self {
             left: self.left.max(other.left),
@@ -91,7 +91,7 @@ pub struct Shown<'a> {
     pub title: &'a str,
     /// The structure.
     pub model: &'a Model,
-    /// Its state.
+    /// The state.
     pub state: &'a State,
 }
 
@@ -100,23 +100,23 @@ pub struct Shown<'a> {
 pub(super) struct Sheet {
     pub(super) frame: Frame,
     pub(super) legend: Legend,
-    /// Where the structure is drawn.
+    /// The area of the structure.
     pub(super) drawn: Sides,
-    /// Where it may be with all its marks.
+    /// The area of the structure with all its marks.
     pub(super) room: Sides,
-    /// Size of a middling brick in pixels.
+    /// The size of a middling brick in pixels.
     pub(super) brick: f64,
     canvas: Canvas,
     units: InUnits,
     title: String,
     titles: Canvas,
-    /// Attributes of the file, by which a page knows the picture.
+    /// Attributes of the file, by which a page identifies the picture.
     data: String,
     is_legend_below: bool,
 }
 
 impl Sheet {
-    /// A sheet on which everything of a model within `bounds` has its place.
+    /// A sheet with room for everything of a model within `bounds`.
     pub(super) fn new(title: String, model: &Model, bounds: Bounds, margins: Sides) -> Self {
         let mut titles = Canvas::default();
         let top = legend::title(&mut titles, &title, WIDTH);
@@ -155,7 +155,7 @@ impl Sheet {
         self.layer_sized(class, self.marks(), draw);
     }
 
-    /// The same with widths that go with another size than that of bricks.
+    /// Draws marks of a class whose widths depend on another size than that of bricks.
     pub(super) fn layer_sized(
         &mut self,
         class: &str,
@@ -166,17 +166,18 @@ impl Sheet {
         self.canvas.group(&attributes, |canvas| draw(canvas, &self.frame));
     }
 
-    /// The size of a brick with which marks go.
+    /// The size of a brick for the sizes of marks.
     pub(super) fn marks(&self) -> f64 {
         self.brick.clamp(SMALLEST_BRICK, LARGEST_BRICK)
     }
 
-    /// Tells a page something about the picture.
+    /// Adds an attribute about the picture, for a page.
     pub(super) fn tell(&mut self, name: &str, value: &str) {
         self.data.extend([" data-", name, "=\"", &escape(value), "\""]);
     }
 
-    /// Tells a page where lengths of the scene are drawn: the place of its origin, and pixels for one unit of length, upwards.
+    /// Adds the frame of the drawing as attributes, for a page: the place of the origin, and pixels for one unit of
+    /// length, upwards.
     fn tell_frame(&mut self) {
         let Frame { scale, low, origin } = self.frame;
         let (x, y) = (origin.x - low.x * scale, origin.y + low.y * scale);
@@ -203,7 +204,7 @@ impl Sheet {
         legend::file(&self.title, [WIDTH, end + EDGE], &self.data, &elements)
     }
 
-    /// A bar that shows a round length.
+    /// Adds a bar that shows a round length.
     fn add_length(&mut self) {
         let units = self.units;
         let round = round_down(units.length(LONGEST_BAR / self.frame.scale));
@@ -215,12 +216,12 @@ impl Sheet {
     }
 }
 
-/// Side of a square as large as a middling brick \[m\].
+/// The side of a square as large as a middling brick \[m\].
 pub(super) fn brick_size(model: &Model) -> f64 {
     middling(model.blocks.iter().map(|it| geometry::area(&it.corners)))
 }
 
-/// Side of a square as large as a middling one of these areas.
+/// The side of a square as large as a middling one of these areas.
 pub(super) fn middling(areas: impl Iterator<Item = f64>) -> f64 {
     let mut areas: Vec<f64> = areas.collect();
     areas.sort_by(f64::total_cmp);

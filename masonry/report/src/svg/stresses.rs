@@ -16,19 +16,19 @@ use masonry::model::Model;
 
 /// The shortest bar of the legend, if stresses are small.
 const SHORTEST_BAR: f64 = 14.0;
-/// Smallest and largest size of an element in pixels with which widths go.
+/// Smallest and largest size of an element in pixels on which widths depend.
 const SMALLEST: f64 = 6.0;
 const LARGEST: f64 = 33.0;
-/// Longest stroke in lengths of an element.
+/// The longest stroke, in lengths of an element.
 const LONGEST: f64 = 2.2;
 
-/// Scale and room that pictures of stresses share, so that their strokes can be compared.
+/// The scale and room that pictures of stresses share, so that their strokes can be compared.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct StressScale {
-    /// Size that a twentieth of all stresses exceed \[Pa\].
+    /// The size that a twentieth of all stresses exceed \[Pa\].
     large: f64,
     largest: f64,
-    /// Side of a middling element \[m\].
+    /// The side of a middling element \[m\].
     element: f64,
     bounds: Bounds,
 }
@@ -73,8 +73,8 @@ impl StressScale {
 /// Principal stresses of every element as crosses whose strokes are proportional to the stresses,
 /// with the contact points that are open or slide.
 ///
-/// Strokes along which the element is compressed and stretched differ in colour. The legend shows
-/// the length of a round stress.
+/// Strokes along which the element is compressed and stretched differ in colour. The legend shows the length of a round
+/// stress.
 pub fn principal_stresses(
     title: &str,
     model: &Model,
@@ -85,7 +85,7 @@ pub fn principal_stresses(
     compared(&shown, reference, StressScale::of(&[shown]))
 }
 
-/// The same with strokes as long as those of others.
+/// The picture of [`principal_stresses`] with strokes as long as those of others.
 pub(crate) fn compared(
     shown: &Shown<'_>,
     reference: Option<&ReferenceLines>,
@@ -149,7 +149,7 @@ fn draw_strokes(sheet: &mut Sheet, model: &Model, state: &State, scale: StressSc
     sheet.legend.add(&format!("stroke of {}", stress_text(round)), "bar", legend::bar(half));
 }
 
-/// Side of a square as large as a middling element \[m\].
+/// The side of a square as large as a middling element \[m\].
 fn element_size(model: &Model, state: &State) -> f64 {
     middling(state.stresses.iter().filter_map(|stress| {
         let mesh = model.blocks[stress.block.index()].mesh.as_ref()?;

@@ -13,7 +13,7 @@ use masonry::ids::{JointId, SupportId};
 use masonry::model::mesh::BlockMesh;
 use masonry::model::{Body, JointPoint, Model, PlacedBlock, PlacedSupport};
 
-/// Length of the strokes of a hatch, and most that is between them.
+/// Length of the strokes of a hatch, and the largest distance between strokes.
 const TICK: f64 = 7.0;
 /// The line of a support is wider than its hatch.
 const LINE: &str = "class=\"line\"";
@@ -30,13 +30,13 @@ pub(super) fn bounds(model: &Model) -> Bounds {
     Bounds::of(corners.chain(ends))
 }
 
-/// All blocks and supports as they are in the scene.
+/// Draws all blocks and supports as they are in the scene.
 pub(super) fn draw(sheet: &mut Sheet, model: &Model) {
     outlines(sheet, "bricks", &model.blocks);
     supports(sheet, model, Motion::NONE);
 }
 
-/// Blocks in their places before any movement.
+/// Draws blocks in their places before any movement.
 pub(super) fn outlines<'a>(
     sheet: &mut Sheet,
     class: &str,
@@ -50,7 +50,7 @@ pub(super) fn outlines<'a>(
     });
 }
 
-/// Joints as lines of a class.
+/// Draws joints as lines of a class.
 pub(super) fn joints(
     sheet: &mut Sheet,
     class: &str,
@@ -66,7 +66,7 @@ pub(super) fn joints(
     });
 }
 
-/// All supports in their displaced places, hatched on the side away from the structure, and their legend entry.
+/// Draws all supports in their displaced places, hatched on the side away from the structure, and their legend entry.
 pub(super) fn supports(sheet: &mut Sheet, model: &Model, motion: Motion) {
     if model.supports.is_empty() {
         return;
@@ -110,7 +110,7 @@ fn side_of_structure(model: &Model, id: SupportId, support: &PlacedSupport) -> V
     }
 }
 
-/// The strokes along the line of a support, away from the structure, which is on the side `inward`, y up.
+/// The strokes along the line of a support, away from the structure; `inward` is the direction to the structure, y up.
 fn hatch([from, to]: [Pixel; 2], ticks: u32, inward: Vector2<f64>) -> String {
     let along = from.towards(to);
     let across = Vector2::new(along.y, -along.x);
@@ -128,10 +128,10 @@ pub(super) fn rim(block: &PlacedBlock) -> Vec<usize> {
     block.mesh.as_ref().map_or_else(|| (0..block.corners.len()).collect(), of_mesh)
 }
 
-/// Contact points that are open (hollow circles) or slide (filled squares on a corner).
+/// Draws contact points that are open (hollow circles) or slide (filled squares on a corner).
 ///
-/// Each mark is moved along its joint by nearly two radii towards the joint's middle, so that the marks
-/// of joints which meet in one place stay apart.
+/// Each mark is moved along its joint by nearly two radii towards the joint's middle, so that the marks of joints that
+/// meet in one place stay apart.
 pub(super) fn contact_marks(sheet: &mut Sheet, model: &Model, states: &[PointState]) {
     let radius = STATUS * sheet.marks();
     for (status, name, class) in
@@ -171,7 +171,7 @@ fn mark_place(model: &Model, contact: &JointPoint, frame: &Frame, radius: f64) -
     at.along(at.towards(middle), (1.7 * radius).min(at.distance(middle)))
 }
 
-/// A number of things: `1 joint`, `2 joints`.
+/// A number and a noun: `1 joint`, `2 joints`.
 pub(crate) fn counted(count: usize, name: &str) -> String {
     if count == 1 { format!("1 {name}") } else { format!("{count} {name}s") }
 }

@@ -1,28 +1,28 @@
 //! The style sheet of pictures, and sizes.
 //!
-//! An element looks as its class says, in a drawing and in a legend alike.
+//! The class of an element gives its look, in a drawing and in a legend alike.
 
-/// One element for all pictures, so that those of a page can share it.
+/// One element for all pictures, so that the pictures of a page can share it.
 pub(crate) const STYLE: &str = concat!("<style>\n", include_str!("picture.css"), "</style>\n");
 
-/// Width of a picture, and what stays free at its edges.
+/// Width of a picture, and of the free space at its edges.
 pub(super) const WIDTH: f64 = 900.0;
 pub(super) const EDGE: f64 = 18.0;
-/// Heights of letters and of lines of them.
+/// Heights of letters and of lines of text.
 pub(super) const TITLE: f64 = 17.0;
 pub(super) const TITLE_LINE: f64 = 22.0;
 pub(super) const TEXT: f64 = 13.0;
 pub(super) const TEXT_LINE: f64 = 17.0;
-/// Half the length of marks at the ends of dimensions, and the length of those at the labels of axes.
+/// Half the length of the marks at the ends of dimensions, and the length of the marks at the labels of axes.
 pub(super) const TICK: f64 = 5.0;
-/// How many classes of colours, and of materials, the style sheet has.
+/// The numbers of colours of classes, and of materials, in the style sheet.
 pub(super) const COLOURS: usize = 7;
 pub(super) const MATERIALS: usize = 5;
 
-/// Smallest and largest size of a brick in pixels that marks go with; a legend has that of the largest.
+/// The smallest and the largest size of a brick in pixels on which marks depend; a legend has marks of the largest.
 pub(super) const SMALLEST_BRICK: f64 = 14.0;
 pub(super) const LARGEST_BRICK: f64 = 60.0;
-/// Sizes in bricks: radius of contact points in a scene, of those that are open or slide, of the places of resultants, and of
+/// Sizes in bricks: radius of contact points in a scene, of open or sliding ones, of the places of resultants, and of
 /// hinges.
 pub(super) const CONTACT: f64 = 0.032;
 pub(super) const STATUS: f64 = 0.05;

@@ -7,7 +7,7 @@ use crate::text::{drawn, pairs, paragraph};
 use masonry::history::{History, SecondLoading, Spread};
 use masonry::model::Model;
 
-/// Longer histories are shown at the ends of their stages only.
+/// The largest number of steps that are all shown; longer histories are shown at the ends of their stages only.
 const MOST_ROWS: usize = 24;
 
 /// One row for every step that was solved, or for every stage of a long history.
@@ -24,7 +24,7 @@ pub(super) fn history(model: &Model, history: &History) -> String {
     for (column, it) in table.column_iter_mut().zip(&rows.columns) {
         column.set_padding((1, 0));
         if it.is_right {
-            // Numbers do not wrap.
+            // Numbers are not wrapped.
             column.set_constraint(ColumnConstraint::ContentWidth);
         }
     }
