@@ -5,15 +5,15 @@ use serde::Serialize;
 /// A scene to begin with.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 pub struct Beginning {
-    /// One word for it.
+    /// The name, in one word.
     pub name: &'static str,
-    /// What it is.
+    /// The meaning, in a few words.
     pub meaning: &'static str,
     /// The text of the scene, in TOML.
     pub text: &'static str,
 }
 
-/// All of them.
+/// All scenes to begin with.
 pub const BEGINNINGS: [Beginning; 7] = [
     Beginning {
         name: "wall",

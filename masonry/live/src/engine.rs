@@ -15,8 +15,8 @@
 //! | `complete` | `at`: the place of the cursor | keys, words and names that fit there |
 //! | `begin` | | scenes to begin with |
 //!
-//! An answer is an object. It has `error`, with a message and, if the mistake has a place, `line` and `column` from 1, when there
-//! is nothing else to say. All other places in the text are in units of UTF-16, in which scripts count.
+//! An answer is an object. If there is only a mistake, the object has `error`, with a message and, if the mistake has a
+//! place, `line` and `column` from 1. All other places in the text are in units of UTF-16, in which scripts count.
 
 mod change;
 mod compare;
@@ -46,14 +46,15 @@ use solved::{Format, Seen, Show, Solved};
 use text::Text;
 pub use watch::Watch;
 
-/// So many scenes that were solved are remembered: that of the text, those beside it, and the one before.
+/// The number of solved scenes that are kept: the scene of the text, those beside it, and the one before.
 const RECENT: usize = 2 + compare::MOST_BESIDE;
 
-/// Answers questions about scenes. It remembers those that it solved last, so that another picture of them is drawn at once.
+/// Answers questions about scenes. The engine keeps the scenes that were solved last, so that another picture of them
+/// is drawn at once.
 #[derive(Debug, Default)]
 pub struct Engine {
     files: Option<Files>,
-    /// The newest last.
+    /// Solved scenes, the newest last.
     recent: Mutex<Vec<Arc<Solved>>>,
 }
 
@@ -107,7 +108,7 @@ impl Engine {
         Self { files: Some(files), ..Self::default() }
     }
 
-    /// The answer to a question, both in JSON. A question that cannot be read is answered by an error too.
+    /// The answer to a question, both in JSON; an error for a question that cannot be read.
     pub fn answer(&self, question: &str, watch: &mut Watch<'_>) -> String {
         let answer = serde_json::from_str(question)
             .map_err(Fault::from)
@@ -149,7 +150,7 @@ impl Engine {
         })
     }
 
-    /// Verdict and picture, or the mistake; in either case what the text has that can be changed.
+    /// Verdict and picture, or the mistake; in both cases with the parts of the text that can be changed.
     fn solve(
         &self,
         text: &str,
@@ -180,7 +181,7 @@ impl Engine {
     fn solved(&self, text: &str, watch: &mut Watch<'_>) -> Result<Arc<Solved>, Fault> {
         let scene = self.scene(text)?;
         let recent = || self.recent.lock().unwrap_or_else(PoisonError::into_inner);
-        // What another file has may have changed: scenes are compared, not texts.
+        // A file that the text names may have changed: scenes are compared, not texts.
         let known = recent().iter().find(|it| it.is_of(&scene)).cloned();
         let solved = match known {
             Some(solved) => solved,
@@ -196,7 +197,7 @@ impl Engine {
         Ok(solved)
     }
 
-    /// A scene of one set of loads, for questions that take no other.
+    /// A scene with one set of loads, for questions that take only one.
     fn single(&self, text: &str) -> Result<Scene, Fault> {
         let scene = self.scene(text)?;
         if scene.combinations.is_empty() {
@@ -219,7 +220,7 @@ struct Answer {
     controls: Vec<controls::Control>,
     places: Vec<places::Place>,
     handles: Vec<handles::Handle>,
-    /// Whether a train can be asked for.
+    /// Whether the scene has a train.
     has_train: bool,
     shown: Option<compare::Compared>,
     error: Option<Fault>,

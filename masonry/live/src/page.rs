@@ -1,4 +1,4 @@
-//! The page as one text of HTML, in which everything is: style, script, and in the single file the solver too.
+//! The page as one text of HTML, which contains style, script, and the solver in the single file.
 
 const PAGE: &str = include_str!("../page/page.html");
 const STYLE: &str = include_str!("../page/page.css");
@@ -21,7 +21,7 @@ const MODULES: [&str; 14] = [
     include_str!("../page/main.js"),
 ];
 
-/// The page as a server has it. The nonce, a word that nobody can guess, is that of the only script that browsers then run.
+/// The page of a server. The nonce, a word that nobody can guess, marks the only script that browsers run.
 pub fn served(nonce: &str) -> String {
     assembled(nonce, "", "connect-src 'self'")
 }
@@ -59,7 +59,7 @@ fn assembled(nonce: &str, extra: &str, more: &str) -> String {
     format!("{head}{}{tail}", script())
 }
 
-/// The modules as one: what they export and import is at the top of the same script.
+/// The modules as one script: their exports and imports share its top level.
 fn script() -> String {
     let lines = MODULES.iter().flat_map(|module| module.lines());
     let own = lines.filter(|line| !line.starts_with("import "));

@@ -1,8 +1,9 @@
 //! The page on the loopback address: one page, questions to the engine, and the file of the scene.
 //!
-//! Only programs of the same machine reach the address, and only pages of this server get answers: a request needs the address
-//! as its host, no other origin, and a token that is drawn anew for every server. A connection has one request. A question ends
-//! with its connection: a page that needs no answer any more closes it, and the work stops.
+//! Only programs of the same machine reach the address, and only pages of this server get answers: a request needs the
+//! address as its host, no other origin, and a token that is drawn anew for every server. A connection has one request.
+//! A question ends with its connection: a page that no longer needs an answer closes the connection, and the work
+//! stops.
 
 mod desk;
 mod guard;
@@ -27,21 +28,22 @@ use http::{Reply, Request};
 use crate::engine::{Engine, Files};
 use crate::page;
 
-/// Connections at once. A browser opens six to a host; more than a few tabs need are refused at once.
+/// The largest number of connections at once. A browser opens six to a host; connections beyond the needs of a few tabs
+/// are refused at once.
 const MOST_CONNECTIONS: usize = 32;
-/// Time between two lines of news, and from the end of a connection to that of its work.
+/// Time between two lines of news, and between the end of a connection and the end of its work.
 const NEWS: Duration = Duration::from_millis(100);
-/// Time until the next attempt if the system has no connection or thread to give: some of those in use have ended by then.
+/// Time until the next attempt if the system has no free connection or thread; some are free by then.
 const PAUSE: Duration = Duration::from_millis(100);
 
-/// A server of the page, which listens from its making on.
+/// A server of the page, which listens from its creation on.
 #[derive(Debug)]
 pub struct Server {
     listener: TcpListener,
     shared: Arc<Shared>,
 }
 
-/// What all connections share.
+/// The state that all connections share.
 #[derive(Debug)]
 struct Shared {
     guard: Guard,
@@ -74,7 +76,7 @@ impl Server {
                 thread::sleep(PAUSE);
                 continue;
             };
-            // Every connection has its share until it ends, however it does.
+            // Every connection holds a share until its end.
             let shared = self.shared.clone();
             if Arc::strong_count(&shared) > 1 + MOST_CONNECTIONS {
                 // Nothing is read: the reply may be lost with the connection.
@@ -82,7 +84,7 @@ impl Server {
                 let _ = http::send(&stream, &reply);
                 continue;
             }
-            // The page may be gone; then nobody hears that the answer could not be sent.
+            // An error of sending is ignored, since the page may be gone.
             let serving = thread::Builder::new().spawn(move || shared.serve(&stream).ok());
             if serving.is_err() {
                 thread::sleep(PAUSE);
@@ -109,7 +111,7 @@ impl Shared {
     fn load(&self, request: &Request) -> Reply {
         #[derive(Deserialize)]
         struct Load {
-            /// The file of the page; nothing for the newest.
+            /// The file of the page; `None` is the newest.
             name: Option<String>,
         }
         let Ok(load) = serde_json::from_slice::<Load>(&request.body) else {
@@ -126,7 +128,7 @@ impl Shared {
         struct Save {
             name: String,
             text: String,
-            /// The text that the file had when the page read it; nothing for a new file.
+            /// The text of the file when the page read it; `None` for a new file.
             was: Option<String>,
         }
         let Ok(save) = serde_json::from_slice::<Save>(&request.body) else {
@@ -138,7 +140,7 @@ impl Shared {
         }
     }
 
-    /// Sends news while the engine works, each in a line, and last its answer.
+    /// Sends news while the engine works, each in a line, and then the answer.
     fn ask(&self, stream: &TcpStream, request: &Request) -> io::Result<()> {
         let Ok(question) = std::str::from_utf8(&request.body) else {
             return http::send(stream, &Reply::error(400, "the question is no UTF-8 text"));
@@ -159,7 +161,7 @@ impl Shared {
     }
 }
 
-/// An answer, or the error that there is none since the solver has panicked.
+/// An answer, or an error if the solver has panicked.
 fn caught(answer: impl FnOnce() -> String) -> String {
     catch_unwind(AssertUnwindSafe(answer)).unwrap_or_else(|_| {
         let message = "the solver has failed: this is a fault of the program, please report it with the scene";

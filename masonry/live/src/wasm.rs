@@ -14,7 +14,7 @@ use crate::engine::Engine;
 /// Time between two pieces of news.
 const NEWS: Duration = Duration::from_millis(100);
 
-/// The engine, as scripts see it.
+/// The engine for scripts.
 #[wasm_bindgen]
 #[derive(Debug, Default)]
 pub struct LiveEngine(Engine);
@@ -27,14 +27,14 @@ impl LiveEngine {
         Self::default()
     }
 
-    /// The [answer](Engine::answer) to a question; `news` is called with a text while the work goes on. The work cannot be
-    /// stopped from here: a page ends the worker.
+    /// The [answer](Engine::answer) to a question; `news` is called with a text while the work goes on. The work cannot
+    /// be stopped through this object: a page ends the worker.
     pub fn answer(&self, question: &str, news: &Function) -> String {
         let mut last = Instant::now();
         self.0.answer(question, &mut |text: &dyn Display| {
             if last.elapsed() >= NEWS {
                 last = Instant::now();
-                // A worker whose page is gone is ended with it.
+                // A worker whose page is gone ends with the page.
                 let _ = news.call1(&JsValue::NULL, &JsValue::from_str(&text.to_string()));
             }
             ControlFlow::Continue(())

@@ -1,7 +1,7 @@
-//! At which values of a number the verdict changes. Some values of a range are tried first; between two neighbours whose verdicts
-//! differ, the one in their middle follows, until no value with one digit less lies between them.
+//! Values of a number at which the verdict changes. Some values of a range are tried first; the search then halves the
+//! interval between two neighbours whose verdicts differ, until there is no value with the last digit between them.
 //!
-//! Nothing is said of values that were not tried: a wall that stands at two values may fall between them.
+//! Values that were not tried remain unknown: a wall that stands at two values may fall between them.
 
 use std::collections::BTreeMap;
 use std::fmt;
@@ -14,38 +14,39 @@ use super::solved::{Seen, Show, Solved};
 use super::watch::Watch;
 use super::work::Found;
 
-/// Parts of the range at whose ends values are tried first. Chosen: few enough for a scene that takes seconds.
+/// The number of parts of the range whose ends are tried first. Chosen: few enough for a scene that takes seconds.
 const PARTS: i64 = 8;
-/// A range in which the verdict does not change grows to so many times its upper end. Chosen: twice, to 16 times the end.
+/// The factor by which the upper end of a range without a change of verdict grows. Chosen: twice, to 16 times the end.
 const WIDER: i64 = 4;
-/// See [`WIDER`].
+/// The number of times that the range grows by [`WIDER`].
 const WIDENINGS: usize = 2;
-/// Values are multiples of the power of ten below this part of the range. Chosen: three digits, more than μ is ever known to.
+/// Values are multiples of the power of ten below this part of the range. Chosen: three digits, more than the known
+/// digits of μ.
 const LAST_DIGIT: f64 = 1e-3;
-/// An end of the range that is a multiple itself stays one in spite of rounding errors below this part of the last digit. Chosen:
-/// far more than they are, far less than anybody writes.
+/// An end of the range counts as a multiple despite rounding errors below this part of the last digit. Chosen: far
+/// above rounding errors, and far below the digits in texts.
 const SAME: f64 = 1e-6;
 
-/// The number of which values are tried.
+/// The number whose values are tried.
 #[derive(Debug, Deserialize)]
 pub(super) struct Tried {
-    /// What the number is called.
+    /// The name of the number.
     label: String,
-    /// What becomes of the text.
+    /// The places of the text that get the number.
     edits: Vec<Edit>,
     value: f64,
     range: [f64; 2],
-    /// Whether it counts something.
+    /// Whether the number counts something.
     whole: bool,
 }
 
-/// What the text comes to with a value.
+/// The result for a value of the number.
 #[derive(Debug, Clone, PartialEq)]
 enum Answer {
     Stands,
     Falls,
     Undecided,
-    /// The text is none of a scene, or has no solution, for this reason.
+    /// The text does not describe a scene, or there is no solution, for this reason.
     Mistake(String),
 }
 
@@ -59,7 +60,7 @@ impl Answer {
         }
     }
 
-    /// Whether the two are of one kind.
+    /// Whether two answers are of one kind.
     fn is_like(&self, other: &Self) -> bool {
         std::mem::discriminant(self) == std::mem::discriminant(other)
     }
@@ -87,7 +88,7 @@ struct Digits {
 
 impl Digits {
     /// # Errors
-    /// A range without an inside, or of numbers that have no last digit.
+    /// The range has no interior, or its numbers have no last digit.
     fn of(tried: &Tried) -> Result<Self, Fault> {
         let [low, high] = tried.range;
         let last_digit = (LAST_DIGIT * (high - low)).log10().floor();
@@ -115,7 +116,7 @@ impl Digits {
         if self.power < 0 { multiple as f64 / digit } else { multiple as f64 * digit }
     }
 
-    /// The multiples that are tried first: those at the ends of the parts, and the one of the text.
+    /// The multiples that are tried first: those at the ends of the parts, and that of the text.
     fn scan(self, value: f64) -> Vec<i64> {
         let length = self.last - self.first;
         let mut list: Vec<i64> =
@@ -128,13 +129,13 @@ impl Digits {
     }
 }
 
-/// Solves a text.
+/// A function that solves a text.
 pub(super) type Solve<'a> = dyn Fn(&str, &mut Watch<'_>) -> Result<Solved, Fault> + 'a;
 
 /// Tries values, and finds those between which the verdict changes.
 ///
 /// # Errors
-/// A range of which no values can be tried, and places that are not in the text.
+/// The range has no values to try, or an edit has places that are not in the text.
 pub(super) fn change(
     text: &str,
     tried: &Tried,
@@ -167,14 +168,14 @@ struct Search<'a> {
 }
 
 impl Search<'_> {
-    /// Whether nobody has stopped it.
+    /// Tries all values; `false` if the search was stopped.
     fn run(&mut self, solve: &Solve<'_>, watch: &mut Watch<'_>) -> Result<bool, Fault> {
         for multiple in self.digits.scan(self.tried.value) {
             if !self.solve(multiple, solve, watch)? {
                 return Ok(false);
             }
         }
-        // More of what is counted would be another structure.
+        // A larger count would be another structure.
         let widenings = if self.tried.whole { 0 } else { WIDENINGS };
         for _ in 0..widenings {
             if !self.changes().is_empty() || self.digits.last <= 0 {
@@ -246,7 +247,7 @@ impl Search<'_> {
         Ok(String::from_utf16_lossy(&units))
     }
 
-    /// The changes, in the order of the values.
+    /// The changes in words, in the order of the values.
     fn told(&self) -> String {
         let mut changes = self.changes();
         changes.sort_unstable();

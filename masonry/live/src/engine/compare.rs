@@ -1,4 +1,4 @@
-//! What is seen of a scene, and of others beside it in the same scale.
+//! Pictures of a scene, and of other scenes beside it in the same scale.
 
 use std::sync::Arc;
 
@@ -8,24 +8,24 @@ use serde::Serialize;
 use super::fault::Fault;
 use super::solved::{Seen, Show, Shown, Solved};
 
-/// So many scenes are shown beside that of the text. Chosen: more are too small on a screen.
+/// The largest number of scenes beside that of the text. Chosen: more are too small on a screen.
 pub(super) const MOST_BESIDE: usize = 3;
 
-/// What is seen of the scene of the text, and of the others.
+/// The answer for the scene of the text, and for the scenes beside it.
 #[derive(Debug, Serialize)]
 pub(super) struct Compared {
     #[serde(flatten)]
     shown: Shown,
     picture: Option<String>,
     beside: Vec<Beside>,
-    /// How far sizes in the pictures can be compared.
+    /// A sentence on the scale of the pictures.
     scale: Option<&'static str>,
 }
 
 /// A scene beside that of the text.
 #[derive(Debug, Serialize)]
 struct Beside {
-    /// The verdict, or why there is none any more.
+    /// The verdict, or the reason for which there is none any more.
     sentence: String,
     picture: Option<String>,
 }

@@ -5,18 +5,19 @@ use serde::Serialize;
 use super::schema::{Entry, Key, Schema};
 use super::text::{Text, text_of};
 
-/// What may be written at a place.
+/// The possible continuations of a text at the cursor.
 #[derive(Debug, Serialize)]
 pub(super) struct Completion {
-    /// What is there already of it, in units of UTF-16 before the cursor.
+    /// The length of the word before the cursor, in units of UTF-16.
     before: usize,
-    /// What may stand in its place.
+    /// The words that may replace it.
     entries: Vec<Key>,
-    /// What follows a key of a table.
+    /// The text after a key of a table.
     after: &'static str,
 }
 
-/// What fits at the end of a text that is broken off at the cursor; names are taken from the whole text.
+/// The keys, words or names that fit at the end of a text that is cut off at the cursor; names are taken from the whole
+/// text.
 pub(super) fn complete(until: &str, whole: &Text<'_>) -> Completion {
     let line_start = until.rfind('\n').map_or(0, |it| it + 1);
     let (above, line) = until.split_at(line_start);
@@ -32,10 +33,10 @@ pub(super) fn complete(until: &str, whole: &Text<'_>) -> Completion {
             path.extend(key.unwrap_or_default().split('.').map(Entry::Key));
             values(&path, whole)
         }
-        // In a comment or a header nothing is a key.
+        // There are no keys in a comment or a header.
         None if context.contains('#') || context.trim_end().ends_with(['[', '.']) => Vec::new(),
         None => {
-            // Those of the whole scene may be tables, which have headers of their own.
+            // Keys of the whole scene may be tables, which have headers of their own.
             after = if path.is_empty() { "" } else { " = " };
             Schema::keys(&path)
         }

@@ -10,11 +10,11 @@ use super::text::{Number, Text, Value, text_of, value_of};
 pub(super) struct Control {
     label: String,
     value: f64,
-    /// The numbers that it changes differ, of which the value is the largest.
+    /// Whether the controlled numbers differ; `value` is the largest of them.
     is_largest: bool,
-    /// The end of the slider; it begins at zero.
+    /// The end of the slider, which begins at zero.
     most: f64,
-    /// What it changes in the text.
+    /// The places of the text that get the number.
     edits: Vec<Edit>,
 }
 
@@ -23,9 +23,9 @@ pub(super) struct Control {
 pub(super) struct Edit {
     pub(super) from: usize,
     pub(super) to: usize,
-    /// What is written before the number, if it is not there yet.
+    /// The text to write before the number, if the key is not there yet.
     pub(super) before: String,
-    /// The number is that of the control times this part.
+    /// The number is this factor times the number of the control.
     pub(super) part: f64,
 }
 
@@ -35,11 +35,11 @@ impl Edit {
     }
 }
 
-/// Steeper joints than these are rough rock.
+/// A larger coefficient of friction is that of rough rock.
 const MOST_FRICTION: f64 = 1.2;
 /// The angle of that coefficient of friction, rounded up.
 const MOST_ANGLE: f64 = 60.0;
-/// Loads are usually looked at up to this multiple.
+/// The usual end of the slider of a load factor.
 const MOST_FACTOR: f64 = 3.0;
 
 /// All sliders of a scene.
@@ -68,7 +68,7 @@ fn friction(text: &Text<'_>) -> Vec<Control> {
     list
 }
 
-/// A slider for the friction of all classes, if there are several: it is the largest, and their ratios stay.
+/// A slider for the friction of all classes, if there are several: its value is the largest, and their ratios stay.
 fn together(classes: &[Control], sign: &str) -> Option<Control> {
     let largest = classes.iter().max_by(|a, b| a.value.total_cmp(&b.value))?;
     let (value, most) = (largest.value, largest.most);
@@ -108,7 +108,7 @@ fn factors(text: &Text<'_>) -> Vec<Control> {
     list
 }
 
-/// The factor of a load, and where it is or would be written.
+/// The factor of a load, and the place of its number, which may still be missing.
 fn factor(text: &Text<'_>, load: &Value<'_>) -> Option<(f64, Edit)> {
     if let Some(number) = text.number_in("loads", load, &[Entry::Key("factor")]) {
         return Some((number.value, Edit::of(number)));

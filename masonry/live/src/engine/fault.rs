@@ -6,10 +6,10 @@ use masonry::scene::SceneError;
 use masonry::{LimitError, SolveError};
 use serde::Serialize;
 
-/// What the file of a text would be called; its mistakes have places in the text.
+/// The name of the file of a text; mistakes in it have places in the text.
 pub(super) const SCENE: &str = "text of the page";
 
-/// Why there is no answer.
+/// The reason for which there is no answer.
 #[derive(Debug, Serialize)]
 pub(super) struct Fault {
     pub(super) message: String,
@@ -28,7 +28,7 @@ impl From<SceneError> for Fault {
     fn from(error: SceneError) -> Self {
         let file = error.file().and_then(Path::file_name);
         if file.is_some_and(|it| it != SCENE) {
-            // In the file with its blocks.
+            // The mistake is in the file with the blocks of the scene.
             return Self::new(&error);
         }
         let (key, kind) = (error.key(), error.kind());

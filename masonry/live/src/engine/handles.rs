@@ -1,5 +1,5 @@
-//! What can be dragged in the picture: openings of walls and ends of supports. Their places come from the text alone, so that
-//! one that was dragged too far can be dragged back.
+//! Handles in the picture: openings of walls and ends of supports. Their places come from the text alone, so that a
+//! handle that was dragged too far can be dragged back.
 
 use serde::Serialize;
 
@@ -7,17 +7,17 @@ use super::controls::Edit;
 use super::schema::Entry;
 use super::text::{Number, Text, Value, text_of, value_of};
 
-/// Something in the picture that changes numbers of the text when it is dragged. Lengths are in units of the scene.
+/// A part of the picture that changes numbers of the text when it is dragged. Lengths are in units of the scene.
 #[derive(Debug, Serialize)]
 pub(super) struct Handle {
-    /// The same for the same handle of a changed scene.
+    /// The name, equal for the same handle of a changed scene.
     label: String,
     /// Two opposite corners, or twice the same point.
     low: [f64; 2],
     high: [f64; 2],
-    /// What changes when it goes to the right.
+    /// The numbers that change when the handle moves to the right.
     right: Vec<Target>,
-    /// What changes when it goes up.
+    /// The numbers that change when the handle moves up.
     up: Vec<Target>,
 }
 
@@ -29,7 +29,7 @@ struct Target {
     value: f64,
     whole: bool,
     least: Option<f64>,
-    /// How much it grows if the handle goes on by one unit of length.
+    /// The change of the number per unit of length that the handle moves.
     per_length: f64,
 }
 
@@ -50,7 +50,7 @@ pub(super) fn handles(text: &Text<'_>) -> Vec<Handle> {
 /// The handles of the openings of a wall.
 fn wall(text: &Text<'_>, table: &Value<'_>) -> Option<Vec<Handle>> {
     let name = text_of(table, "name")?;
-    // Openings of a turned wall are no rectangles along the axes.
+    // The sides of openings in a turned wall are not parallel to the axes.
     if value_of(table, "turn_deg").is_some() {
         return None;
     }

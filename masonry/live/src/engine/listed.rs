@@ -11,7 +11,7 @@ use super::text::Text;
 
 /// The longest text of a scene \[bytes\]: that of a wall of 10 000 single blocks.
 pub const LONGEST_TEXT: usize = 4 << 20;
-/// The largest file with blocks \[bytes\]. Chosen: in a drawing a block takes some times as much as in a scene.
+/// The largest file with blocks \[bytes\]. Chosen: a block takes several times as much in a drawing as in a scene.
 const LARGEST_LIST: u64 = 16 << 20;
 
 /// Reads a scene from its text and the path that its file would have.
@@ -25,15 +25,15 @@ pub struct Files {
 }
 
 impl Files {
-    /// Files of a directory, and how a scene that names one of them is read.
+    /// The files of a directory, and the function that reads a scene which names one of them.
     pub fn new(directory: &Path, read: ReadScene) -> Self {
-        // A path without directories is one of the directory in which the program runs.
+        // The directory of a path without directories is the current one.
         let here = directory.as_os_str().is_empty();
         let directory = if here { Path::new(".") } else { directory };
         Self { directory: directory.to_owned(), read }
     }
 
-    /// Refuses files outside of the directory, also by way of links, and large ones. The reader says what else is wrong.
+    /// Refuses large files, and files outside the directory, also behind links. The reader reports other mistakes.
     fn check(&self, list: &str) -> Result<(), String> {
         let is_inner = |it| matches!(it, Component::Normal(_) | Component::CurDir);
         let path = self.directory.join(list);
@@ -57,7 +57,7 @@ impl Files {
     }
 }
 
-/// The scene of a text. Without `files` it reads no other file.
+/// The scene of a text. Other files are read only with `files`.
 pub(super) fn scene(text: &str, files: Option<&Files>) -> Result<Scene, Fault> {
     if text.len() > LONGEST_TEXT {
         let message = format!(

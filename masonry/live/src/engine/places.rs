@@ -1,14 +1,14 @@
-//! Which lines of the text say what is seen in the picture.
+//! The lines of the text that describe parts of the picture.
 
 use serde::Serialize;
 
 use super::text::{Text, Value, text_of};
 
-/// Lines that describe something in the picture.
+/// Lines that describe a part of the picture.
 #[derive(Debug, Serialize)]
 pub(super) struct Place {
-    /// `block`, of which the name may be that of the wall or arch before the first `/`, `joint`, a class of joints, `support` or
-    /// `load`.
+    /// `block`, whose name may be that of the wall or arch before the first `/`; `joint`, a class of joints; `support`
+    /// or `load`.
     kind: &'static str,
     name: String,
     /// Lines, from 1.
@@ -16,7 +16,7 @@ pub(super) struct Place {
     last: usize,
 }
 
-/// Where a scene describes blocks, joint classes, supports and loads.
+/// The places at which a scene describes blocks, joint classes, supports and loads.
 pub(super) fn places(text: &Text<'_>) -> Vec<Place> {
     let place = |kind: &'static str, name: &str, table: &Value<'_>| Place {
         kind,

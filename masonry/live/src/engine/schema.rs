@@ -1,4 +1,4 @@
-//! What the schema of scenes says: which numbers count something, and which keys and values have a place somewhere.
+//! The schema of scenes: the numbers that count something, and the keys and values that are possible at a place.
 
 use std::sync::LazyLock;
 
@@ -37,7 +37,7 @@ impl Schema {
         properties.flatten().map(key).collect()
     }
 
-    /// The words of which the value at a place is one.
+    /// The words that are possible values at a place.
     pub(super) fn words(path: &[Entry<'_>]) -> Vec<Key> {
         let mut list = Vec::new();
         for place in at(path) {
@@ -51,7 +51,7 @@ impl Schema {
     }
 }
 
-/// A key or a word, and what it means.
+/// A key or a word, and its meaning.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub(super) struct Key {
     pub(super) name: String,
@@ -73,7 +73,7 @@ fn at(path: &[Entry<'_>]) -> Vec<&'static Value> {
     places
 }
 
-/// A node of the schema, or those that it stands for.
+/// A node of the schema, or the nodes that it refers to.
 fn alternatives(node: &'static Value) -> Vec<&'static Value> {
     let named = node["$ref"].as_str().and_then(|it| ROOT.pointer(it.trim_start_matches('#')));
     let listed = ["anyOf", "oneOf"].into_iter().filter_map(|it| node[it].as_array()).flatten();

@@ -1,4 +1,4 @@
-//! A scene that was solved, and what is seen of it.
+//! A scene that was solved, and its views.
 
 use std::fmt::Display;
 
@@ -15,11 +15,11 @@ use serde::{Deserialize, Serialize};
 use super::fault::Fault;
 use super::watch::Watch;
 
-/// What is seen beside the text.
+/// A view beside the text.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub(super) enum Show {
-    /// The picture that explains the verdict: forces of a wall that stands, the mechanism of one that falls.
+    /// The picture that explains the verdict: the forces if the wall stands, the mechanism if it falls.
     Answer,
     Forces,
     Stresses,
@@ -42,26 +42,26 @@ pub(super) enum Format {
     Dxf,
 }
 
-/// What is wanted to be seen, and after which step of a load history: the last one without a number.
+/// The wanted view, and the step of a load history; `None` is the last step.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Seen {
     pub(super) show: Show,
     pub(super) step: Option<usize>,
 }
 
-/// A scene that was solved; of combinations the one that governs.
+/// A scene that was solved; the governing one if there are combinations.
 #[derive(Debug)]
 pub(super) struct Solved {
     scene: Scene,
     ran: Ran,
     /// The lines of all combinations.
     cases: Option<Cases>,
-    /// Whether nobody has ended the solve early.
+    /// Whether the solve was not ended early.
     is_complete: bool,
     pub(super) reference: Option<ReferenceLines>,
 }
 
-/// What became of all steps.
+/// The result of all steps.
 #[derive(Debug)]
 struct Ran {
     outcome: Outcome,
@@ -91,7 +91,8 @@ impl Ran {
         Ok(Self { outcome: run.finish(), frames })
     }
 
-    /// The combination that governs, with the lines of all. Without stages no step has pictures of its own.
+    /// The combination that governs, with the lines of all combinations. No step has a picture, since there are no
+    /// stages.
     fn governing(scene: &Scene, watch: &mut Watch<'_>) -> Result<(Self, Option<Cases>), Fault> {
         let mut list: Vec<Combined<Outcome>> = Vec::new();
         for Combined { name, of } in scene.combined() {
@@ -117,7 +118,7 @@ fn is_cancelled(outcome: &Outcome) -> bool {
     outcome.solve.status == lcp::Status::Cancelled
 }
 
-/// What the page shows of it.
+/// The answer for a view.
 #[derive(Debug, Serialize)]
 pub(super) struct Shown {
     verdict: &'static str,
@@ -125,12 +126,12 @@ pub(super) struct Shown {
     warnings: Vec<String>,
     /// Time of the solve \[s\].
     seconds: f64,
-    /// What can be seen.
+    /// The views that exist.
     choices: Vec<Show>,
-    /// What is seen.
+    /// The view of this answer.
     show: Show,
     report: Option<String>,
-    /// In HTML.
+    /// Tables, in HTML.
     tables: Option<String>,
     /// Names of the steps that have pictures; empty without a load history.
     steps: Vec<String>,
@@ -166,7 +167,7 @@ impl Solved {
         &self.ran.outcome.title
     }
 
-    /// What is seen of it.
+    /// The answer for a wanted view.
     pub(super) fn shown(&self, show: Show) -> Shown {
         let outcome = &self.ran.outcome;
         let seen = self.seen(show);
@@ -205,7 +206,7 @@ impl Solved {
         head + &table::report(&self.ran.outcome)
     }
 
-    /// What is seen if this is wanted: something that there is.
+    /// The wanted view if it exists, or else the view that explains the verdict.
     pub(super) fn seen(&self, show: Show) -> Show {
         let outcome = &self.ran.outcome;
         if show != Show::Answer && self.choices().contains(&show) {
@@ -245,7 +246,7 @@ impl Solved {
         }
     }
 
-    /// A picture; none of tables and reports.
+    /// The picture of a view; `None` for tables and reports.
     pub(super) fn picture(&self, Seen { show, step }: Seen) -> Option<String> {
         let (outcome, title) = (&self.ran.outcome, self.title());
         let show = self.seen(show);

@@ -1,4 +1,5 @@
-//! The text of a scene as tables and values, each with its place. What is broken is left out, so that the rest can be changed.
+//! The text of a scene as tables and values, each with its place. Broken parts are left out, so that the rest can be
+//! changed.
 
 use std::ops::Range;
 
@@ -26,9 +27,10 @@ pub(super) struct Number {
     pub(super) from: usize,
     pub(super) to: usize,
     pub(super) value: f64,
-    /// Whether it counts something.
+    /// Whether the number counts something.
     pub(super) whole: bool,
-    /// The least that it may become. Sizes and factors stop at zero, counts at one; coordinates and components have no end.
+    /// The least value that the number may get: zero for sizes and factors, one for counts; `None` for coordinates and
+    /// components.
     pub(super) least: Option<f64>,
 }
 
@@ -95,7 +97,7 @@ impl<'a> Text<'a> {
         }
     }
 
-    /// A number with what the schema says of its place.
+    /// A number with the properties of its place in the schema.
     pub(super) fn number(&self, value: &Value<'a>, path: &[Entry<'_>]) -> Option<Number> {
         let number = match value.get_ref() {
             DeValue::Integer(it) if it.radix() == 10 => it.as_str().parse::<f64>().ok()?,
@@ -134,8 +136,8 @@ impl<'a> Text<'a> {
         self.source[..byte].matches('\n').count() + 1
     }
 
-    /// Where a new key of a table is written, and what stands before it: after one of its values in a table in braces, else in
-    /// a line of its own.
+    /// The place for a new key of a table, and the text before the key: after one of the values in a table in braces,
+    /// or else on a new line.
     pub(super) fn room_after(&self, table: &Value<'a>, value: &Value<'a>) -> (usize, &'static str) {
         let end = value.span().end;
         if self.source[table.span().start..].starts_with('{') {

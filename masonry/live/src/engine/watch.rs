@@ -1,7 +1,7 @@
-//! Who follows the work on an answer.
+//! The observer of the work on an answer.
 
 use std::fmt::Display;
 use std::ops::ControlFlow;
 
-/// Hears many times how far the work on an answer is; after `Break` the work ends early.
+/// Receives the progress of the work on an answer many times; the work ends early after `Break`.
 pub type Watch<'a> = dyn FnMut(&dyn Display) -> ControlFlow<()> + 'a;

@@ -17,12 +17,12 @@ use serde::Serialize;
 use super::fault::Fault;
 use super::watch::Watch;
 
-/// What the work has come to.
+/// The result of the work.
 #[derive(Debug, Serialize)]
 pub(super) struct Found {
     sentence: String,
     pictures: Vec<Picture>,
-    /// In HTML.
+    /// Tables, in HTML.
     tables: String,
     /// The report.
     text: String,
@@ -35,7 +35,7 @@ struct Picture {
 }
 
 impl Found {
-    /// A result with its pictures, of which some may not exist, and without tables.
+    /// A result without tables, with those of the pictures that exist.
     pub(super) fn new(
         sentence: &str,
         pictures: Vec<(impl Into<String>, Option<String>)>,
@@ -51,7 +51,7 @@ impl Found {
     }
 }
 
-/// The limit load; of combinations the one that governs.
+/// The limit load; the governing one if there are combinations.
 pub(super) fn limit(scene: &Scene, law: Laws, watch: &mut Watch<'_>) -> Result<Found, Fault> {
     if scene.combinations.is_empty() {
         let limit = limit_observed(scene, law, &mut |at| watch(&Known(at)))?;
@@ -90,7 +90,7 @@ pub(super) fn train(scene: &Scene, law: Laws, watch: &mut Watch<'_>) -> Result<F
     Ok(of_limit(&crossing.limit, Some(&Cases::of_train(&crossing))))
 }
 
-/// A limit load, with the lines of the cases of which it governs, if there are several.
+/// A limit load, with the lines of the cases if it governs several.
 fn of_limit(limit: &Limit, cases: Option<&Cases>) -> Found {
     let (title, mut pictures) = (limit.title.as_str(), Vec::new());
     if let Some(path) = &limit.path {

@@ -1,5 +1,5 @@
-//! The files of the page: the scene of the command, and the new ones that the page has created beside it. No other file is read or
-//! written.
+//! The files of the page: the scene of the command, and the new files that the page has created beside it. No other
+//! file is read or written.
 
 use std::ffi::OsStr;
 use std::fs::{self, OpenOptions};
@@ -13,27 +13,27 @@ use thiserror::Error;
 
 use crate::engine::LONGEST_TEXT;
 
-/// A directory and the scene files in it that are worked on.
+/// A directory and the scene files in it that the page edits.
 #[derive(Debug)]
 pub struct Desk {
     directory: PathBuf,
-    /// Names of the files of the page, the newest last. The lock also keeps a second save out between the comparison and the
-    /// writing of a first.
+    /// Names of the files of the page, the newest last. The lock also keeps a second save from starting between the
+    /// comparison and the writing of a first.
     own: Mutex<Vec<String>>,
 }
 
-/// The scene as its file has it.
+/// The name and the text of a scene file.
 #[derive(Debug, Serialize)]
 pub(super) struct Sheet {
     name: Option<String>,
     text: Option<String>,
 }
 
-/// Why a file cannot be read or written.
+/// The reason for which a file cannot be read or written.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum DeskError {
-    /// The path has no name of a file that is text.
+    /// The last part of the path is not a file name in UTF-8.
     #[error("{} is no name of a scene file: give one such as wall.toml", path.display())]
     NoName {
         /// The path.
@@ -45,7 +45,7 @@ pub enum DeskError {
         /// The name.
         name: String,
     },
-    /// The file exists, and is none of the page.
+    /// The file exists, but is not a file of the page.
     #[error("{} is no file of this page: save under the name of a new file", path.display())]
     Foreign {
         /// The file.
@@ -56,7 +56,7 @@ pub enum DeskError {
     TooLong {
         /// The file.
         path: PathBuf,
-        /// Its size.
+        /// The size of the file.
         bytes: u64,
     },
     /// Another program has changed the file.
@@ -79,7 +79,7 @@ impl Desk {
     /// A desk with a scene file, which must exist.
     ///
     /// # Errors
-    /// [`DeskError`] if it cannot be read.
+    /// [`DeskError`] if the file cannot be read.
     pub fn with_scene(path: &Path) -> Result<Self, DeskError> {
         let name = path.file_name().and_then(OsStr::to_str);
         let name = name.ok_or_else(|| DeskError::NoName { path: path.to_owned() })?.to_owned();
@@ -98,7 +98,7 @@ impl Desk {
         &self.directory
     }
 
-    /// Reads a file of the page, or the newest of them if none is named. The ends of lines are those of a text area.
+    /// Reads a file of the page, or the newest of them if none is named. Line ends are those of a text area.
     pub(super) fn load(&self, name: Option<&str>) -> Result<Sheet, DeskError> {
         let own = self.own();
         let Some(name) = name.or(own.last().map(String::as_str)) else {
@@ -130,7 +130,7 @@ impl Desk {
                 }
                 let text =
                     if old.contains("\r\n") { text.replace('\n', "\r\n") } else { text.to_owned() };
-                // A link stays: the file that it leads to is written.
+                // A link stays: the target of the link is written.
                 let target = fs::canonicalize(&path).map_err(system)?;
                 write_atomically(&target, text.as_bytes()).map_err(system)
             }
@@ -143,7 +143,7 @@ impl Desk {
         }
     }
 
-    /// The names behind their lock. They are whole at any time, so that a panic elsewhere does no harm to them.
+    /// The names, locked. They are consistent at any time, so that a panic elsewhere does not harm them.
     fn own(&self) -> MutexGuard<'_, Vec<String>> {
         self.own.lock().unwrap_or_else(PoisonError::into_inner)
     }

@@ -4,7 +4,8 @@ use std::io;
 
 use super::http::{Head, Reply};
 
-/// The header in which a page sends the token. A page of another origin cannot send it without asking first, which is refused.
+/// The header in which a page sends the token. A page of another origin cannot send this header without a preflight
+/// request, which is refused.
 const TOKEN: &str = "x-masonry-token";
 
 /// The address of the server, and its token.
@@ -26,7 +27,7 @@ impl Guard {
     /// Refuses requests to other hosts, from other pages, and without the token.
     ///
     /// # Errors
-    /// The reply that says what is missing.
+    /// The reply with the reason.
     pub(super) fn check(&self, head: &Head<'_>) -> Result<(), Reply> {
         let host = format!("127.0.0.1:{}", self.port);
         // The name of another host can lead to this address too, and pages of that host would count as pages of this server.
@@ -56,7 +57,7 @@ impl Guard {
         }
     }
 
-    /// Compares all letters, so that the time does not depend on the first that differ.
+    /// Compares all letters, so that the time does not depend on the first difference.
     fn is_token(&self, given: &str) -> bool {
         let differences = self.token.bytes().zip(given.bytes()).map(|(a, b)| a ^ b);
         given.len() == self.token.len() && differences.fold(0, |all, it| all | it) == 0

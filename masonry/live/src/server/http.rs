@@ -8,12 +8,12 @@ use serde_json::Value;
 
 use crate::engine::LONGEST_TEXT;
 
-/// Those of a browser take one or two thousand bytes.
+/// The longest head \[bytes\]; the head of a browser has one or two thousand.
 const LONGEST_HEAD: usize = 16 << 10;
 const MOST_HEADERS: usize = 64;
-/// A scene and its question; in JSON a letter may take six bytes, but few do.
+/// The longest body \[bytes\]: a scene and its question; a letter may take six bytes in JSON, but few do.
 const LONGEST_BODY: usize = 2 * LONGEST_TEXT;
-/// A request from the same machine is there at once.
+/// The time to wait for a request; a request from the same machine comes at once.
 const PATIENCE: Duration = Duration::from_secs(5);
 
 /// Line, query and headers of a request.
@@ -25,11 +25,11 @@ pub(super) struct Head<'a> {
 }
 
 impl Head<'_> {
-    /// The value of the only header of a name; an empty one for a value that is no UTF-8, which must not count as absent.
+    /// The value of the only header with a name; empty if the value is not UTF-8, since it must not count as absent.
     pub(super) fn header(&self, name: &str) -> Option<&str> {
         let mut named = self.headers.iter().filter(|it| it.name.eq_ignore_ascii_case(name));
         let value = std::str::from_utf8(named.next()?.value).unwrap_or_default();
-        // Of two it is unknown which one counts.
+        // Two headers of one name are ambiguous.
         if named.next().is_some() { Some("") } else { Some(value) }
     }
 }
@@ -64,10 +64,10 @@ impl Reply {
     }
 }
 
-/// Reads a request, of which `check` may refuse the head before anything more is read.
+/// Reads a request; `check` may refuse it by its head before anything more is read.
 ///
 /// # Errors
-/// The reply that says why it is refused.
+/// The reply with the reason for the refusal.
 pub(super) fn receive(
     stream: &TcpStream,
     check: impl FnOnce(&Head<'_>) -> Result<(), Reply>,
@@ -128,7 +128,7 @@ fn read_more(stream: &TcpStream, bytes: &mut Vec<u8>, until: Instant) -> Result<
     }
 }
 
-/// Headers of every answer: nothing is kept, shown in other pages, or taken for something else than it is.
+/// Headers of every answer: browsers do not keep it, show it in other pages, or guess another type.
 const ALWAYS: &str = "Connection: close\r\nCache-Control: no-store\r\nX-Content-Type-Options: nosniff\r\n\
      X-Frame-Options: DENY\r\nReferrer-Policy: no-referrer\r\nCross-Origin-Resource-Policy: same-origin\r\n";
 
@@ -145,8 +145,8 @@ pub(super) fn send(mut stream: &TcpStream, reply: &Reply) -> io::Result<()> {
     stream.shutdown(Shutdown::Write)
 }
 
-/// Sends the answer to a request that was not read to its end. What is under way is thrown away for a moment, since a connection
-/// that is closed before is broken off, and the answer lost.
+/// Sends the answer to a request that was not read to its end. Incoming bytes are read and dropped for a moment, since
+/// closing the connection earlier would break it off, and the answer would be lost.
 pub(super) fn refuse(stream: &TcpStream, reply: &Reply) -> io::Result<()> {
     const MOMENT: Duration = Duration::from_millis(200);
     send(stream, reply)?;
@@ -158,7 +158,7 @@ pub(super) fn refuse(stream: &TcpStream, reply: &Reply) -> io::Result<()> {
     Ok(())
 }
 
-/// Begins an answer of lines of JSON, whose end is that of the connection.
+/// Begins an answer of lines of JSON, which ends with the connection.
 pub(super) fn begin_lines(mut stream: &TcpStream) -> io::Result<()> {
     stream.set_nodelay(true)?;
     stream.set_write_timeout(Some(PATIENCE))?;
