@@ -23,10 +23,10 @@ const OF_MORTAR: (f64, f64) = (1e6, 0.2);
 /// The acceleration of gravity \[m/s2\].
 const GRAVITY: f64 = 9.81;
 
-/// The scene of a sheet, with the report of what was done.
+/// The scene of a sheet, with the report of all changes.
 ///
 /// # Errors
-/// What the scene lacks to be a model: blocks that meet nothing, supports that run through blocks.
+/// Defects of the scene as a model: blocks that meet nothing, supports that run through blocks.
 pub(crate) fn scene(
     mut sheet: Sheet,
     fitted: &Fitted,
@@ -93,7 +93,7 @@ fn classes(mut scene: Scene, fitted: &Fitted, options: &ImportOptions) -> Scene 
     scene.joint(CLASS, dry())
 }
 
-/// Blocks with names: those of the file, or the material and a number.
+/// Blocks with names: the names of the file, or the material and a number.
 fn blocks(sheet: &Sheet) -> Vec<Block> {
     let mut counts: BTreeMap<String, u32> = BTreeMap::new();
     let mut next = |name: &str| {
@@ -120,7 +120,7 @@ fn mark(scene: &mut Scene, model: &Model, sheet: &mut Sheet, options: &ImportOpt
         let reach = sheet.tolerance + thickness;
         let is_below = |mark: &Piece| {
             let ends = [joint.from, joint.to];
-            // Whichever is shorter lies on the other.
+            // The shorter of the two lies on the other.
             let lies =
                 |points: [Point2<f64>; 2], on| points.iter().all(|it| distance(*it, on) <= reach);
             lies(ends, mark.ends) || lies(mark.ends, ends)
@@ -142,7 +142,7 @@ fn mark(scene: &mut Scene, model: &Model, sheet: &mut Sheet, options: &ImportOpt
     sheet.changes.extend(idle.map(|(mark, _)| Change::new(what, &mark.place)));
 }
 
-/// The place of what an error of the scene names.
+/// The place of the part that an error of the scene names.
 fn place<'a>(error: &SceneError, blocks: &'a [Place], supports: &'a [Piece]) -> Option<&'a Place> {
     let key = error.key();
     let (list, rest) = key.split_once('[')?;

@@ -1,9 +1,9 @@
-//! What the names of layers mean.
+//! Meanings of the names of layers.
 
-/// The material of what is on no named layer.
+/// The material of blocks on unnamed layers.
 const MATERIAL: &str = "stone";
 
-/// What is on a layer.
+/// The kind of the contents of a layer.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) enum Meaning {
     /// Blocks of a material.
@@ -17,10 +17,11 @@ pub(crate) enum Meaning {
 }
 
 impl Meaning {
-    /// The meaning of a layer: `support` and `joint` at its beginning say what it holds, other names are materials.
+    /// The meaning of a layer: a name that begins with `support` or `joint` gives the kind of its contents, other names
+    /// are materials.
     pub(crate) fn of(layer: &str, ignored: &[String]) -> Self {
         let is = |name: &str| layer.eq_ignore_ascii_case(name);
-        // Layers of that name are not printed, and those of results are written by `masonry draw`.
+        // Layers with the name `defpoints` are not printed, and layers of results are written by `masonry draw`.
         let is_result = layer.to_ascii_lowercase().starts_with("result_");
         if is("defpoints") || is_result || ignored.iter().any(|name| is(name)) {
             return Self::Ignored;
@@ -44,7 +45,7 @@ impl Meaning {
     }
 }
 
-/// A name of letters and digits, with `_` for all else.
+/// A name of letters and digits, with `_` for other characters.
 fn plain(layer: &str) -> String {
     let kept = |c: char| if c.is_ascii_alphanumeric() || c == '-' { c } else { '_' };
     layer.trim().chars().map(kept).collect()

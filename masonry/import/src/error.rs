@@ -1,11 +1,11 @@
-//! Why a drawing does not become a scene, and where.
+//! Reasons for which a drawing does not become a scene, with their places.
 
 use std::fmt;
 
 use masonry::scene::SceneError;
 use masonry_drawing::{Place, Unit};
 
-/// Something of a drawing does not become a scene: what, where, and how to mend it.
+/// The reason for which a drawing does not become a scene, with its places and a remedy.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ImportError {
     places: Vec<Place>,
@@ -13,12 +13,12 @@ pub struct ImportError {
 }
 
 impl ImportError {
-    /// What is wrong.
+    /// The kind of the error.
     pub fn kind(&self) -> &ImportErrorKind {
         &self.kind
     }
 
-    /// Where it is in the drawing: one place, or those of two blocks.
+    /// The place of the error in the drawing: one place, or those of two blocks.
     pub fn places(&self) -> &[Place] {
         &self.places
     }
@@ -32,7 +32,7 @@ impl ImportError {
         }
     }
 
-    /// The same with a tolerance that suffices, if there is one.
+    /// The error with a tolerance that suffices as its remedy, if there is one.
     pub(crate) fn with_remedy(mut self, sufficient: Option<f64>) -> Self {
         if let ImportErrorKind::Overlap { remedy, .. } | ImportErrorKind::NotHealed { remedy, .. } =
             &mut *self.kind
@@ -58,7 +58,7 @@ impl fmt::Display for ImportError {
     }
 }
 
-/// Why a drawing does not become a scene.
+/// A reason for which a drawing does not become a scene.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ImportErrorKind {
@@ -67,7 +67,7 @@ pub enum ImportErrorKind {
     Option {
         /// The option.
         option: &'static str,
-        /// Its value.
+        /// The value of the option.
         value: f64,
     },
     /// No outline bounds a block.
@@ -75,20 +75,20 @@ pub enum ImportErrorKind {
         "no outline bounds a block{dropped}: draw blocks as closed polylines, on other layers than \"support\" and \"joint\""
     )]
     NoBlocks {
-        /// The last outline that was dropped, and why.
+        /// The last outline that was dropped, with the reason.
         dropped: String,
     },
-    /// No support is drawn, and no block rests on a line below all.
+    /// No support is drawn, and no block rests on a line below all blocks.
     #[error(
         "no support is drawn, and no block rests with an edge on a line below all others: draw supports on a layer \"support\""
     )]
     NoFloor,
-    /// There is more than can be treated.
+    /// There are more items than can be treated.
     #[error("there are more than {limit} {what}: import parts of the drawing")]
     TooMany {
-        /// What there is too much of.
+        /// The name of the items.
         what: &'static str,
-        /// How many there may be.
+        /// The largest possible number.
         limit: usize,
     },
     /// Outlines lie over each other by the dozen.
@@ -96,7 +96,7 @@ pub enum ImportErrorKind {
         "dozens of outlines lie over each other here: draw each block once, or leave their layer out by --ignore"
     )]
     Crowded,
-    /// The unit of the file is none of those that are known.
+    /// The unit of the file is unknown.
     #[error(
         "the unit {number} of $INSUNITS is not known: give --unit, or --unit m and the metres in one unit as --scale"
     )]
@@ -115,9 +115,9 @@ pub enum ImportErrorKind {
         size: String,
         /// The unit that was taken.
         unit: Unit,
-        /// Where it comes from.
+        /// The origin of the unit.
         from: &'static str,
-        /// What to do.
+        /// The remedy.
         remedy: String,
     },
     /// The tolerance is too large for a block.
@@ -129,7 +129,7 @@ pub enum ImportErrorKind {
         edge: String,
         /// The tolerance \[m\].
         tolerance: String,
-        /// The largest tolerance for it \[m\].
+        /// The largest tolerance for the edge \[m\].
         most: String,
     },
     /// A block has no width at a corner.
@@ -145,12 +145,12 @@ pub enum ImportErrorKind {
         "its edges cross or touch each other: draw it with the corners in the order in which they follow each other"
     )]
     Crossing,
-    /// Joints are drawn open, and nobody says what they are.
+    /// Joints are drawn open, and no option gives their meaning.
     #[error(
         "{count} joints are open, the first by {width} m: give --joints close if they are thin, --joints mortar if they are filled, or --joints open if they are gaps"
     )]
     OpenJoints {
-        /// How many.
+        /// The number of open joints.
         count: usize,
         /// The width of the first \[m\].
         width: String,
@@ -162,7 +162,7 @@ pub enum ImportErrorKind {
     UnevenMortar {
         /// The width \[m\].
         width: String,
-        /// That of most others \[m\].
+        /// The width of most other joints \[m\].
         usual: String,
     },
     /// Blocks overlap by more than the tolerance.
@@ -170,13 +170,13 @@ pub enum ImportErrorKind {
         "the blocks overlap by {depth} m, more than the tolerance of {shown} m closes: {remedy}"
     )]
     Overlap {
-        /// How deep \[m\].
+        /// The depth of the overlap \[m\].
         depth: String,
         /// The tolerance \[m\].
         tolerance: f64,
         /// The tolerance in digits.
         shown: String,
-        /// What to do.
+        /// The remedy.
         remedy: String,
     },
     /// Corners that are near cannot all meet.
@@ -188,12 +188,12 @@ pub enum ImportErrorKind {
         tolerance: f64,
         /// The tolerance in digits.
         shown: String,
-        /// Why not.
+        /// The reason.
         reason: &'static str,
-        /// What to do.
+        /// The remedy.
         remedy: String,
     },
-    /// What the scene says of itself.
+    /// The error of the scene itself.
     #[error("{0}")]
     Scene(SceneError),
 }

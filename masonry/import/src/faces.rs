@@ -11,13 +11,14 @@ use super::{ImportError, ImportErrorKind};
 use masonry::geometry::{self, cross};
 use masonry_drawing::{Change, DrawnLine, Outline, Place};
 
-/// Pieces of lines. Theory: four for each of the blocks that are allowed, and as many again for arcs.
+/// The largest number of pieces of lines. Theory: four for each of the allowed blocks, and as many again for arcs.
 const MOST_PIECES: usize = 160_000;
 
-/// Points and lines abreast of a line, on average. Chosen: those of a bed joint through a wall of 20 000 stones.
+/// The largest number of points and lines abreast of a line, on average. Chosen: those of a bed joint through a wall of
+/// 20 000 stones.
 const MOST_ABREAST: usize = 1000;
 
-/// The outlines that lines make, layer by layer.
+/// The outlines that lines form, layer by layer.
 pub(crate) fn of(
     lines: &[DrawnLine],
     tolerance: f64,
@@ -57,7 +58,7 @@ pub(crate) fn of(
 #[derive(Default)]
 struct Graph {
     points: Vec<Point2<f64>>,
-    /// Points by the cell of a grid that is as wide as the tolerance.
+    /// Points by the cells of a grid whose width is the tolerance.
     cells: BTreeMap<[i64; 2], Vec<usize>>,
     pieces: Vec<([usize; 2], Place)>,
 }
@@ -72,7 +73,7 @@ impl Graph {
 
     /// The point that is nearer than the tolerance, or a new one.
     fn point(&mut self, at: Point2<f64>, tolerance: f64) -> usize {
-        // Far from the origin cells have no digits left; points are compared in any case.
+        // Cells far from the origin have no digits left; points are compared in any case.
         #[allow(clippy::cast_possible_truncation, reason = "saturates")]
         let [x, y] = [at.x, at.y].map(|it| (it / tolerance).floor() as i64);
         let around = |x: i64| [x.saturating_sub(1), x, x.saturating_add(1)];
@@ -104,7 +105,7 @@ impl Graph {
     /// Adds the points in which lines cross.
     ///
     /// # Errors
-    /// Far more lines are abreast than those of blocks, or cross.
+    /// Far more lines are abreast, or cross, than the lines of blocks do.
     fn cross(&mut self, tolerance: f64) -> Result<(), ImportError> {
         let axis = self.axis();
         let mut lines: Vec<([Point2<f64>; 2], &Place)> = Vec::new();
@@ -163,7 +164,7 @@ impl Graph {
     }
 }
 
-/// The point in which two lines cross or touch; none of lines in one direction.
+/// The point in which two lines cross or touch; `None` for parallel lines.
 fn crossing([a, b]: [Point2<f64>; 2], [c, d]: [Point2<f64>; 2]) -> Option<Point2<f64>> {
     let (first, second) = (b - a, d - c);
     let turn = cross(first, second);
@@ -189,7 +190,7 @@ impl Net {
         Self { points, around, sides }
     }
 
-    /// Takes away lines that end freely, again and again; their places.
+    /// Removes lines with free ends, again and again, and returns their places.
     fn prune(&mut self) -> BTreeSet<Place> {
         let mut gone = BTreeSet::new();
         let mut free: Vec<usize> =
@@ -216,7 +217,7 @@ impl Net {
             let mut side = first;
             loop {
                 let [from, at] = side;
-                // The sharpest turn to the left: clockwise, the next line after the one back.
+                // The sharpest turn to the left: the next line clockwise after the line back.
                 let around = &turned[at];
                 let back = around.iter().position(|k| *k == from).unwrap_or(0);
                 side = [at, around[(back + around.len() - 1) % around.len()]];

@@ -15,7 +15,7 @@ use masonry_drawing::Change;
 /// Overlaps below this part of the smaller block are rounding errors, as in the checks of a model.
 const TOUCHING: f64 = 1e-9;
 
-/// What was done to make blocks meet.
+/// The changes that make blocks meet.
 pub(crate) struct Fitted {
     pub(crate) grown: Grown,
 }
@@ -24,7 +24,7 @@ impl Fitted {
     /// Makes the blocks of a sheet meet.
     ///
     /// # Errors
-    /// What cannot meet or still overlaps.
+    /// Blocks that cannot meet or still overlap.
     pub(crate) fn of(sheet: &mut Sheet, options: &ImportOptions) -> Result<Self, ImportError> {
         let grown = gaps::grow(sheet, options.joints)?;
         move_together(sheet)?;
@@ -35,7 +35,7 @@ impl Fitted {
     }
 }
 
-/// Moves corners onto those and onto edges that are nearer than the tolerance.
+/// Moves corners onto corners and edges that are nearer than the tolerance.
 fn move_together(sheet: &mut Sheet) -> Result<(), ImportError> {
     let mut blocks: Vec<PlacedBlock> = sheet.stones.iter().map(block).collect();
     let supports: Vec<PlacedSupport> = sheet
@@ -91,8 +91,9 @@ fn check_overlaps(sheet: &Sheet) -> Result<(), ImportError> {
     Ok(())
 }
 
-/// How far two polygons that overlap by an area reach into each other: if both are convex, across the edge over which the depth is
-/// least; if not, the deepest corner of one in the other, or the mean width of an overlap without corners.
+/// The depth to which two polygons with an overlap of this area reach into each other: across the edge over which the
+/// depth is least, if both are convex; else the depth of the deepest corner of one in the other, or the mean width of
+/// an overlap without corners.
 fn depth(one: &[Point2<f64>], other: &[Point2<f64>], area: f64) -> f64 {
     let of_convex = |one: &[Point2<f64>], other: &[Point2<f64>]| {
         let across = |k: usize| {
@@ -113,7 +114,7 @@ fn depth(one: &[Point2<f64>], other: &[Point2<f64>], area: f64) -> f64 {
     deepest(one, other).max(deepest(other, one)).max(width)
 }
 
-/// Cuts digits that say nothing, so that corners at one place are written alike.
+/// Cuts digits without meaning, so that corners at one place are written alike.
 fn round(sheet: &mut Sheet) {
     /// Digits that are kept, relative to the size of the drawing. Theory: joints are found to 1e-9 of a block.
     const DIGITS: f64 = 1e-13;
@@ -130,10 +131,10 @@ fn round(sheet: &mut Sheet) {
     }
 }
 
-/// A tolerance that suffices, as it is written in a message.
+/// A tolerance that suffices, with the digits of a message.
 pub(crate) fn sufficient(tolerance: f64, does: impl Fn(f64) -> bool) -> Option<f64> {
-    /// Factors of the tolerance that did not suffice, the next ones first. Chosen: a larger one joins what is apart, a
-    /// smaller one leaves apart what cannot be joined.
+    /// Factors of the tolerance that did not suffice, the nearest ones first. Chosen: a larger tolerance joins separate
+    /// corners, a smaller one leaves apart those that cannot be joined.
     const FACTORS: [f64; 12] = [1.5, 2.0, 3.0, 4.0, 6.0, 8.0, 12.0, 0.5, 0.25, 0.1, 0.03, 0.01];
     let written = |factor: f64| metres(tolerance * factor).parse().ok();
     FACTORS.into_iter().filter_map(written).find(|tolerance| does(*tolerance))

@@ -9,11 +9,12 @@ use super::{ImportError, ImportErrorKind};
 use masonry::geometry::{self, cross};
 use masonry_drawing::Place;
 
-/// How much longer than the blocks the floor is on each side, relative to its length. Chosen: to be seen in pictures.
+/// The length by which the floor extends beyond the blocks on each side, relative to its length. Chosen: to be seen in
+/// pictures.
 const BEYOND: f64 = 0.05;
 
-/// Adds a floor below the blocks, if no support is drawn: of the straight lines below which no block lies, the one on
-/// which most of them rest.
+/// Adds a floor below the blocks, if no support is drawn: among the straight lines without a block below them, the line
+/// on which most blocks rest.
 ///
 /// # Errors
 /// No block has an edge on such a line.
@@ -23,7 +24,7 @@ pub(crate) fn add(sheet: &mut Sheet) -> Result<Option<String>, ImportError> {
     }
     let hull = lower_hull(shapes(&sheet.stones).into_iter().flatten().copied().collect());
     let lines = (0..hull.len()).filter_map(|k| flat_from(&hull[k..], sheet.tolerance));
-    // Of lines on which the same blocks rest the one that goes below all of them.
+    // The longest of the lines on which the same blocks rest is taken, since it goes below all of them.
     let rank = |[from, to]: [Point2<f64>; 2]| (resting(sheet, [from, to]), (to - from).norm());
     let ranked = lines.map(|ends| (rank(ends), ends));
     let best = ranked.max_by(|(a, _), (b, _)| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)));
@@ -56,7 +57,8 @@ fn lower_hull(mut points: Vec<Point2<f64>>) -> Vec<Point2<f64>> {
     hull
 }
 
-/// The longest line from the first corner of a hull to another for which those between are nearer than the tolerance.
+/// The longest line from the first corner of a hull to another corner such that the corners between are nearer than the
+/// tolerance.
 fn flat_from(hull: &[Point2<f64>], tolerance: f64) -> Option<[Point2<f64>; 2]> {
     let line = |end: usize| [hull[0], hull[end]];
     let is_flat =

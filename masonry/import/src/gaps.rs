@@ -12,42 +12,42 @@ use super::{ImportError, ImportErrorKind, Joints};
 use masonry::geometry;
 use masonry_drawing::Change;
 
-/// The widest gap between blocks that is a joint, relative to the shortest edge. Chosen: joints of 10 mm beside bricks of
-/// 52 mm have a fifth; wider gaps are openings.
+/// The widest gap between blocks that is a joint, relative to the shortest edge. Chosen: joints of 10 mm beside bricks
+/// of 52 mm have a fifth; wider gaps are openings.
 const WIDEST: f64 = 0.35;
 
 /// An edge of a stone.
 type Edge = (usize, usize);
 
-/// A gap between an edge of a stone and another or a support.
+/// A gap between an edge of a stone and another edge or a support.
 struct Gap {
     edges: [Option<Edge>; 2],
     support: Option<usize>,
-    /// The stones, the same twice at a support.
+    /// The stones; the same stone twice at a support.
     stones: [usize; 2],
     width: f64,
     length: f64,
     is_bed: bool,
 }
 
-/// Which edges were moved outwards, and the widths of mortar.
+/// The edges that were moved outwards, and the widths of mortar.
 #[derive(Debug, Default)]
 pub(crate) struct Grown {
     edges: Vec<(Edge, f64)>,
-    /// The mortar of bed joints \[m\].
+    /// The thickness of mortar in bed joints \[m\].
     pub(crate) bed: Option<f64>,
-    /// The mortar of head joints \[m\].
+    /// The thickness of mortar in head joints \[m\].
     pub(crate) head: Option<f64>,
     /// The widest gap that stays open \[m\].
     pub(crate) open: f64,
-    /// Supports below mortar, and whether that is a bed joint.
+    /// Supports below mortar, and whether their joint is a bed joint.
     pub(crate) supports: BTreeMap<usize, bool>,
 }
 
 /// Moves edges along open joints outwards, so that blocks meet in the middle.
 ///
 /// # Errors
-/// Joints are open, and nobody says what they are, or no mortar of one width fits.
+/// Joints are open, and no option gives their meaning, or no mortar of one width fits.
 pub(crate) fn grow(sheet: &mut Sheet, joints: Option<Joints>) -> Result<Grown, ImportError> {
     let gaps = gaps(sheet, sheet.tolerance)?;
     if matches!(joints, Some(Joints::Open | Joints::Mortar)) {
@@ -63,7 +63,7 @@ pub(crate) fn grow(sheet: &mut Sheet, joints: Option<Joints>) -> Result<Grown, I
         }
         Some(Joints::Open) => {
             let widest = gaps.iter().map(|gap| gap.width).fold(0.0, f64::max);
-            // Corners move by less than the tolerance each.
+            // Each corner moves by less than the tolerance.
             grown.open = widest + 2.0 * sheet.tolerance;
             return Ok(grown);
         }
@@ -97,9 +97,10 @@ fn note(sheet: &mut Sheet, gaps: &[Gap], joints: Option<Joints>) {
     }
 }
 
-/// Notes even gaps that are narrower than the tolerance, which closes them whatever joints are to be.
+/// Notes gaps of constant width below the tolerance: the tolerance closes them for every choice of joints.
 fn note_narrow(sheet: &mut Sheet) -> Result<(), ImportError> {
-    /// Gaps below this part of the tolerance are rounding errors. Chosen: a gap of millimetres is told, one of micrometres is not.
+    /// Gaps below this part of the tolerance are rounding errors. Chosen: a gap of millimetres is reported, a gap of
+    /// micrometres is not.
     const NARROWEST: f64 = 0.05;
     let tolerance = sheet.tolerance;
     let narrow = gaps(sheet, NARROWEST * tolerance)?;
@@ -149,7 +150,7 @@ fn gaps(sheet: &Sheet, tolerance: f64) -> Result<Vec<Gap>, ImportError> {
     Ok(gaps)
 }
 
-/// The gap between two edges, if it is as wide at both ends.
+/// The gap between two edges, if its width is the same at both ends.
 fn between(edges: [[Point2<f64>; 2]; 2], tolerance: f64, reach: f64) -> Option<Gap> {
     let overlap = geometry::facing_overlap(edges[0], edges[1], tolerance, reach)?;
     let [low, high] = [overlap.gap[0].min(overlap.gap[1]), overlap.gap[0].max(overlap.gap[1])];
@@ -168,12 +169,12 @@ fn between(edges: [[Point2<f64>; 2]; 2], tolerance: f64, reach: f64) -> Option<G
     })
 }
 
-/// The width of mortar that fits gaps: that of half of them, if all others have it.
+/// The thickness of mortar that fits gaps: their median width, if all others have it within the tolerance.
 fn mortar<'a>(
     gaps: impl Iterator<Item = &'a Gap>,
     sheet: &Sheet,
 ) -> Result<Option<f64>, ImportError> {
-    /// Mortar is laid in tenths of millimetres \[m\]. Chosen: no mason works finer.
+    /// The step of thicknesses of mortar \[m\]: tenths of millimetres. Chosen: masons do not work more finely.
     const STEP: f64 = 1e-4;
     let gaps: Vec<&Gap> = gaps.collect();
     let Some(width) = median(gaps.iter().map(|gap| gap.width).collect()) else { return Ok(None) };
@@ -188,7 +189,8 @@ fn mortar<'a>(
     Ok(Some(if is_same { rounded } else { width }))
 }
 
-/// How far each edge moves outwards: half of the mortar, or of the gap along most of it; all of it at a support.
+/// The distance by which each edge moves outwards: half of the mortar, or of the gap along most of the edge; all of it
+/// at a support.
 fn shares(gaps: &[Gap], grown: &Grown) -> Vec<(Edge, f64)> {
     let mut of_edges: BTreeMap<Edge, (f64, f64)> = BTreeMap::new();
     for gap in gaps {
@@ -205,7 +207,7 @@ fn shares(gaps: &[Gap], grown: &Grown) -> Vec<(Edge, f64)> {
     of_edges.into_iter().map(|(edge, (_, share))| (edge, share)).collect()
 }
 
-/// Moves edges outwards by their shares times a factor, in their order: by stones.
+/// Moves edges outwards by their shares times a factor; the edges of a stone follow each other.
 fn move_edges(sheet: &mut Sheet, shares: &[(Edge, f64)], factor: f64) {
     for of_stone in shares.chunk_by(|a, b| a.0.0 == b.0.0) {
         let stone = &mut sheet.stones[of_stone[0].0.0];

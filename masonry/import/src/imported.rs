@@ -1,4 +1,4 @@
-//! What import makes of a drawing.
+//! The result of importing a drawing.
 
 use nalgebra::Point2;
 
@@ -10,9 +10,9 @@ use masonry_drawing::{Change, Place, Unit};
 pub struct Imported {
     /// The scene, which is a model without mistakes.
     pub scene: Scene,
-    /// What was changed and left out, with distances in metres.
+    /// The changes and the parts left out, with distances in metres.
     pub changes: Vec<Change>,
-    /// What was nearer than this belonged together \[m\].
+    /// The tolerance \[m\]: corners and edges at smaller distances were joined.
     pub tolerance: f64,
     /// The unit of the drawing.
     pub unit: Unit,
@@ -20,8 +20,8 @@ pub struct Imported {
     pub(crate) drawn: Vec<Vec<Point2<f64>>>,
     /// The places of the blocks in the drawing.
     pub(crate) places: Vec<Place>,
-    /// How many of the last supports belong to the scene that names the drawing.
+    /// The number of the last supports that belong to the scene which names the drawing.
     pub(crate) supports_of_scene: usize,
-    /// What nobody said, and the scene needs.
+    /// The assumptions that the scene needs and nobody gave.
     pub(crate) assumed: Vec<String>,
 }

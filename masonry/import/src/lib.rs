@@ -1,4 +1,5 @@
-//! Scenes from drawings: outlines become blocks that meet exactly, lines become supports, and a report says what was changed.
+//! Scenes from drawings: outlines become blocks that meet exactly, lines become supports, and a report lists the
+//! changes.
 //!
 //! ```
 //! use masonry_drawing::{Drawing, DrawingFormat};
@@ -44,7 +45,7 @@ use masonry_drawing::Drawing;
 /// Makes a scene of a drawing.
 ///
 /// # Errors
-/// What cannot be mended, with its place in the drawing and the remedy, such as the tolerance that would suffice.
+/// A mistake that cannot be mended, with its place in the drawing and the remedy, such as a sufficient tolerance.
 pub fn import(drawing: &Drawing, options: &ImportOptions) -> Result<Imported, ImportError> {
     let attempt = |tolerance| -> Result<Imported, ImportError> {
         let mut sheet = Sheet::of(drawing, options, tolerance)?;
@@ -57,7 +58,7 @@ pub fn import(drawing: &Drawing, options: &ImportOptions) -> Result<Imported, Im
     };
     attempt(options.tolerance).map_err(|error| match error.tolerance() {
         Some(tolerance) => {
-            // A tolerance that takes further blocks for slivers or for others drawn twice mends nothing.
+            // A tolerance that removes further blocks as slivers or duplicates is not a remedy.
             let count =
                 Sheet::of(drawing, options, options.tolerance).map_or(0, |it| it.stones.len());
             let does = |it| attempt(Some(it)).is_ok_and(|it| it.scene.blocks.len() >= count);

@@ -11,10 +11,10 @@ use super::{ImportError, ImportOptions, Imported, Joints, build, supports};
 use masonry::scene::{Block, Drawn, Scene, SceneError, Support};
 use masonry_drawing::{Drawing, DrawingFormat, Place};
 
-/// Reads a scene whose `block_list` may be a drawing of every format that is read.
+/// Reads a scene whose `block_list` may be a drawing in any supported format.
 ///
 /// # Errors
-/// As [`Scene::read`], and what is wrong with the drawing, with the entity.
+/// The errors of [`Scene::read`], and mistakes of the drawing, with the entity.
 pub fn read_scene(path: &Path) -> Result<Scene, SceneError> {
     Scene::read_with(path, &drawn)
 }

@@ -20,13 +20,14 @@ impl Bounds {
     }
 }
 
-/// Pairs of shapes whose boxes, each grown by half the reach, meet; in increasing order, `Err` with a shape that is
-/// near to far more others than shapes beside each other are.
+/// Pairs of shapes whose boxes, each grown by half the reach, meet, in increasing order; `Err` with a shape if there
+/// are far more pairs than shapes beside each other have.
 pub(crate) fn pairs(shapes: &[&[Point2<f64>]], reach: f64) -> Result<Vec<[usize; 2]>, usize> {
-    /// Neighbours of a shape on average. Chosen: bricks have six to eight, a floor slab has all of a course.
+    /// The largest number of pairs per shape. Chosen: bricks have six to eight neighbours, a floor slab has those of a
+    /// whole course.
     const MOST: usize = 64;
     let boxes: Vec<Bounds> = shapes.iter().map(|it| Bounds::of(it, 0.5 * reach)).collect();
-    // Along the longer side fewer are abreast.
+    // Fewer shapes are abreast along the longer side.
     let extent = |axis: usize| {
         let low = boxes.iter().map(|it| it.low[axis]).fold(f64::INFINITY, f64::min);
         boxes.iter().map(|it| it.high[axis]).fold(f64::NEG_INFINITY, f64::max) - low

@@ -1,8 +1,8 @@
-//! How a drawing becomes a scene.
+//! Options of the import of a drawing.
 
 use masonry_drawing::Unit;
 
-/// What becomes of joints that are drawn open.
+/// The treatment of joints that are drawn open.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Joints {
     /// Gaps of one width are filled with mortar.
@@ -13,7 +13,7 @@ pub enum Joints {
     Open,
 }
 
-/// How a drawing becomes a scene.
+/// Options of the import of a drawing.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ImportOptions {
     /// The title of the scene.
@@ -22,11 +22,11 @@ pub struct ImportOptions {
     pub unit: Option<Unit>,
     /// Factor of all lengths.
     pub scale: f64,
-    /// What is nearer than this belongs together \[m\]; by default a part of the shortest edge.
+    /// The distance up to which corners and edges are joined \[m\]; by default a part of the shortest edge.
     pub tolerance: Option<f64>,
     /// Thickness out of the plane \[m\]; by default that of the bodies of the file, or one metre.
     pub thickness: Option<f64>,
-    /// What becomes of joints that are drawn open; without it they are an error.
+    /// The treatment of joints that are drawn open; `None` makes them an error.
     pub joints: Option<Joints>,
     /// Density of the blocks \[kg/m^3\].
     pub density: f64,

@@ -5,21 +5,21 @@ use nalgebra::Point2;
 use masonry::geometry::{self, PolygonError};
 use masonry_drawing::{Change, Place};
 
-/// Distances below this part of the tolerance are rounding errors. Chosen: far above those of coordinates, far below all
-/// that a report should tell.
+/// Distances below this part of the tolerance are rounding errors. Chosen: far above those of coordinates, far below
+/// all changes that a report should show.
 const EXACT: f64 = 1e-6;
 
-/// What is left of an outline.
+/// The result of cleaning an outline.
 pub(crate) enum Cleaned {
     /// A polygon whose edges and corners are larger than the tolerance.
     Polygon(Vec<Point2<f64>>),
-    /// Nothing: it is thinner than the tolerance.
+    /// Nothing: the outline is thinner than the tolerance.
     Sliver,
     /// Edges that cross: the areas on both sides of the crossing cancel each other.
     Crossing,
 }
 
-/// Cleans an outline, and notes what that changes.
+/// Cleans an outline, and notes the changes.
 pub(crate) fn clean(
     outline: &[Point2<f64>],
     place: &Place,
@@ -30,7 +30,7 @@ pub(crate) fn clean(
     if let Some(by) = without_near(&mut corners, tolerance) {
         changes.push(Change::by("near corners became one", place, by));
     }
-    // Corners on straight edges, where other blocks begin, are no change.
+    // Corners on straight edges, at which other blocks begin, do not count as changes.
     let straight = without_straight(&mut corners, tolerance);
     if let Some(by) = straight.filter(|by| *by > EXACT * tolerance) {
         changes.push(Change::by("nearly straight corners vanished", place, by));
@@ -43,20 +43,20 @@ pub(crate) fn clean(
         return if is_crossing { Cleaned::Crossing } else { Cleaned::Sliver };
     }
     if geometry::area(&corners) < 0.0 {
-        // It begins where it began.
+        // The first corner stays the first.
         corners[1..].reverse();
         changes.push(Change::new("clockwise outlines were turned", place));
     }
     Cleaned::Polygon(corners)
 }
 
-/// Twice the area by half of the perimeter: of a long rectangle, its width.
+/// Twice the area divided by half the perimeter: the width of a long rectangle.
 fn width(corners: &[Point2<f64>]) -> f64 {
     let perimeter: f64 = super::size::edges(corners).sum();
     2.0 * geometry::area(corners).abs() / perimeter
 }
 
-/// Leaves out corners that are nearer than the tolerance to the one before; the largest such distance.
+/// Removes corners that are nearer than the tolerance to the one before, and returns the largest such distance.
 fn without_near(corners: &mut Vec<Point2<f64>>, tolerance: f64) -> Option<f64> {
     let mut largest: Option<f64> = None;
     let mut kept: Vec<Point2<f64>> = Vec::with_capacity(corners.len());
@@ -80,8 +80,8 @@ fn without_near(corners: &mut Vec<Point2<f64>>, tolerance: f64) -> Option<f64> {
     largest
 }
 
-/// Leaves out the straightest corner again and again, as long as all that were left out stay within the tolerance of
-/// the edges; the largest distance.
+/// Removes the straightest corner again and again, as long as all removed corners stay within the tolerance of the
+/// edges; returns the largest distance.
 fn without_straight(corners: &mut Vec<Point2<f64>>, tolerance: f64) -> Option<f64> {
     let mut largest: Option<f64> = None;
     let mut ring = Ring::of(corners);
@@ -96,12 +96,12 @@ fn without_straight(corners: &mut Vec<Point2<f64>>, tolerance: f64) -> Option<f6
     largest
 }
 
-/// The corners of an outline that are left.
+/// The remaining corners of an outline.
 struct Ring {
     corners: Vec<Point2<f64>>,
-    /// For every corner those that were left out after it.
+    /// The corners that were removed after every corner.
     out: Vec<Vec<Point2<f64>>>,
-    /// For every corner how far it, and what was left out beside it, is from the edge that would take its place.
+    /// The distance of every corner, and of those removed beside it, from the edge that would replace it.
     offs: Vec<f64>,
 }
 

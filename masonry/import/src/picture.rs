@@ -10,7 +10,7 @@ use super::Imported;
 const SIDE: f64 = 1200.0;
 const MARGIN: f64 = 30.0;
 
-/// From metres to pixels.
+/// The map from metres to pixels.
 struct Frame {
     left: f64,
     top: f64,

@@ -1,4 +1,4 @@
-//! The table of what was changed and left out.
+//! The table of changes.
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -6,11 +6,11 @@ use std::fmt::Write as _;
 use super::Imported;
 use masonry_drawing::Change;
 
-/// Places that a row names; others are counted. Chosen: what fits a line.
+/// Places that a row names; others are counted. Chosen: as many as fit a line.
 const NAMED: usize = 3;
 
 impl Imported {
-    /// What the scene holds, what was assumed, and a table of what was changed and left out, with its places.
+    /// The contents of the scene, the assumptions, and a table of all changes with their places.
     pub fn report(&self) -> String {
         let scene = &self.scene;
         let mut text = format!(
@@ -29,13 +29,13 @@ impl Imported {
         text
     }
 
-    /// The table of what was changed and left out, without the spaces of a table.
+    /// The lines of the table of changes, without the spaces of a table.
     pub(crate) fn told(&self) -> Vec<String> {
         let line = |(what, row): (&str, Row)| format!("{} x {what}{}", row.count, row.places());
         self.rows().into_iter().map(line).collect()
     }
 
-    /// Changes of one kind together, in the order of the first of each.
+    /// Rows of changes of one kind, in the order of the first change of each kind.
     fn rows(&self) -> Vec<(&str, Row<'_>)> {
         let mut rows: Vec<(&str, Row)> = Vec::new();
         let mut found: BTreeMap<&str, usize> = BTreeMap::new();
@@ -88,7 +88,7 @@ impl std::fmt::Display for Row<'_> {
     }
 }
 
-/// A length with three digits, as small ones have in a message.
+/// A length with three digits, the form of small lengths in a message.
 pub(crate) fn metres(length: f64) -> String {
     if length == 0.0 {
         return "0".to_owned();

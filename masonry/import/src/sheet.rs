@@ -1,4 +1,4 @@
-//! A drawing in metres, sorted by what its layers mean, with each outline cleaned.
+//! A drawing in metres, sorted by the meaning of its layers, with each outline cleaned.
 
 use nalgebra::Point2;
 
@@ -10,24 +10,24 @@ use super::stones::{self, Piece, Stone};
 use super::{ImportError, ImportErrorKind, ImportOptions, faces};
 use masonry_drawing::{Change, Drawing, DrawnLine, Outline, Place, Unit};
 
-/// The tolerance that nobody gives, relative to the shortest edge. Theory: joints of mortar are wider, being 10 mm beside
-/// bricks of 65 mm; corners that are rounded to millimetres are off by less, from edges of 30 mm on.
+/// The default tolerance, relative to the shortest edge. Theory: joints of mortar are wider, since they have 10 mm
+/// beside bricks of 65 mm; errors of corners that are rounded to millimetres are smaller for edges of 30 mm and more.
 const OF_SHORTEST: f64 = 0.05;
-/// Edges that are shorter than this part of the median edge are taken for faults. Chosen: half a brick beside a lintel has a
+/// Edges that are shorter than this part of the median edge count as faults. Chosen: half a brick beside a lintel has a
 /// tenth of its length.
 const FAULTY: f64 = 0.05;
-/// The tolerance, relative to the shortest edge, at most, as in the healing of scenes.
+/// The largest tolerance, relative to the shortest edge, as in the healing of scenes.
 const LARGEST: f64 = 0.25;
-/// Blocks. Chosen: ten times what is solved in a minute.
+/// The largest number of blocks. Chosen: ten times the number that is solved in a minute.
 const MOST_BLOCKS: usize = 20_000;
-/// Pieces of supports, and of lines along joints: each is compared with all blocks. Chosen: ground that was surveyed has some
-/// hundreds.
+/// The largest number of pieces of supports, and of lines along joints: each is compared with all blocks. Chosen: a
+/// surveyed ground line has some hundreds.
 const MOST_PIECES: usize = 2000;
 
 /// A drawing in metres.
 pub(crate) struct Sheet {
     pub(crate) unit: Unit,
-    /// What is nearer than this belongs together.
+    /// The distance up to which corners and edges are joined.
     pub(crate) tolerance: f64,
     pub(crate) thickness: Option<f64>,
     pub(crate) stones: Vec<Stone>,
@@ -39,7 +39,7 @@ pub(crate) struct Sheet {
     pub(crate) drawn: Vec<Vec<Point2<f64>>>,
 }
 
-/// An outline that is to be cleaned.
+/// An outline before it is cleaned.
 struct Raw {
     outline: Outline,
     material: String,
@@ -49,7 +49,7 @@ impl Sheet {
     /// The blocks, supports and marked joints of a drawing.
     ///
     /// # Errors
-    /// A unit that cannot be, too many blocks, and blocks whose edges cross at every tolerance.
+    /// The unit is not plausible, there are too many blocks, or edges of a block cross at every tolerance.
     pub(crate) fn of(
         drawing: &Drawing,
         options: &ImportOptions,
@@ -134,7 +134,7 @@ impl Sheet {
         }
     }
 
-    /// Makes stones and supports of what was sorted.
+    /// Makes stones and supports of the sorted outlines and lines.
     fn lay(&mut self, mut sorted: Sorted) -> Result<(), ImportError> {
         let found = faces::of(&sorted.lines, self.tolerance, &mut self.changes)?;
         sorted.raw.extend(found.into_iter().map(|outline| {
@@ -179,7 +179,7 @@ impl Sheet {
         ImportErrorKind::NoBlocks { dropped }.at(&[])
     }
 
-    /// The corners of an outline that are left; `None` of a sliver.
+    /// The remaining corners of an outline; `None` for a sliver.
     fn cleaned(
         &mut self,
         corners: &[Point2<f64>],
@@ -195,7 +195,7 @@ impl Sheet {
         }
     }
 
-    /// Keeps the ends of edges apart: a tolerance that was given is refused, another becomes smaller.
+    /// Keeps the ends of edges apart: refuses a given tolerance that is too large, and reduces the default one.
     fn limit_tolerance(&mut self, is_given: bool) -> Result<(), ImportError> {
         let shortest = |stone: &Stone| size::edges(&stone.corners).fold(f64::INFINITY, f64::min);
         let lengths = self.stones.iter().map(|stone| (shortest(stone), stone));
@@ -210,7 +210,7 @@ impl Sheet {
     }
 }
 
-/// What bounds blocks or is fixed, before it is cleaned.
+/// Outlines and lines of blocks and supports, before they are cleaned.
 #[derive(Default)]
 struct Sorted {
     raw: Vec<Raw>,
@@ -219,7 +219,7 @@ struct Sorted {
 }
 
 impl Sorted {
-    /// A part of the shortest edge that is no fault; `None` without an edge.
+    /// The default tolerance: a part of the shortest edge that is not a fault; `None` without an edge.
     fn tolerance(&self) -> Option<f64> {
         let of_outlines = self.raw.iter().flat_map(|raw| size::edges(&raw.outline.corners));
         let of_lines = self.lines.iter().flat_map(|line| line.points.windows(2));

@@ -1,4 +1,4 @@
-//! The unit of a drawing, and whether the blocks have a size that stones have in it.
+//! The unit of a drawing, and a check that the blocks have the size of stones in this unit.
 
 use nalgebra::Point2;
 
@@ -7,16 +7,17 @@ use super::{ImportError, ImportErrorKind, ImportOptions};
 use masonry::geometry;
 use masonry_drawing::{Drawing, Unit};
 
-/// Sizes of the median block \[m\]. Chosen: tiles of a mosaic have a centimetre, the blocks of Baalbek 20 m; a drawing in
-/// millimetres read as metres has bricks of 200 m, and one in metres read as millimetres has stones below 2 mm.
+/// Bounds of the size of the median block \[m\]. Chosen: tiles of a mosaic have a centimetre, the blocks of Baalbek 20
+/// m; a drawing in millimetres read as metres has bricks of 200 m, and one in metres read as millimetres has stones
+/// below 2 mm.
 const SMALLEST: f64 = 3e-3;
 const LARGEST: f64 = 25.0;
 
 /// The unit of a drawing: that of the options, of the file, or the metre.
 ///
 /// # Errors
-/// The unit of the file is not known, or no stones have the size that half of the blocks would have in it; never for a
-/// unit of the options.
+/// The unit of the file is unknown, or the median block does not have the size of a stone in it; neither if the options
+/// give a unit.
 pub(crate) fn unit(drawing: &Drawing, options: &ImportOptions) -> Result<Unit, ImportError> {
     if let (None, Some(number)) = (options.unit, drawing.unknown_unit) {
         return Err(ImportErrorKind::UnknownUnit { number }.at(&[]));
@@ -40,12 +41,12 @@ pub(crate) fn unit(drawing: &Drawing, options: &ImportOptions) -> Result<Unit, I
         format!("give {}, or --unit {unit} if that is right", others.join(" or "))
     };
     let compared = if metres_of(unit) > LARGEST { "larger" } else { "smaller" };
-    // In the sentence "larger than": rounding to three digits does not matter.
+    // The message compares by "larger than", so that rounding to three digits does not matter.
     let size = metres(metres_of(unit));
     Err(ImportErrorKind::Size { compared, size, unit, from, remedy }.at(&[]))
 }
 
-/// The median of the sizes of outlines, or of lines without these, in the unit of the drawing.
+/// The median size of outlines, or of lines if there are no outlines, in the unit of the drawing.
 fn median_size(drawing: &Drawing) -> Option<f64> {
     let extent = |points: &[Point2<f64>]| {
         let first = points.first()?;

@@ -16,7 +16,7 @@ pub(crate) struct Stone {
     pub(crate) place: Place,
 }
 
-/// A piece of a line on a layer of supports or joints, or an edge of what does not move.
+/// A piece of a line on a layer of supports or joints, or an edge of a fixed outline.
 #[derive(Debug, Clone)]
 pub(crate) struct Piece {
     /// The name of the support, or the class of the joint.
@@ -38,7 +38,7 @@ pub(crate) fn near_pairs(stones: &[Stone], reach: f64) -> Result<Vec<[usize; 2]>
     near::pairs(&shapes(stones), reach).map_err(crowded)
 }
 
-/// Drops stones that are drawn again: whose corners all lie near corners of one before, and its corners near theirs.
+/// Drops stones that are drawn again: the corners of each lie near corners of an earlier stone, and vice versa.
 pub(crate) fn without_duplicates(
     stones: &mut Vec<Stone>,
     tolerance: f64,
@@ -62,12 +62,12 @@ pub(crate) fn without_duplicates(
     Ok(())
 }
 
-/// Whether each corner of one polygon is near to a corner of the other.
+/// Whether each corner of `other` is near a corner of `one`.
 fn covers(one: &[Point2<f64>], other: &[Point2<f64>], tolerance: f64) -> bool {
     other.iter().all(|corner| one.iter().any(|it| (it - corner).norm() <= tolerance))
 }
 
-/// Refuses blocks whose edges cross or touch; notes those that are not convex.
+/// Refuses blocks whose edges cross or touch; notes blocks that are not convex.
 pub(crate) fn check_simple(stones: &[Stone], changes: &mut Vec<Change>) -> Result<(), ImportError> {
     for stone in stones {
         match geometry::check_simple(&stone.corners) {

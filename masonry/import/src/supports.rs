@@ -18,8 +18,8 @@ const TOUCHING: f64 = 1e-9;
 /// Lengths below this part of the tolerance are rounding errors.
 const EXACT: f64 = 1e-6;
 
-/// Cuts supports where they lie on others, to the tolerance, so that none holds a block twice. Supports of a scene that names the
-/// drawing stay whole, and stay the last.
+/// Cuts supports along parts that lie on others, within the tolerance, so that no block is held twice. Supports of a
+/// scene that names the drawing stay whole, and stay the last.
 pub(crate) fn without_overlaps(sheet: &mut Sheet) {
     let (of_scene, drawn): (Vec<Piece>, Vec<Piece>) =
         std::mem::take(&mut sheet.supports).into_iter().partition(|piece| piece.is_of_scene);
@@ -74,7 +74,7 @@ fn beside(
     parts
 }
 
-/// Supports on which blocks rest, each with a name of its own; the others are dropped.
+/// Supports on which blocks rest, each with a unique name; the others are dropped.
 pub(crate) fn used(sheet: &mut Sheet, fitted: &Fitted) -> Vec<(Support, Piece)> {
     let mut used: Vec<(Support, Piece)> = Vec::new();
     let mut taken = std::collections::BTreeMap::new();

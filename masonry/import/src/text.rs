@@ -1,4 +1,4 @@
-//! The scene as a file to read and to change, with comments.
+//! The scene as a commented file.
 
 use std::fmt::Write as _;
 
@@ -9,7 +9,7 @@ impl Imported {
     /// The scene as TOML text, with the report at the top and the place in the drawing beside each block.
     ///
     /// # Errors
-    /// Those of [`Scene::to_toml`](masonry::Scene::to_toml).
+    /// The errors of [`Scene::to_toml`](masonry::Scene::to_toml).
     pub fn to_toml(&self) -> Result<String, SceneError> {
         let mut rest = self.scene.clone();
         let (blocks, supports) =
@@ -30,7 +30,7 @@ impl Imported {
     }
 }
 
-/// The text of a scene, less the tables that say what would hold without them.
+/// The text of a scene without the tables that only repeat defaults.
 fn without_defaults(scene: &Scene) -> Result<String, SceneError> {
     let mut defaults = vec!["[solver]", "[output]"];
     defaults.extend((scene.contact == Contact::default()).then_some("[contact]"));
