@@ -12,7 +12,7 @@ use super::mesh::{self, Mesh};
 use super::shapes::MOST_SHAPES;
 use super::{Drawing, DrawingError, DrawingErrorKind, Place};
 
-/// The material of blocks that name none.
+/// The material of blocks without a material.
 const MATERIAL: &str = "stone";
 
 pub(super) fn read(text: &str) -> Result<Drawing, DrawingError> {
@@ -24,7 +24,7 @@ pub(super) fn read(text: &str) -> Result<Drawing, DrawingError> {
     Ok(drawing)
 }
 
-/// What is said of a block around its mesh.
+/// The data of a block from the objects around its mesh.
 #[derive(Clone)]
 struct About {
     name: Option<String>,
@@ -114,11 +114,11 @@ impl Search {
 }
 
 impl About {
-    /// What an object says besides.
+    /// The data with those of an inner object.
     fn with(&self, map: &Map<String, Value>) -> Self {
         let attributes = map.get("attributes").and_then(Value::as_object);
         let get = |key| map.get(key).or_else(|| attributes?.get(key));
-        // Assemblies have names too; the innermost counts, and defaults of classes are none.
+        // Assemblies have names too; the innermost name counts, and default names of classes do not count.
         let name = get("name").and_then(Value::as_str).filter(|it| !is_class(it));
         Self {
             name: name.map(str::to_owned).or_else(|| self.name.clone()),
@@ -127,7 +127,7 @@ impl About {
     }
 }
 
-/// Whether a name is that of a class, which COMPAS gives to what has no name.
+/// Whether a name is that of a class, which COMPAS gives to unnamed objects.
 fn is_class(name: &str) -> bool {
     ["Assembly", "Block", "Graph", "Mesh", "Network", "Datastructure"].contains(&name)
 }
@@ -142,7 +142,7 @@ fn corner(vertex: &Value, key: &str, place: &Place) -> Result<Point3<f64>, Drawi
     Ok(Point3::new(get("x")?, get("y")?, get("z")?))
 }
 
-/// The entries of an object, keys that are numbers by their size.
+/// The entries of an object; numeric keys are sorted by value.
 fn in_order(map: &Map<String, Value>) -> Vec<(&String, &Value)> {
     let mut entries: Vec<_> = map.iter().collect();
     entries.sort_by_key(|(key, _)| key.parse::<u64>().unwrap_or(u64::MAX));

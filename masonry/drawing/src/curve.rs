@@ -4,13 +4,13 @@ use std::f64::consts::{FRAC_PI_6, TAU};
 
 use nalgebra::{Point2, Rotation2, Vector2};
 
-/// The largest angle of one chord. Chosen: voussoirs of six or more to a semicircle have one chord on each side, so that
-/// their intrados does not make them concave; a chord of 30 degrees is off by 3 % of its length.
+/// The largest angle of one chord. Chosen: voussoirs have one chord on each side if a semicircle has six or more, so
+/// that their intrados does not make them concave; a chord of 30 degrees is off by 3 % of its length.
 const CHORD: f64 = FRAC_PI_6;
-/// The part of an angle that rounding hides: an arc of 30 degrees is one chord.
+/// The part of an angle that counts as a rounding error: an arc of 30 degrees is one chord.
 const ROUNDING: f64 = 1e-6;
 
-/// Points of a curve, and how far its chords are from it.
+/// Points of a curve, and the distance of its chords from it.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Chords {
     pub(super) points: Vec<Point2<f64>>,
@@ -24,7 +24,7 @@ pub(super) struct Arc {
     pub(super) radius: f64,
     /// The angle of its first point.
     pub(super) from: f64,
-    /// The angle that it turns by, counter-clockwise.
+    /// The angle of the arc, counter-clockwise.
     pub(super) sweep: f64,
 }
 
@@ -46,8 +46,8 @@ impl Arc {
     }
 }
 
-/// The chords of an arc between two points, of which `bulge` is the tangent of a quarter of the angle; the points
-/// include the first, but not the last.
+/// The chords of an arc between two points; `bulge` is the tangent of a quarter of the angle. The points include the
+/// first, but not the last.
 pub(super) fn bulged([from, to]: [Point2<f64>; 2], bulge: f64) -> Chords {
     if bulge == 0.0 || from == to || !bulge.is_finite() {
         return Chords { points: vec![from], off: 0.0 };
@@ -88,10 +88,10 @@ pub(super) fn cubic(points: [Point2<f64>; 4]) -> Chords {
     Chords { points: (1..=count).map(last).collect(), off }
 }
 
-/// How many chords turn by an angle.
+/// The number of chords for an angle.
 fn chords_of(angle: f64) -> u32 {
     let turns = (angle.abs() / TAU).min(1.0);
-    // At most twelve.
+    // The number is at most twelve.
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "between 0 and 12")]
     let count = (turns * (TAU / CHORD) - ROUNDING).ceil() as u32;
     count.max(1)

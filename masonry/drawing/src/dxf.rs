@@ -1,7 +1,7 @@
-//! DXF as text: polylines, lines, arcs, circles and solids, of the drawing itself and of blocks that it inserts.
+//! DXF as text: polylines, lines, arcs, circles and solids, of the drawing itself and of inserted blocks.
 //!
-//! A file is a list of pairs, a code and a value on a line each; code 0 begins an entity. Only few entities bound
-//! blocks, so that a reader of its own is small, knows the line of everything, and passes over what it does not know.
+//! A file is a list of pairs, a code and a value on a line each; code 0 begins an entity. Only few kinds of entities
+//! bound blocks, so that a reader for DXF alone is small, gives the line of every entity, and skips unknown ones.
 
 mod insert;
 mod layers;
@@ -80,7 +80,7 @@ impl<'a> File<'a> {
     }
 }
 
-/// The number of the unit in the header; zero is none.
+/// The number of the unit in the header; zero counts as no unit.
 fn unit(header: &Record) -> Option<i64> {
     let at = header.pairs.iter().position(|pair| pair.value == "$INSUNITS")?;
     header.pairs.get(at + 1)?.value.parse().ok().filter(|number| *number != 0)

@@ -1,11 +1,11 @@
-//! What can be wrong with the file of a drawing, and where.
+//! Mistakes in the file of a drawing, with their places.
 
 use std::fmt;
 
 use super::Place;
 use super::place::harmless;
 
-/// Something is wrong with the file of a drawing: what, where, and how to mend it.
+/// A mistake in the file of a drawing, with its place and a remedy.
 #[derive(Debug, Clone, PartialEq)]
 pub struct DrawingError {
     place: Option<Place>,
@@ -13,12 +13,12 @@ pub struct DrawingError {
 }
 
 impl DrawingError {
-    /// What is wrong.
+    /// The kind of the mistake.
     pub fn kind(&self) -> &DrawingErrorKind {
         &self.kind
     }
 
-    /// The entity, and the line of the file; `None` of the whole file.
+    /// The entity, and the line of the file; `None` for the whole file.
     pub fn place(&self) -> Option<&Place> {
         self.place.as_ref()
     }
@@ -33,7 +33,7 @@ impl fmt::Display for DrawingError {
     }
 }
 
-/// What can be wrong with the file of a drawing.
+/// A mistake in the file of a drawing.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum DrawingErrorKind {
@@ -43,13 +43,13 @@ pub enum DrawingErrorKind {
         /// The limit \[MB\].
         limit: usize,
     },
-    /// The file is no text.
+    /// The file is not a text.
     #[error("the file is binary: save it as text (DXF: \"ASCII\")")]
     Binary,
     /// Nothing in the file bounds a block.
     #[error("nothing in the file bounds a block{left_out}: draw blocks as closed polylines")]
     Empty {
-        /// The first entity that was left out, and why.
+        /// The first entity that was left out, with the reason.
         left_out: String,
     },
     /// The file ends before it should.
@@ -58,30 +58,30 @@ pub enum DrawingErrorKind {
     /// The text does not fit the format.
     #[error("{message}")]
     Syntax {
-        /// What is wrong.
+        /// The mistake.
         message: String,
     },
-    /// A text stands in place of a number.
+    /// A text stands in the place of a number.
     #[error("\"{text}\" is no number")]
     Number {
         /// The text.
         text: String,
     },
-    /// A coordinate is not finite, or so large that it can be no place.
+    /// A coordinate is not finite, or too large for a place.
     #[error("a coordinate is no finite number below 1e60: correct it or delete the entity")]
     NotFinite,
-    /// There is more than a drawing has.
+    /// There are more items than a drawing may have.
     #[error("there are more than {limit} {what}: save only the layers with the blocks")]
     TooMany {
-        /// What there is too much of.
+        /// The name of the items.
         what: &'static str,
-        /// How many there may be.
+        /// The largest possible number.
         limit: usize,
     },
-    /// Blocks are inserted in each other without an end, or nearly so.
+    /// Blocks are inserted in each other without an end, or too deeply.
     #[error("blocks are inserted in each other {depth} times: explode them")]
     Nested {
-        /// How deep they may be.
+        /// The largest depth.
         depth: usize,
     },
     /// A block is inserted that the file does not have.
@@ -98,7 +98,7 @@ pub enum DrawingErrorKind {
         /// The number or key of the corner.
         corner: String,
     },
-    /// A body is no prism across the plane of the others.
+    /// A body is not a prism across the plane of the others.
     #[error(
         "it is no prism across one plane with the others: the model is plane; cut it with a plane and draw the section"
     )]
@@ -125,7 +125,7 @@ impl DrawingErrorKind {
     }
 }
 
-/// The beginning of a text of the file, without what a terminal obeys.
+/// The beginning of a text of the file, without characters that control a terminal.
 pub(super) fn shown(text: &str) -> String {
     const LONGEST: usize = 40;
     text.chars().take(LONGEST).map(harmless).collect()

@@ -1,6 +1,6 @@
-//! Drawings: closed outlines and lines in a plane, with their layer and their place in the file that they come from.
+//! Drawings: closed outlines and lines in a plane, with their layer and their place in the file.
 //!
-//! A [`Drawing`] is what a file says, without repairs: the crate `masonry` makes a scene of it.
+//! A [`Drawing`] has the contents of a file, without repairs: the crate `masonry-import` makes a scene of it.
 //!
 //! ```
 //! use masonry_drawing::{Drawing, DrawingFormat};
@@ -27,7 +27,8 @@ pub use self::place::Place;
 pub use self::shapes::{Change, Drawing, DrawnLine, Outline};
 pub use self::unit::Unit;
 
-/// Bytes of a file. Chosen: fifty times a drawing of 1500 stones; as numbers in a list, JSON takes half a gigabyte of memory.
+/// The largest size of a file in bytes. Chosen: fifty times a drawing of 1500 stones; a JSON file of numbers in a list
+/// takes half a gigabyte of memory.
 pub const LARGEST_FILE: usize = 32 << 20;
 
 /// A format of files.
@@ -62,7 +63,7 @@ impl Drawing {
     /// Reads a file.
     ///
     /// # Errors
-    /// What is wrong with the file, with the entity and the line, and the remedy.
+    /// The mistake in the file, with the entity and the line, and the remedy.
     pub fn read(bytes: &[u8], format: DrawingFormat) -> Result<Self, DrawingError> {
         if bytes.len() > LARGEST_FILE {
             return Err(DrawingErrorKind::LargeFile { limit: LARGEST_FILE >> 20 }.nowhere());
@@ -87,7 +88,7 @@ impl Drawing {
     }
 }
 
-/// The text of a file. Old drawings are no UTF-8: each of their bytes is a character, which keeps names apart.
+/// The text of a file. Old drawings are not UTF-8: each of their bytes becomes a character, which keeps names apart.
 fn decoded(bytes: &[u8]) -> std::borrow::Cow<'_, str> {
     match std::str::from_utf8(bytes) {
         Ok(text) => text.into(),

@@ -1,4 +1,4 @@
-//! A JSON list of blocks, as scenes read it.
+//! A JSON list of blocks, as scenes have it.
 
 use nalgebra::Point2;
 use serde::Deserialize;
@@ -30,7 +30,7 @@ pub(super) fn read(text: &str) -> Result<Drawing, DrawingError> {
     Ok(drawing)
 }
 
-/// The mistake of a text that is no JSON, or not of this kind.
+/// The mistake of a text that is not JSON, or not a list of blocks.
 pub(super) fn json_error(error: &serde_json::Error) -> DrawingError {
     let place = Place::new("JSON", Some(error.line()));
     if error.is_eof() {

@@ -9,7 +9,7 @@ use super::{Drawing, DrawingError, DrawingErrorKind, Outline, Place};
 /// The largest sine of an angle between faces of a prism that ought to be parallel, or at right angles. Chosen: corners
 /// of blocks of 0.1 m that are rounded to millimetres miss by a hundredth.
 const TURNED: f64 = 1e-2;
-/// The part of the depth by which the ends of blocks may differ. Chosen: as the angle.
+/// The part of the depth by which the ends of blocks may differ. Chosen: equal to the angle.
 const UNEVEN: f64 = 1e-2;
 
 /// Corners and faces of a body.
@@ -33,10 +33,10 @@ pub(super) struct Plane {
     across: Vector3<f64>,
 }
 
-/// Adds bodies to a drawing, and gives its plane, that of x and y without bodies; bodies without faces are none.
+/// Adds bodies with faces to a drawing, and returns its plane: that of x and y without bodies.
 ///
 /// # Errors
-/// The body that is no prism across a plane that all share.
+/// A body is not a prism across a plane that all bodies share.
 pub(super) fn add(drawing: &mut Drawing, mut meshes: Vec<Mesh>) -> Result<Plane, DrawingError> {
     meshes.retain(|mesh| !mesh.faces.is_empty());
     if meshes.is_empty() {
@@ -58,7 +58,7 @@ pub(super) fn add(drawing: &mut Drawing, mut meshes: Vec<Mesh>) -> Result<Plane,
     Ok(plane)
 }
 
-/// Each face of a flat mesh is an outline.
+/// Adds each face of a flat mesh as an outline.
 fn add_faces(drawing: &mut Drawing, mesh: &Mesh, plane: Plane) -> Result<(), DrawingError> {
     for (number, face) in (1..).zip(&mesh.faces) {
         let corners = face.iter().map(|k| plane.project(mesh.corners[*k])).collect();
@@ -69,7 +69,7 @@ fn add_faces(drawing: &mut Drawing, mesh: &Mesh, plane: Plane) -> Result<(), Dra
     Ok(())
 }
 
-/// The plane in which all corners lie, if it is one of two axes; what lies is seen from above.
+/// The plane in which all corners lie, if it is a plane of two axes; a horizontal one is seen from above.
 fn flat(meshes: &[Mesh]) -> Option<Plane> {
     let corners = || meshes.iter().flat_map(|mesh| &mesh.corners);
     let extent = |along: Vector3<f64>| extent(corners(), along);
@@ -86,9 +86,9 @@ fn flat(meshes: &[Mesh]) -> Option<Plane> {
     })
 }
 
-/// The upright plane across which all bodies are prisms of one depth; of two such planes the one seen along y.
+/// The upright plane across which all bodies are prisms of one depth; the one seen along y if there are two.
 fn shared_plane(meshes: &[Mesh]) -> Result<Plane, DrawingError> {
-    /// Directions of the sides of the first body that are tried. Chosen: stones have fewer.
+    /// The largest number of directions of sides of the first body that are tried. Chosen: stones have fewer.
     const MOST: usize = 64;
     let mut planes: Vec<Plane> = Vec::new();
     for normal in meshes[0].normals().filter(|normal| normal.z.abs() <= TURNED) {
@@ -107,7 +107,7 @@ fn shared_plane(meshes: &[Mesh]) -> Result<Plane, DrawingError> {
         let wrong = meshes.iter().position(|mesh| !mesh.is_prism(plane.across));
         let uneven = wrong.map_or_else(|| uneven(meshes, plane), |_| None);
         let Some(at) = wrong.or(uneven) else { return Ok(plane) };
-        // The mistake is shown that comes last: the plane fits most bodies.
+        // The error of the plane that fits most bodies is shown.
         if most < Some((wrong.is_none(), at)) {
             most = Some((wrong.is_none(), at));
             let [from, to] = meshes[at].extent(plane.across);
@@ -121,7 +121,7 @@ fn shared_plane(meshes: &[Mesh]) -> Result<Plane, DrawingError> {
     Err(error)
 }
 
-/// The first body whose ends across the plane are not those of the first.
+/// The first body whose ends across the plane are not those of body 0.
 fn uneven(meshes: &[Mesh], plane: Plane) -> Option<usize> {
     let [from, to] = meshes[0].extent(plane.across);
     meshes.iter().position(|mesh| {
@@ -144,7 +144,7 @@ impl Plane {
         across: Vector3::new(0.0, 0.0, 1.0),
     };
 
-    /// The upright plane with a normal, x to the right where that is possible.
+    /// The upright plane with a normal; x points to the right if that is possible.
     fn across(normal: Vector3<f64>) -> Self {
         let right = Vector3::new(-normal.y, normal.x, 0.0).normalize();
         let is_back = if right.x.abs() > TURNED { right.x < 0.0 } else { right.y < 0.0 };
@@ -170,7 +170,7 @@ impl Mesh {
         sum.fold(Vector3::zeros(), |sum, it| sum + it).try_normalize(0.0)
     }
 
-    /// Whether all faces are along a direction, or at one of the two ends across it.
+    /// Whether all faces are parallel to the direction `across`, or lie at one of the two ends across it.
     fn is_prism(&self, across: Vector3<f64>) -> bool {
         let [from, to] = self.extent(across);
         let is_at_end = |k: &usize| {
@@ -189,7 +189,7 @@ impl Mesh {
         extent(self.corners.iter(), along)
     }
 
-    /// For each corner the first at the same place: some programs give every face corners of its own.
+    /// The first corner at the place of each corner: some programs give every face separate corners.
     fn welded(&self) -> Vec<usize> {
         let mut first = BTreeMap::new();
         let key = |it: &Point3<f64>| [it.x, it.y, it.z].map(f64::to_bits);

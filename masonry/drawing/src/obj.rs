@@ -7,7 +7,7 @@ use super::mesh::{self, Mesh};
 use super::shapes::{MOST_POINTS, MOST_SHAPES};
 use super::{Drawing, DrawingError, DrawingErrorKind, DrawnLine, Place};
 
-/// The material of faces that name none.
+/// The material of faces without a material.
 const MATERIAL: &str = "stone";
 
 /// A file that is read line by line.
@@ -20,7 +20,7 @@ struct Reader {
     material: Option<String>,
 }
 
-/// A line that has no plane yet.
+/// A line in space, before there is a plane.
 struct SpaceLine {
     /// Numbers of corners.
     points: Vec<usize>,
@@ -79,7 +79,8 @@ impl Reader {
                     push(&mut self.bodies, body, &place)?;
                 }
             }
-            // Normals, textures and smoothing do not matter; a file of another kind has no faces, which is an error later.
+            // Normals, textures and smoothing do not matter; a file of another kind has no faces, which is an error
+            // later.
             _ => {}
         }
         Ok(())
@@ -108,7 +109,7 @@ impl Reader {
         Ok(())
     }
 
-    /// The corners of a face or line: numbers from 1, or from the last backwards.
+    /// The corners of a face or line: numbers from 1, or negative ones from the last backwards.
     fn indices<'a>(
         &self,
         words: impl Iterator<Item = &'a str>,
@@ -138,7 +139,7 @@ impl Reader {
     }
 }
 
-/// Adds a body or a line, of which there are not too many.
+/// Adds a body or a line, unless there are too many.
 fn push<T>(list: &mut Vec<T>, item: T, place: &Place) -> Result<(), DrawingError> {
     if list.len() == MOST_SHAPES {
         let kind = DrawingErrorKind::TooMany { what: "bodies or lines", limit: MOST_SHAPES };
@@ -149,7 +150,7 @@ fn push<T>(list: &mut Vec<T>, item: T, place: &Place) -> Result<(), DrawingError
 }
 
 impl Mesh {
-    /// The body with its own corners, of those of the file.
+    /// The body with only its own corners from those of the file.
     fn own(&self, corners: &[Point3<f64>]) -> Self {
         let mut numbers = std::collections::BTreeMap::new();
         let mut own = Self { faces: Vec::new(), ..self.clone() };

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-/// A place in a file: what is there, and its line.
+/// A place in a file: the entity, and its line.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Default)]
 pub struct Place {
     /// The entity, with its handle or name.
@@ -29,10 +29,10 @@ impl fmt::Display for Place {
     }
 }
 
-/// A character, or its replacement if a terminal would obey it.
+/// The character, or a replacement if it controls a terminal.
 pub(super) fn harmless(c: char) -> char {
     if c.is_control() { char::REPLACEMENT_CHARACTER } else { c }
 }
 
-/// Characters of a name that are shown. Chosen: one line of a terminal.
+/// The number of characters of a name that are shown. Chosen: one line of a terminal.
 const LONGEST_NAME: usize = 100;

@@ -1,4 +1,4 @@
-//! Outlines and lines, and what a reader says of them.
+//! Outlines and lines, and the changes that a reader makes.
 
 use nalgebra::Point2;
 
@@ -6,19 +6,20 @@ use super::error::{DrawingError, DrawingErrorKind};
 use super::place::{Place, harmless};
 use super::unit::Unit;
 
-/// Outlines and lines of a drawing, after blocks were inserted. Chosen: a hundred times a wall of 1500 stones.
+/// The largest number of outlines and lines of a drawing, after blocks were inserted. Chosen: a hundred times a wall of
+/// 1500 stones.
 pub(super) const MOST_SHAPES: usize = 150_000;
-/// Corners of one outline or line. Chosen: a stone that was scanned has some hundreds.
+/// The largest number of corners of one outline or line. Chosen: a scanned stone has some hundreds.
 pub(super) const MOST_CORNERS: usize = 1000;
-/// Corners of a drawing: those that fit into some tens of megabytes.
+/// The largest number of corners of a drawing. Chosen: they fit into some tens of megabytes.
 pub(super) const MOST_POINTS: usize = 2_000_000;
 
-/// Closed outlines and lines of a file, in its own unit, y up.
+/// Closed outlines and lines of a file, in the unit of the file, y up.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Drawing {
     /// The unit of length, if the file gives it.
     pub unit: Option<Unit>,
-    /// The number of the unit in `$INSUNITS`, if it is none of [`Unit`].
+    /// The number of the unit in `$INSUNITS`, if it is not a [`Unit`].
     pub unknown_unit: Option<i64>,
     /// The extent across the plane, if the file has bodies.
     pub thickness: Option<f64>,
@@ -26,22 +27,22 @@ pub struct Drawing {
     pub outlines: Vec<Outline>,
     /// Open lines.
     pub lines: Vec<DrawnLine>,
-    /// What was simplified or left out.
+    /// The parts that were simplified or left out.
     pub changes: Vec<Change>,
-    /// Corners so far.
+    /// The number of corners so far.
     points: usize,
 }
 
 /// A closed outline: a block, or a support.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Outline {
-    /// Corners, in either direction; the last is not the first again.
+    /// Corners, in either direction; the first is not repeated at the end.
     pub corners: Vec<Point2<f64>>,
     /// The layer, or the material.
     pub layer: String,
     /// The name, if the file gives one.
     pub name: Option<String>,
-    /// Whether the file says that it does not move.
+    /// Whether the file marks the outline as fixed.
     pub is_fixed: bool,
     /// The place in the file.
     pub place: Place,
@@ -50,7 +51,7 @@ pub struct Outline {
 /// An open line of straight pieces.
 #[derive(Debug, Clone, PartialEq)]
 pub struct DrawnLine {
-    /// The ends of its pieces.
+    /// The ends of the pieces.
     pub points: Vec<Point2<f64>>,
     /// The layer.
     pub layer: String,
@@ -58,14 +59,14 @@ pub struct DrawnLine {
     pub place: Place,
 }
 
-/// Something of a drawing that is not in the scene as it was drawn.
+/// A part of a drawing that is not in the scene as it was drawn.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Change {
-    /// What happened.
+    /// The change in words.
     pub what: String,
     /// The place in the file.
     pub place: Place,
-    /// The largest distance by which a point moved, in the unit of the drawing; in metres once it is imported.
+    /// The largest distance by which a point moved: in the unit of the drawing, or in metres after the import.
     pub by: Option<f64>,
 }
 
@@ -86,7 +87,7 @@ impl Drawing {
         Self { unit, ..Self::default() }
     }
 
-    /// What was left out, in words that follow those of an error.
+    /// The first part that was left out, in words that follow an error.
     pub(super) fn left_out(&self) -> String {
         let first = self.changes.first();
         first.map_or(String::new(), |it| format!(" ({}: {})", it.place, it.what))
@@ -110,7 +111,7 @@ impl Drawing {
         Ok(())
     }
 
-    /// Refuses points that are no numbers, or too many.
+    /// Counts points, and refuses points that are too many or have no finite place.
     fn count(&mut self, points: &[Point2<f64>], place: &Place) -> Result<(), DrawingError> {
         let is_place = |it: &f64| it.abs() < FARTHEST;
         if !points.iter().flat_map(|point| point.iter()).all(is_place) {
@@ -140,7 +141,7 @@ fn shorten(layer: &mut String, place: &mut Place) {
     }
 }
 
-/// Characters of a name. Theory: names in DXF files have 255 at most.
+/// The largest number of characters of a name. Theory: names in DXF files have 255 at most.
 const LONGEST_KEPT: usize = 255;
 
 /// The largest coordinate. Theory: squares of areas stay below the largest number.

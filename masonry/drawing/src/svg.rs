@@ -14,7 +14,8 @@ use super::error::shown;
 use super::shapes::MOST_SHAPES;
 use super::{Change, Drawing, DrawingError, DrawingErrorKind, DrawnLine, Outline, Place, Unit};
 
-/// Groups in groups. Chosen: as blocks in blocks of other formats, with room for those of editors; a stack holds them.
+/// The deepest nesting of groups. Chosen: as for blocks in blocks of other formats, with room for the groups of
+/// editors; a stack holds them.
 const DEEPEST: usize = 64;
 const INKSCAPE: &str = "http://www.inkscape.org/namespaces/inkscape";
 
@@ -36,7 +37,7 @@ pub(super) fn read(text: &str) -> Result<Drawing, DrawingError> {
     Ok(drawing)
 }
 
-/// The unit of the width, and how many are one unit of the coordinates; no unit if the width has none.
+/// The unit of the width, and its number in one unit of the coordinates; no unit if the width has none.
 fn size_of_unit(root: Node) -> (Option<Unit>, f64) {
     let width = root.attribute("width").unwrap_or_default().trim();
     let symbol = width.trim_start_matches(|c: char| c.is_ascii_digit() || "+-.".contains(c));
@@ -52,17 +53,17 @@ fn size_of_unit(root: Node) -> (Option<Unit>, f64) {
 
 struct Reader<'a> {
     drawing: &'a mut Drawing,
-    /// Where lines of the file end.
+    /// The places of the line ends of the file.
     line_ends: Vec<usize>,
 }
 
-/// What holds for all that is inside of a group.
+/// Properties of all contents of a group.
 #[derive(Clone, Copy)]
 struct Frame<'a> {
     map: Matrix3<f64>,
     layer: &'a str,
     depth: usize,
-    /// Whether no group around it has `display: none`.
+    /// Whether there is no `display: none` in the groups around.
     is_drawn: bool,
     /// The nearest `visibility`.
     is_visible: bool,
@@ -88,7 +89,7 @@ impl Reader<'_> {
         }
         let map = frame.map * if is_drawn { transform(node, &place)? } else { Matrix3::identity() };
         let parts = match node.tag_name().name() {
-            // What describes, styles or is only used elsewhere is not drawn.
+            // Elements that describe, style or define something are not drawn.
             "defs" | "metadata" | "title" | "desc" | "style" | "namedview" | "script" => {
                 return Ok(());
             }
@@ -148,7 +149,7 @@ impl Reader<'_> {
     }
 }
 
-/// Whether a drawing in a drawing has its own origin or size.
+/// Whether a nested drawing has its own origin or size.
 fn has_own_coordinates(node: Node) -> bool {
     let is_moved = |name| node.attribute(name).is_some_and(|text| text.trim() != "0");
     node.has_attribute("viewBox") || ["x", "y"].into_iter().any(is_moved)
@@ -173,7 +174,7 @@ fn transform(node: Node, place: &Place) -> Result<Matrix3<f64>, DrawingError> {
     Ok(Matrix3::new(a, c, e, b, d, f, 0.0, 0.0, 1.0))
 }
 
-/// A number of an attribute, zero without it; units of lengths are those of the drawing.
+/// A number of an attribute, zero without the attribute; units of lengths are those of the drawing.
 fn number(node: Node, name: &str, place: &Place) -> Result<f64, DrawingError> {
     let text = node.attribute(name).unwrap_or("0").trim();
     text.parse().map_err(|_| DrawingErrorKind::Number { text: shown(text) }.at(place))

@@ -11,24 +11,24 @@ use crate::error::shown;
 use crate::shapes::MOST_SHAPES;
 use crate::{Change, Drawing, DrawingError, DrawingErrorKind, DrawnLine, Outline, Place};
 
-/// Blocks in blocks. Chosen: drawings have three or four; a block in itself has no end.
+/// The deepest nesting of blocks. Chosen: drawings have three or four levels; a block that contains itself has no end.
 const DEEPEST: usize = 16;
 
-/// A drawing that grows by entities.
+/// A drawing to which entities are added.
 pub(super) struct Expansion<'a> {
     pub(super) blocks: &'a BTreeMap<&'a str, Vec<Record<'a>>>,
     pub(super) hidden: &'a BTreeMap<String, Hidden>,
     pub(super) drawing: &'a mut Drawing,
 }
 
-/// Where entities come to, and how they got there.
+/// The map of entities into the drawing, and the insertions around them.
 #[derive(Clone)]
 struct Frame<'a> {
     map: Matrix3<f64>,
-    /// The layer of what is on layer 0 of a block.
+    /// The layer for entities on layer 0 of a block.
     layer: &'a str,
     depth: usize,
-    /// What follows the place of an entity.
+    /// The text after the place of an entity.
     inside: String,
 }
 
@@ -56,7 +56,7 @@ impl<'a> Expansion<'a> {
             let vertices = records[k + 1..].iter().take_while(is_vertex).count();
             let vertices = &records[k + 1..k + 1 + vertices];
             k += 1 + vertices.len();
-            // Entities of the paper space are a sheet, and no part of the model.
+            // Entities of the paper space belong to a sheet, not to the model.
             if record.flags(67) != 1 {
                 self.add_one(record, vertices, frame, entities)?;
             }
@@ -76,14 +76,14 @@ impl<'a> Expansion<'a> {
         let layer = frame.layer_of(record);
         let hidden = self.hidden.get(&layer.to_lowercase());
         let shape = match record.kind {
-            // The ends of lists, and what blocks carry along.
+            // These are ends of lists, and attributes of blocks.
             "SEQEND" | "ATTRIB" | "ATTDEF" | "VIEWPORT" => return Ok(()),
             _ if record.flags(60) == 1 => {
                 let what = "invisible entities were left out";
                 self.drawing.changes.push(Change::new(what, &frame.place(record)));
                 return Ok(());
             }
-            // What is inserted on a layer that is off has layers of its own.
+            // The contents of an insertion on a layer that is off have layers of their own.
             kind if hidden.is_some_and(|it| kind != "INSERT" || *it == Hidden::Frozen) => {
                 let how = hidden.map_or("off", |it| it.name());
                 let layer = shown(layer);
@@ -170,7 +170,7 @@ impl<'a> Frame<'a> {
     }
 }
 
-/// What an insertion does to a block whose base is the origin; `cell` is the place in a grid of copies.
+/// The map of an insertion for a block whose base is the origin; `cell` is the place in a grid of copies.
 fn placement(record: &Record, cell: Vector2<f64>) -> Result<Matrix3<f64>, DrawingError> {
     let scale = Vector2::new(record.number(41, 1.0)?, record.number(42, 1.0)?);
     let Point2 { coords: at, .. } = record.point(10)?;
@@ -195,7 +195,7 @@ fn cells(record: &Record, place: &Place) -> Result<Vec<Vector2<f64>>, DrawingErr
     Ok((0..rows).flat_map(|row| (0..columns).map(move |column| cell(row, column))).collect())
 }
 
-/// What is seen from behind has its x to the other side.
+/// A mirror image: x changes its sign if entities are seen from behind.
 fn mirror() -> Matrix3<f64> {
     Matrix3::new_nonuniform_scaling(&Vector2::new(-1.0, 1.0))
 }

@@ -2,16 +2,16 @@
 
 use super::pairs::Record;
 
-/// How a layer is not shown.
+/// The reason for which a layer is not shown.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Hidden {
-    /// Blocks that are inserted on it are not shown either.
+    /// Blocks that are inserted on the layer are not shown either.
     Frozen,
     Off,
 }
 
 impl Hidden {
-    /// By the entry of a layer in the tables: a flag, or a negative colour.
+    /// The reason in the entry of a layer in the tables: a flag, or a negative colour.
     pub(super) fn of(layer: &Record) -> Option<Self> {
         const FROZEN: i64 = 1;
         let is_off = layer.flags(62) < 0;

@@ -1,4 +1,4 @@
-//! Pairs of codes and values, and the records that they make.
+//! Pairs of codes and values, and the records that they form.
 
 use nalgebra::Point2;
 
@@ -23,7 +23,8 @@ pub(super) struct Record<'a> {
     pub(super) pairs: Vec<Pair<'a>>,
 }
 
-/// Entities, vertices and entries of tables. Chosen: ten times the shapes that are allowed, in 100 MB of memory.
+/// The largest number of entities, vertices and entries of tables. Chosen: ten times the allowed shapes, in 100 MB of
+/// memory.
 const MOST_RECORDS: usize = 10 * MOST_SHAPES;
 
 /// All records of a file.

@@ -10,7 +10,7 @@ use crate::curve::{Arc, Chords, bulged};
 pub(super) struct Shape {
     pub(super) points: Vec<Point2<f64>>,
     pub(super) is_closed: bool,
-    /// How far chords are from arcs.
+    /// The distance of chords from arcs.
     pub(super) off: f64,
 }
 
@@ -65,9 +65,9 @@ pub(super) fn light_polyline(record: &Record) -> Result<Shape, DrawingError> {
     Ok(joined(&vertices, record.flags(70) & 1 != 0))
 }
 
-/// A polyline of the old kind, whose vertices are records of their own.
+/// A polyline of the old kind, whose vertices are separate records.
 pub(super) fn polyline(record: &Record, vertices: &[Record]) -> Result<Shape, DrawingError> {
-    /// The flag of the points of a frame of a spline, which do not lie on it.
+    /// The flag of points in the frame of a spline, which do not lie on the spline.
     const FRAME: i64 = 16;
     let mut points: Vec<Vertex> = Vec::new();
     for vertex in vertices.iter().filter(|it| it.flags(70) & FRAME == 0) {

@@ -11,7 +11,7 @@ use crate::{DrawingError, DrawingErrorKind, Place};
 pub(super) struct Part {
     pub(super) points: Vec<Point2<f64>>,
     pub(super) is_closed: bool,
-    /// How far chords are from curves.
+    /// The distance of chords from curves.
     pub(super) off: f64,
 }
 
