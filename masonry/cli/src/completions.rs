@@ -12,7 +12,7 @@ pub(super) struct CompletionsArgs {
     shell: Shell,
 }
 
-/// Prints the script for a command with this definition.
+/// Prints the completion script for the command of this definition.
 pub(super) fn run(args: &CompletionsArgs, mut command: clap::Command) -> Result<u8, Failure> {
     let name = command.get_name().to_owned();
     let mut script = Vec::new();

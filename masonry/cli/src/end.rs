@@ -1,4 +1,4 @@
-//! What every command ends with: its exit code, and what it prints.
+//! The end of every command: its exit code, and its output.
 
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -23,7 +23,7 @@ pub(super) fn listing(files: &[PathBuf]) -> String {
     lines.join("\n") + "\n"
 }
 
-/// Refuses a file that would take the place of the scene, or of its list of blocks.
+/// Refuses a file that would replace the scene, or its list of blocks.
 pub(super) fn keep_scene(scene: &Scene, file: &Path, option: &str) -> Result<(), Failure> {
     if scene.files().any(|of_scene| is_same(of_scene, file)) {
         let file = file.display();
@@ -32,10 +32,10 @@ pub(super) fn keep_scene(scene: &Scene, file: &Path, option: &str) -> Result<(),
     Ok(())
 }
 
-/// The words in a file by which this program knows that it has written it.
+/// The words that mark a file as written by this program.
 pub(super) const MARK: &str = "written by masonry";
 
-/// Refuses a file that this program has not written, or that somebody has worked on since and taken the mark out of.
+/// Refuses a file that this program has not written, or whose mark a user has removed since.
 pub(super) fn keep_foreign(file: &Path, option: &str) -> Result<(), Failure> {
     let is_own = |bytes: Vec<u8>| {
         bytes.is_empty() || bytes.windows(MARK.len()).any(|it| it == MARK.as_bytes())
@@ -47,12 +47,12 @@ pub(super) fn keep_foreign(file: &Path, option: &str) -> Result<(), Failure> {
     Err(format!("{file} would be overwritten, and masonry has not written it: move it away, or choose another {option}").into())
 }
 
-/// Whether two paths lead to the same file or directory, which exists.
+/// Whether two paths lead to the same existing file or directory.
 pub(super) fn is_same(one: &Path, other: &Path) -> bool {
     one.canonicalize().is_ok_and(|one| other.canonicalize().is_ok_and(|other| one == other))
 }
 
-/// A message without characters that control a terminal: paths and names in it may have them.
+/// A message without characters that control a terminal: paths and names in a message may have them.
 pub(super) fn without_controls(message: &str) -> String {
     let shown = |it: char| -> String {
         if it.is_control() && it != '\n' { it.escape_default().collect() } else { it.into() }
@@ -60,7 +60,7 @@ pub(super) fn without_controls(message: &str) -> String {
     message.chars().map(shown).collect()
 }
 
-/// A closed pipe is the reader's choice, not a failure of ours.
+/// Prints a text. A closed pipe does not count as a failure: the reader has closed it.
 pub(super) fn print(text: &str) -> Result<(), Failure> {
     match std::io::stdout().write_all(text.as_bytes()) {
         Err(error) if error.kind() == std::io::ErrorKind::BrokenPipe => Ok(()),

@@ -1,4 +1,4 @@
-//! `masonry import`: a scene of a drawing.
+//! `masonry import`: a scene from a drawing.
 
 use std::path::{Path, PathBuf};
 
@@ -19,10 +19,10 @@ pub(super) struct ImportArgs {
     /// A picture (SVG) of the drawing under the blocks.
     #[arg(long)]
     picture: Option<PathBuf>,
-    /// What is nearer than this belongs together [m]; by default a part of the shortest edge.
+    /// Distance up to which corners and edges are joined [m]; by default a part of the shortest edge.
     #[arg(long)]
     tolerance: Option<f64>,
-    /// The unit of the drawing, in place of that of the file.
+    /// The unit of the drawing, instead of the unit in the file.
     #[arg(long, value_enum)]
     unit: Option<UnitName>,
     /// A factor of all lengths.
@@ -31,7 +31,7 @@ pub(super) struct ImportArgs {
     /// Thickness out of the plane [m].
     #[arg(long)]
     thickness: Option<f64>,
-    /// What becomes of joints that are drawn open.
+    /// The treatment of joints that are drawn open.
     #[arg(long, value_enum)]
     joints: Option<JointsName>,
     /// Density of the blocks [kg/m3].
@@ -90,7 +90,7 @@ pub(super) fn run(args: &ImportArgs) -> Result<u8, Failure> {
             written.push(file.clone());
         }
     }
-    // A scene that is printed has the report at its top, and nothing follows it.
+    // The text of a printed scene has the report at its top, and nothing follows it.
     let shown = if args.out.is_some() { imported.report() + &listing(&written) } else { text };
     print(&shown)?;
     Ok(SOLVED)

@@ -1,14 +1,14 @@
-//! Ctrl-C: the first asks a run to end with what is known, the second ends the program at once.
+//! Ctrl-C: the first one makes a run end with the results so far, the second one ends the program at once.
 
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// What shells expect of a program that Ctrl-C has ended.
+/// The exit code for a program that Ctrl-C has ended, by the convention of shells.
 const ENDED_BY_SIGNAL: i32 = 130;
 
 static ASKED: AtomicBool = AtomicBool::new(false);
 
-/// Makes Ctrl-C ask the run to end. A system without such signals goes on ending the program.
+/// Makes Ctrl-C request the end of the run. On a system without such signals, Ctrl-C still ends the program.
 pub(super) fn listen() {
     let _ = ctrlc::set_handler(|| {
         if ASKED.swap(true, Ordering::SeqCst) {
@@ -18,7 +18,7 @@ pub(super) fn listen() {
     });
 }
 
-/// Whether the run should go on.
+/// `Continue` if the run should go on.
 pub(super) fn asked() -> ControlFlow<()> {
     if ASKED.load(Ordering::SeqCst) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
 }

@@ -26,7 +26,7 @@ enum Law {
     Associative,
     /// Coulomb's friction: the factor grows step by step until the blocks no longer come to rest.
     Path,
-    /// Both, one after the other.
+    /// Both laws, one after the other.
     Both,
 }
 
@@ -48,10 +48,11 @@ pub(super) struct LimitArgs {
     /// The law of friction.
     #[arg(long, value_enum, default_value_t = Law::Both)]
     law: Law,
-    /// The load or group of loads that grows, in place of that of the scene.
+    /// The load or group of loads that grows, instead of that of the scene.
     #[arg(long, conflicts_with = "range")]
     group: Option<String>,
-    /// Also take the opposite direction of the load, from which an earthquake comes as well; files are of the one that governs.
+    /// Also take the opposite direction of the load, since an earthquake comes from both sides; files are of the one
+    /// that governs.
     #[arg(long, conflicts_with_all = ["range", "thickness"])]
     both: bool,
     /// Find the least and the largest reactions under the loads of the scene instead.
@@ -100,7 +101,7 @@ pub(super) fn run(args: &LimitArgs) -> Result<u8, Failure> {
         Some(out) => output::write(limit, found.cases(), out.path()),
         None => Ok(Vec::new()),
     };
-    // What was computed is printed even when a file could not be written.
+    // The results are printed even if a file could not be written.
     let in_out = written.as_deref().unwrap_or_default();
     let mut files = in_out.to_vec();
     let page = || report::page::limit(limit, found.cases());
@@ -143,7 +144,7 @@ fn search(scene: &Scene, args: &LimitArgs) -> Result<Search, Failure> {
         progress.clear();
         match opposite {
             Ok(opposite) => Found::Both(Box::new(Directions::of(given, opposite))),
-            // The bounds of the given direction are reported all the same.
+            // The bounds of the given direction are still reported.
             Err(error) => {
                 failed = Some(format!("the opposite direction has no answer: {error}").into());
                 Found::Given(Box::new(given))
@@ -163,8 +164,8 @@ fn search(scene: &Scene, args: &LimitArgs) -> Result<Search, Failure> {
     Ok(Search { found, failed })
 }
 
-/// The limit loads of all combinations in which the group acts. Earthquakes come from both sides in any case, other loads with
-/// `--both`.
+/// The limit loads of all combinations in which the group acts. Earthquakes act in both directions in any case, other
+/// loads with `--both`.
 fn combined(scene: &Scene, args: &LimitArgs) -> Result<Search, Failure> {
     let group = growing(scene)?;
     let mut scenes = scene.combined();
@@ -202,7 +203,7 @@ fn combined(scene: &Scene, args: &LimitArgs) -> Result<Search, Failure> {
     }
 }
 
-/// The limit load of a train where it governs.
+/// The limit load of a train at the position that governs.
 fn crossing(scene: &Scene, args: &LimitArgs) -> Result<Search, Failure> {
     let progress = Progress::new();
     let crossing = train_observed(scene, args.law.into(), &mut |at| follow(&progress, at))?;
@@ -217,7 +218,7 @@ struct Search {
     failed: Option<Failure>,
 }
 
-/// What was found.
+/// The result for a scene, a direction, all combinations, or a train.
 enum Found {
     Given(Box<Limit>),
     Both(Box<Directions>),
@@ -266,7 +267,7 @@ impl Found {
     }
 }
 
-/// Shows what is known; after Ctrl-C asks the search to end.
+/// Shows the known bounds; ends the search after Ctrl-C.
 fn follow(progress: &Progress, at: Bracket) -> ControlFlow<()> {
     let known = [("stands at", at.stands), ("falls at", at.falls)];
     let known: Vec<String> = known

@@ -10,7 +10,7 @@ use masonry_live::server::{Desk, Server};
 
 #[derive(Debug, Args)]
 pub(super) struct LiveArgs {
-    /// The scene file (TOML); without one the page begins with a choice of scenes.
+    /// The scene file (TOML); the page begins with a choice of scenes if there is none.
     scene: Option<PathBuf>,
     /// Print the address of the page, and open no browser.
     #[arg(long)]

@@ -33,7 +33,7 @@ use masonry::scene::Scene;
 use masonry_import::read_scene;
 use masonry_report::{dxf, svg, table};
 
-/// How a wall or an arch of blocks carries its load.
+/// Calculates how a wall or an arch of blocks carries its load.
 #[derive(Debug, Parser)]
 #[command(name = "masonry", version, about, arg_required_else_help = true)]
 struct Cli {
@@ -53,7 +53,7 @@ enum Command {
     Study(study::StudyArgs),
     /// Open a page that solves a scene while it is changed.
     Live(live::LiveArgs),
-    /// Make a scene of a drawing: DXF, SVG, OBJ, COMPAS JSON.
+    /// Make a scene from a drawing: DXF, SVG, OBJ, COMPAS JSON.
     Import(import::ImportArgs),
     /// Print or write a commented scene to begin with.
     New(new::NewArgs),
@@ -69,7 +69,7 @@ enum Command {
 struct PlanArgs {
     /// The scene file (TOML).
     scene: PathBuf,
-    /// The route to the solution, in place of that of the scene.
+    /// The route to the solution, instead of that of the scene.
     #[arg(long)]
     route: Option<RouteValue>,
     /// Print one JSON object instead of the report.
@@ -84,8 +84,8 @@ struct DrawArgs {
     /// The picture; by default next to the scene, with the extension `.svg`.
     #[arg(long)]
     out: Option<PathBuf>,
-    /// Also solve the scene, and write blocks, forces, line of thrust and mechanism as a drawing (DXF); the picture only with
-    /// `--out`.
+    /// Also solve the scene, and write blocks, forces, line of thrust and mechanism as a drawing (DXF); the picture is
+    /// written only with `--out`.
     #[arg(long, value_name = "FILE")]
     dxf: Option<PathBuf>,
 }

@@ -34,7 +34,7 @@ pub(super) fn run(args: &NewArgs) -> Result<u8, Failure> {
     Ok(SOLVED)
 }
 
-/// The kinds of scenes, with what they mean.
+/// The kinds of scenes, with their meanings.
 fn kinds() -> PossibleValuesParser {
     PossibleValuesParser::new(BEGINNINGS.map(|it| PossibleValue::new(it.name).help(it.meaning)))
 }

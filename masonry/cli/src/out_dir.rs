@@ -1,5 +1,5 @@
-//! The directory that a run writes into: tried before the work, used by one run at a time, and cleared of what the last run
-//! of the same command has left.
+//! The directory that a run writes into: tried before the work, used by one run at a time, and cleared of the files of
+//! the last run of the same command.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs::{self, File, TryLockError};
@@ -9,30 +9,30 @@ use std::path::{Component, Path, PathBuf};
 use crate::end::{Failure, names};
 use masonry_report as report;
 
-/// The file that is locked. It lists what the last run of every command has written.
+/// The file that is locked. It lists the files that the last run of every command has written.
 pub(super) const RECORD: &str = ".masonry.json";
 
 /// Names of files by the name of the command.
 type Record = BTreeMap<String, BTreeSet<String>>;
 
-/// A directory that nobody else writes into.
+/// A directory that no other run writes into.
 #[derive(Debug)]
 pub(super) struct OutDir {
     path: PathBuf,
     command: &'static str,
-    /// The system unlocks it if a run ends without a word.
+    /// The locked file; the system unlocks it if a run is killed.
     file: File,
     record: Record,
-    /// What this run has written or goes on from.
+    /// The files that this run has written or continues from.
     claimed: BTreeSet<String>,
-    /// What was made for it, innermost first.
+    /// The directories and the record that this run has created, innermost first.
     made: Vec<PathBuf>,
     is_used: bool,
 }
 
 impl OutDir {
-    /// Makes a directory if there is none, and locks it until the end of the run, which goes on from a file there or from
-    /// nothing.
+    /// Creates a directory if there is none, and locks it until the end of the run, which continues from the file
+    /// `from`, if any.
     pub(super) fn open(
         path: &Path,
         command: &'static str,
@@ -58,7 +58,7 @@ impl OutDir {
             .map_err(failed)?;
         match file.try_lock() {
             Ok(()) => {}
-            // Some file systems of networks have no locks.
+            // Some network file systems have no locks.
             Err(TryLockError::Error(error)) if error.kind() == ErrorKind::Unsupported => {}
             Err(TryLockError::Error(error)) => return Err(failed(error).into()),
             Err(TryLockError::WouldBlock) => {
@@ -71,7 +71,7 @@ impl OutDir {
         }
         let mut text = String::new();
         file.read_to_string(&mut text).map_err(failed)?;
-        // A run that was killed while it wrote the record has left none.
+        // A run that was killed while it wrote the record has left no record.
         let record: Record = serde_json::from_str(&text).unwrap_or_default();
         let (path, claimed) = (path.to_owned(), BTreeSet::new());
         let opened = Self { path, command, file, record, claimed, made, is_used: false };
@@ -87,7 +87,7 @@ impl OutDir {
         .into())
     }
 
-    /// Files in the way of those that runs write, which no run has written.
+    /// Existing files that no run has written, with the names of files that runs write.
     fn foreign(&self, from: Option<&str>) -> Vec<&'static str> {
         let is_own = |name: &str| {
             from == Some(name) || self.record.values().any(|names| names.contains(name))
@@ -100,7 +100,7 @@ impl OutDir {
         &self.path
     }
 
-    /// Takes a file for one of this run, before it is written.
+    /// Records a file as written by this run, before it is written.
     pub(super) fn claim(&mut self, name: &str) -> Result<(), Failure> {
         if !self.claimed.insert(name.to_owned()) {
             return Ok(());
@@ -110,13 +110,13 @@ impl OutDir {
         self.write(&record)
     }
 
-    /// Ends a run that has written these files: what the last one of the same command has left besides is removed, or else
-    /// `kept`. Says on standard error which.
+    /// Ends a run that has written these files: other files of the last run of the same command are removed, or stay if
+    /// `kept`. Lists them on standard error.
     pub(super) fn finish(mut self, written: &[PathBuf], kept: bool) -> Result<(), Failure> {
         self.claimed.extend(names(written));
         let mut record = self.record.clone();
         let earlier = record.remove(self.command).unwrap_or_default();
-        // What another command has written before is not its file any more.
+        // A file that this run has written no longer belongs to another command.
         for names in record.values_mut() {
             names.retain(|name| !self.claimed.contains(name));
         }
@@ -155,20 +155,20 @@ impl OutDir {
     }
 }
 
-/// A run that ended before it wrote anything leaves nothing.
+/// Removes the created directories if a run ends before it has written anything.
 impl Drop for OutDir {
     fn drop(&mut self) {
         if self.is_used {
             return;
         }
         for path in &self.made {
-            // Others may have put something into a directory by now.
+            // Other programs may have written into a directory by now.
             let _ = if path.is_dir() { fs::remove_dir(path) } else { fs::remove_file(path) };
         }
     }
 }
 
-/// Whether it is the name of a file in the directory itself.
+/// Whether `name` is the name of a file in the directory itself.
 fn is_file_name(name: &str) -> bool {
     let mut parts = Path::new(name).components();
     matches!((parts.next(), parts.next()), (Some(Component::Normal(_)), None))

@@ -9,7 +9,7 @@ use masonry::files::write_atomically;
 use masonry::scene::Scene;
 use masonry_report as report;
 
-/// Says before the work whether a page of a scene can be written at all, beside the files of a run into `out`.
+/// Checks before the work whether the page of a scene can be written, beside the files of a run into `out`.
 pub(super) fn check(path: Option<&Path>, scene: &Scene, out: Option<&Path>) -> Result<(), Failure> {
     let Some(path) = path else { return Ok(()) };
     keep_scene(scene, path, "--report")?;

@@ -7,7 +7,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 use crate::interrupt;
 use masonry::analysis::solve::Event;
 
-/// A spinner with the present phase; hidden when standard error is not a terminal.
+/// A spinner with the present phase; hidden if standard error is not a terminal.
 pub(super) struct Progress(ProgressBar);
 
 impl Progress {
@@ -19,7 +19,7 @@ impl Progress {
         Self(bar)
     }
 
-    /// Shows how far a solve is; after Ctrl-C asks it to end.
+    /// Shows the progress of a solve; ends the solve after Ctrl-C.
     pub(super) fn show(&mut self, event: Event) -> ControlFlow<()> {
         self.0.set_message(match event {
             Event::Step { number, of } => format!("step {number} of {of}"),

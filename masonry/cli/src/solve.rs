@@ -31,13 +31,13 @@ pub(super) struct SolveArgs {
     /// Directory for pictures, tables and a mesh; created if it does not exist.
     #[arg(long)]
     out: Option<PathBuf>,
-    /// The route to the solution, in place of that of the scene.
+    /// The route to the solution, instead of that of the scene.
     #[arg(long)]
     route: Option<RouteValue>,
     /// Continue a load history from `checkpoint.json` in the directory of `--out`.
     #[arg(long, requires = "out")]
     resume: bool,
-    /// Leave out the second loading of a load history, which says how far its answer is unique.
+    /// Leave out the second loading of a load history, which shows how far its answer is unique.
     #[arg(long)]
     no_spread: bool,
     /// Also write the report with its pictures as one page of HTML.
@@ -69,7 +69,7 @@ pub(super) fn run(args: &SolveArgs) -> Result<u8, Failure> {
         Some(out) => report::write_all(&outcome, out.path(), &options),
         None => Ok(Vec::new()),
     };
-    // What was computed is printed even when a file could not be written.
+    // The results are printed even if a file could not be written.
     in_out.extend_from_slice(written.as_deref().unwrap_or_default());
     let mut files = in_out.clone();
     let (reference, lines) = (options.reference.as_ref(), lines.as_ref());
@@ -95,7 +95,7 @@ pub(super) fn run(args: &SolveArgs) -> Result<u8, Failure> {
     Ok(if outcome.judgement.verdict == Verdict::Stands { SOLVED } else { NOT_SOLVED })
 }
 
-/// Solves all combinations, until Ctrl-C; what became of the one that governs, and a line for each.
+/// Solves all combinations, until Ctrl-C; returns the result of the one that governs, and a line for each.
 fn run_combinations(scene: &Scene, args: &SolveArgs) -> Result<(Ran, Option<Cases>), Failure> {
     if args.resume {
         return Err(CheckpointError::OneStep.into());
@@ -113,18 +113,18 @@ fn run_combinations(scene: &Scene, args: &SolveArgs) -> Result<(Ran, Option<Case
     let lines = Cases::of_outcomes(&list);
     let governs = lines.as_ref().map_or(0, Cases::governs);
     let outcome = list.swap_remove(governs).of;
-    // Without stages there is nothing to go on from, and no step has pictures of its own.
+    // Without stages, there is no step to continue from, and no step has a picture.
     Ok((Ran { outcome, frames: Vec::new(), files: Vec::new(), end: Ok(()) }, lines))
 }
 
-/// What became of all steps.
+/// The result of all steps.
 struct Ran {
     outcome: Outcome,
-    /// The steps that a page has pictures of, with `--report`.
+    /// The steps that have pictures on the page of `--report`.
     frames: Vec<Frame>,
     /// The checkpoint, if one was written.
     files: Vec<PathBuf>,
-    /// What went wrong after a step that was solved.
+    /// The error after a step that was solved.
     end: Result<(), Failure>,
 }
 
@@ -177,7 +177,7 @@ fn run_steps(
     Ok(Ran { outcome: run.finish(), frames, files, end })
 }
 
-/// After an interruption: the command that continues from the last step, on standard error.
+/// Prints the command that continues an interrupted run from its last step on standard error.
 fn say_how_to_go_on(args: &SolveArgs, outcome: &Outcome) {
     let Some(history) = &outcome.history else { return };
     let (solved, steps) = (history.records.len(), history.steps);
@@ -205,7 +205,7 @@ fn say_how_to_go_on(args: &SolveArgs, outcome: &Outcome) {
     }
 }
 
-/// A path as shells read it.
+/// A path, quoted for shells.
 fn quoted(path: &Path) -> String {
     let text = path.display().to_string();
     let is_plain = |c: char| c.is_alphanumeric() || "/._-+:,@".contains(c);

@@ -46,7 +46,7 @@ pub(super) fn run(args: &StudyArgs) -> Result<u8, Failure> {
     let progress = Progress::new();
     let mut shown = None;
     let study = study(&scene, &settings, &mut |at| {
-        // Nothing else while a time is measured.
+        // Other texts would disturb the measurement of times.
         if shown != Some(at) {
             progress.say(format!("mesh {}, {} to {:e}", at.mesh, at.route.name(), at.tolerance));
             shown = Some(at);
@@ -59,7 +59,7 @@ pub(super) fn run(args: &StudyArgs) -> Result<u8, Failure> {
         Some(out) => output::write(&study, out.path()),
         None => Ok(Vec::new()),
     };
-    // What was computed is printed even when a file could not be written.
+    // The results are printed even if a file could not be written.
     let files = written.as_deref().unwrap_or_default();
     if args.json {
         let names = names(files);

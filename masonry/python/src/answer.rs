@@ -1,4 +1,4 @@
-//! Answers as Python sees them.
+//! Answers for Python.
 
 use lcp::{Certificate, Info, Residuals, Solution};
 use numpy::PyArray1;
@@ -6,13 +6,13 @@ use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 use serde_json::json;
 
-/// The answer of a solver: arrays, and the rest as JSON when it is asked for.
+/// The answer of a solver: arrays, and the rest as JSON on request.
 #[pyclass(frozen)]
 pub(crate) struct Answer {
     /// The name of the status.
     #[pyo3(get)]
     status: String,
-    /// The arrays of the point, in the order of the names that the Python half gives them.
+    /// The arrays of the point, in the order of their names in the Python half.
     #[pyo3(get)]
     arrays: Vec<Py<PyArray1<f64>>>,
     residuals: Residuals,

@@ -49,7 +49,7 @@ fn checked(what: &str, value: i64, largest: usize) -> PyResult<usize> {
     })
 }
 
-/// A matrix as Python gives it.
+/// A matrix from Python.
 #[derive(FromPyObject)]
 pub(crate) enum GivenMatrix<'py> {
     Dense(PyReadonlyArray2<'py, f64>),
@@ -166,7 +166,7 @@ fn from_rows(values: &[f64], rows: usize, columns: usize) -> Mat<f64> {
     matrix
 }
 
-/// Rows of a band. Theory: sixteen rows at a time use whole lines of the cache on both sides.
+/// The number of rows of a band. Theory: sixteen rows at a time use whole lines of the cache on both sides.
 const BAND: usize = 16;
 
 /// A vector as Python gives it.

@@ -50,12 +50,12 @@ pub(crate) struct Contact {
 
 struct Held {
     problem: Contact2d,
-    /// Of the first points; those that were added since are open.
+    /// Statuses of the first points; points that were added since are open.
     statuses: Option<Vec<ContactStatus>>,
 }
 
 impl Held {
-    /// The problem under other loads, and a start from the states that are known.
+    /// The problem under other loads, and a start from the known states.
     fn under(&self, f: Vec<f64>) -> Result<(Contact2d, WarmStart), Error> {
         let problem = self.problem.with_loads(f)?;
         let start = self.statuses.as_ref().map_or(WarmStart::None, |known| {
@@ -68,7 +68,7 @@ impl Held {
 }
 
 impl Contact {
-    /// What is held. No solve runs meanwhile, so that nobody waits for long.
+    /// The problem and its states, locked. No solve runs under the lock, so that other threads do not wait for long.
     fn held(&self) -> MutexGuard<'_, Held> {
         self.held.lock().unwrap_or_else(PoisonError::into_inner)
     }
@@ -82,7 +82,7 @@ impl Contact {
         Ok(Self { held: Mutex::new(Held { problem, statuses: None }) })
     }
 
-    /// Takes other points, the first of which are those of before.
+    /// Takes other points, which begin with those of before.
     fn renew(&self, points: Points<'_>) -> PyResult<()> {
         let mut held = self.held();
         let Held { problem, .. } = &*held;

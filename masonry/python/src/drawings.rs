@@ -9,7 +9,7 @@ use crate::failure::{SceneError, wrong};
 use crate::scene::PyScene;
 use crate::watch::detached;
 
-/// How a drawing becomes a scene; `None` is the default.
+/// Options of the import of a drawing; `None` is the default.
 #[derive(FromPyObject)]
 pub(crate) struct GivenImport {
     #[pyo3(item)]
@@ -77,7 +77,7 @@ impl Imported {
         PyScene { scene: self.imported.scene.clone() }
     }
 
-    /// What was changed, left out and assumed.
+    /// The changes, the parts left out, and the assumptions.
     fn report(&self) -> String {
         self.imported.report()
     }

@@ -16,7 +16,7 @@ pub(crate) fn wrong(error: impl std::fmt::Display) -> PyErr {
     SceneError::new_err(error.to_string())
 }
 
-/// A fault of what writes results, which no data can cause.
+/// A fault of the writer of results, which no data can cause.
 pub(crate) fn failed(error: impl std::fmt::Display) -> PyErr {
     PyRuntimeError::new_err(error.to_string())
 }

@@ -1,4 +1,4 @@
-//! The problems, each by the methods that treat it.
+//! The forms of problems, each with the methods that treat it.
 #![expect(clippy::needless_pass_by_value, reason = "functions own what they take from Python")]
 
 use lcp::{BoxedLcp, HorizontalLcp, Lcp, Method, MixedLcp, Qp, Solution, WarmStart};
@@ -9,7 +9,7 @@ use crate::arrays::{GivenMatrix, GivenVector, vector};
 use crate::options::{Options, by_method};
 use crate::watch::{refused, solve};
 
-/// `w = M z + q`
+/// Solves `w = M z + q`.
 #[pyfunction]
 pub(crate) fn solve_standard(
     py: Python<'_>,
@@ -25,7 +25,7 @@ pub(crate) fn solve_standard(
     Ok(Answer::of_pairs(py, solution))
 }
 
-/// `A t + B y = c`
+/// Solves `A t + B y = c`.
 #[pyfunction]
 pub(crate) fn solve_horizontal(
     py: Python<'_>,
@@ -43,7 +43,7 @@ pub(crate) fn solve_horizontal(
     Ok(Answer::of_pairs(py, solution))
 }
 
-/// `w = M z + q` with free variables.
+/// Solves `w = M z + q` with free variables.
 #[pyfunction]
 pub(crate) fn solve_mixed(
     py: Python<'_>,
@@ -65,7 +65,7 @@ fn mixed(py: Python<'_>, problem: &MixedLcp, options: &Options) -> PyResult<Solu
     )
 }
 
-/// `w = M z + q` between bounds.
+/// Solves `w = M z + q` between bounds.
 #[pyfunction]
 pub(crate) fn solve_boxed(
     py: Python<'_>,
@@ -85,8 +85,8 @@ pub(crate) fn solve_boxed(
     Ok(Answer::new(py, solution, vec![z, w]))
 }
 
-/// `min x.P x / 2 + q.x` with `l <= A x <= u` and bounds of `x`. The arrays are `x`, the multipliers of rows and bounds, and the
-/// objective.
+/// Minimises `x.P x / 2 + q.x` with `l <= A x <= u` and bounds of `x`. The arrays are `x`, the multipliers of rows and
+/// bounds, and the objective.
 #[pyfunction]
 #[expect(clippy::too_many_arguments, reason = "the data of a program")]
 pub(crate) fn solve_program(

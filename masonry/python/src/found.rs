@@ -1,4 +1,4 @@
-//! What analyses have found: plans, limits, ranges, thicknesses, studies.
+//! Results of analyses: plans, limits, ranges, thicknesses, studies.
 
 use masonry::analysis::limit::{CrossingTrain, Directions};
 use masonry::analysis::study::Study;
@@ -9,7 +9,7 @@ use pyo3::prelude::*;
 
 use crate::failure::failed;
 
-/// What an analysis has found, as text, JSON and a page.
+/// The result of an analysis, as text, JSON and a page.
 #[pyclass(frozen, get_all)]
 pub(crate) struct Found {
     text: String,
@@ -54,7 +54,7 @@ impl Found {
     }
 }
 
-/// What a study has found.
+/// The result of a study.
 #[pyclass(frozen)]
 pub(crate) struct Studied {
     pub(crate) study: Study,

@@ -1,5 +1,6 @@
-//! The native half of the Python packages `lcp` and `masonry`: problems from arrays and scenes from keys, solves without the
-//! interpreter's lock, and answers as arrays. What a user sees is in `python/lcp` and `python/masonry`.
+//! The native half of the Python packages `lcp` and `masonry`: problems from arrays and scenes from keys, solves
+//! without the interpreter's lock, and answers as arrays. The interface for users is in `python/lcp` and
+//! `python/masonry`.
 
 mod answer;
 mod arrays;

@@ -36,8 +36,8 @@ pub(crate) fn solve_many(
     Ok(answers.into_iter().map(|answer| Answer::of_pairs(py, answer)).collect())
 }
 
-/// The solutions of all problems. Workers take one after the other, while this thread, to which the signals of the process come,
-/// looks for them.
+/// The solutions of all problems. Workers take one problem after the other, while this thread, which receives the
+/// signals of the process, checks for signals.
 fn solved(solver: &Auto, problems: &[Lcp]) -> PyResult<Vec<Solution<Lcp>>> {
     let cores = thread::available_parallelism().map_or(1, NonZero::get);
     let (next, is_over) = (AtomicUsize::new(0), AtomicBool::new(false));
@@ -57,7 +57,7 @@ fn solved(solver: &Auto, problems: &[Lcp]) -> PyResult<Vec<Solution<Lcp>>> {
                     let number = next.fetch_add(1, Ordering::Relaxed);
                     let Some(problem) = problems.get(number) else { break };
                     let answer = solver.solve_observed(problem, &mut { observer });
-                    // Nobody listens after an exception.
+                    // The receiver is gone after an exception.
                     let _ = sender.send((number, answer));
                 }
             };
@@ -86,7 +86,7 @@ fn solved(solver: &Auto, problems: &[Lcp]) -> PyResult<Vec<Solution<Lcp>>> {
 /// A standard problem that is solved for one `q` after the other.
 #[pyclass(frozen)]
 pub(crate) struct Sequence {
-    /// One thread at a time solves.
+    /// The sequence, locked: one thread solves at a time.
     sequence: Mutex<lcp::Sequence<usize>>,
 }
 

@@ -1,4 +1,4 @@
-//! What a caller may choose, for all problems alike.
+//! Options of a caller, equal for all problems.
 
 use std::time::Duration;
 
@@ -25,7 +25,7 @@ pub(crate) struct Options {
     pub(crate) callback: Option<Py<PyAny>>,
 }
 
-/// Solves by the method of the options, one of those that treat the problem; the names are these and those that treat all problems.
+/// Solves by the method of the options, which is one of the methods for the problem or one of those for all problems.
 macro_rules! by_method {
     ($py:expr, $options:expr, $start:expr, $problem:expr, $($method:ident => $solver:ident),*) => {{
         let callback = $options.callback.as_ref();
@@ -40,7 +40,7 @@ macro_rules! by_method {
 }
 pub(crate) use by_method;
 
-/// A method that does not treat the form of a problem, and those that do.
+/// The error for a method that does not treat the form of a problem, with the methods that do.
 pub(crate) fn untreated(method: Method, others: &[Method]) -> PyErr {
     let all = [Method::Auto, Method::Lemke, Method::Enumeration];
     let names: Vec<&str> = all.iter().chain(others).map(|method| method.name()).collect();
@@ -102,7 +102,7 @@ impl Options {
     iterative!(program, QuadraticProgram, QuadraticProgramSettings);
     iterative!(sweeps, ProjectedGaussSeidel, ProjectedGaussSeidelSettings);
 
-    /// Checks that no number of iterations is given to a method that has none.
+    /// Refuses a number of iterations for a method without iterations.
     fn without_iterations(&self) -> PyResult<()> {
         match self.max_iterations {
             None => Ok(()),

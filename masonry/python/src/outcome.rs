@@ -1,4 +1,4 @@
-//! What became of a scene that was solved.
+//! The result of a scene that was solved.
 #![expect(clippy::needless_pass_by_value, reason = "functions own what they take from Python")]
 
 use std::path::PathBuf;
@@ -10,7 +10,7 @@ use pyo3::prelude::*;
 
 use crate::failure::failed;
 
-/// What became of a scene.
+/// The result of a scene.
 #[pyclass(frozen)]
 pub(crate) struct Outcome {
     pub(crate) outcome: masonry::Outcome,
@@ -50,7 +50,7 @@ impl Outcome {
         self.outcome.state.as_ref().map(|state| csv::contacts(&self.outcome.model, state))
     }
 
-    /// The steps of the load history as CSV; `None` without one.
+    /// The steps of the load history as CSV; `None` without a load history.
     fn history(&self) -> Option<String> {
         self.outcome.history.as_ref().map(|history| csv::history(&self.outcome.model, history))
     }
@@ -125,7 +125,7 @@ impl Outcome {
                 None => cell(&mut (0..places.len())),
             }
         }
-        // The stress in a rigid block is not known.
+        // The stress in a rigid block is unknown.
         let mut stresses = vec![vec![f64::NAN; 5]; mesh.blocks.len()];
         for it in state.iter().flat_map(|state| &state.stresses) {
             let [x, y, shear] = it.sigma;
@@ -176,7 +176,7 @@ impl Outcome {
         })
     }
 
-    /// Writes all files into a directory, and gives their paths.
+    /// Writes all files into a directory, and returns their paths.
     fn save(&self, directory: PathBuf) -> PyResult<Vec<PathBuf>> {
         masonry_report::write_all(
             &self.outcome,
@@ -206,7 +206,7 @@ pub(crate) struct Mesh {
     displacements: Py<PyArray2<f64>>,
     /// The points of all cells, one after the other.
     nodes: Py<PyArray1<usize>>,
-    /// Where each cell ends in them.
+    /// The end of each cell in `nodes`.
     ends: Py<PyArray1<usize>>,
     blocks: Py<PyArray1<usize>>,
     /// Two normal stresses, the shear stress and two principal stresses of each cell.

@@ -1,4 +1,4 @@
-//! Scenes of walls and arches, and the analyses of them.
+//! Scenes of walls and arches, and their analyses.
 #![expect(clippy::needless_pass_by_value, reason = "functions own what they take from Python")]
 
 use std::ops::ControlFlow;
@@ -54,7 +54,7 @@ impl PyScene {
         serde_json::to_string(&self.scene).map_err(failed)
     }
 
-    /// What the scene needs, as text and JSON.
+    /// The plan of the scene, as text and JSON.
     fn plan(&self) -> PyResult<Found> {
         let model = masonry::Model::from_scene(&self.scene).map_err(wrong)?;
         Found::plan(&Plan::of(&self.scene, &model))
@@ -65,7 +65,8 @@ impl PyScene {
         Ok(svg::scene(&self.scene.title, &model))
     }
 
-    /// Solves; `callback` hears iterations, and `steps` the number of each step of a load history and how many there are.
+    /// Solves the scene; `callback` receives iterations, and `steps` the number of each step of a load history and the
+    /// number of all steps.
     #[pyo3(signature = (callback = None, steps = None))]
     fn solve(
         &self,
@@ -87,7 +88,7 @@ impl PyScene {
         Ok(Outcome { outcome: outcome.map_err(wrong)? })
     }
 
-    /// The limit load of a group, by the laws of a name, in one direction or in both.
+    /// The limit load of a group, by the laws with a name, in one direction or in both.
     #[pyo3(signature = (group, law, both, callback = None))]
     fn limit(
         &self,
@@ -173,7 +174,7 @@ impl PyScene {
         Found::thickness(&found.map_err(wrong)?)
     }
 
-    /// What accuracy costs; `callback` hears the mesh, the route and the tolerance of the solve that runs.
+    /// The cost of accuracy; `callback` receives the mesh, the route and the tolerance of the solve that runs.
     fn study(
         &self,
         py: Python<'_>,
@@ -196,7 +197,7 @@ impl PyScene {
     }
 }
 
-/// The laws of a name.
+/// The laws with a name.
 fn laws(law: &str) -> PyResult<Laws> {
     match law {
         "associative" => Ok(Laws::Associative),
@@ -208,7 +209,7 @@ fn laws(law: &str) -> PyResult<Laws> {
     }
 }
 
-/// What a study varies; `None` is the default.
+/// The settings that a study varies; `None` is the default.
 #[derive(FromPyObject)]
 pub(crate) struct StudySettings {
     #[pyo3(item)]

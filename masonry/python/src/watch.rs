@@ -1,4 +1,4 @@
-//! Solves that the interpreter's lock does not wait for, and that a callback and Ctrl-C may end.
+//! Solves that release the interpreter's lock, and that a callback and Ctrl-C may end.
 
 use std::ops::ControlFlow;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -9,10 +9,10 @@ use pyo3::call::PyCallArgs;
 use pyo3::exceptions::{PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
 
-/// How long signals may wait. Chosen: a person does not notice it, and the lock is hardly taken.
+/// The longest time that signals wait. Chosen: a person does not notice it, and the lock is hardly taken.
 pub(crate) const PATIENCE: Duration = Duration::from_millis(50);
 
-/// An observer that asks a callback, and the signals of the process, whether to go on. It is used with the lock released.
+/// An observer that ends the work if a callback or a signal of the process requires it. The lock is released meanwhile.
 pub(crate) struct Watch<'a> {
     callback: Option<&'a Py<PyAny>>,
     looked: Instant,
@@ -24,7 +24,7 @@ impl<'a> Watch<'a> {
         Self { callback, looked: Instant::now(), raised: None }
     }
 
-    /// Asks with the arguments of the callback. An exception of the callback or of a signal ends the work.
+    /// Calls the callback with these arguments. An exception of the callback or of a signal ends the work.
     pub(crate) fn ask(&mut self, told: impl for<'py> PyCallArgs<'py>) -> ControlFlow<()> {
         if self.raised.is_some() {
             return ControlFlow::Break(());
@@ -43,12 +43,12 @@ impl<'a> Watch<'a> {
         }
     }
 
-    /// Asks at an iteration of a solver.
+    /// Calls the callback at an iteration of a solver.
     pub(crate) fn at(&mut self, at: &Iteration) -> ControlFlow<()> {
         self.ask((at.iteration, at.residual))
     }
 
-    /// Whether the callback asks for an end, by returning something true.
+    /// Whether the callback ends the work, by returning a true value.
     fn asked(&self, py: Python<'_>, told: impl for<'py> PyCallArgs<'py>) -> PyResult<bool> {
         py.check_signals()?;
         match self.callback {
@@ -63,8 +63,8 @@ impl<'a> Watch<'a> {
     }
 }
 
-/// The result of work with the lock released. A panic is a fault of the library, which Python hears of by an exception that it can
-/// handle.
+/// The result of work with the lock released. A panic is a fault of the library, and becomes an exception that Python
+/// can handle.
 pub(crate) fn detached<T: Send>(py: Python<'_>, work: impl FnOnce() -> T + Send) -> PyResult<T> {
     py.detach(|| catch_unwind(AssertUnwindSafe(work)).ok()).ok_or_else(|| {
         PyRuntimeError::new_err(
@@ -89,7 +89,7 @@ where
     solution.map_err(|error| refused(&error))
 }
 
-/// Bad input as an exception.
+/// An exception for bad input.
 pub(crate) fn refused(error: &Error) -> PyErr {
     PyValueError::new_err(error.to_string())
 }

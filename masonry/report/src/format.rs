@@ -95,7 +95,8 @@ impl InUnits {
     }
 }
 
-/// A stress \[Pa\] for people, in Pa, kPa, MPa or GPa, with its unit after a space that does not break.
+/// A stress \[Pa\] for people, in pascals or thousands, millions or billions of them, with its unit after a space that
+/// does not break.
 pub(super) fn stress_text(pascals: f64) -> String {
     let prefixes = [(1e9, "G"), (1e6, "M"), (1e3, "k")];
     // A value that is rounded to a thousand of a unit is written in the next unit.
