@@ -5,12 +5,12 @@ import { Tables } from "./tables.js";
 
 // Solves the text, always the newest and one at a time, and shows the answer.
 
-// What comes within this time is there at once, as a hand feels it: a picture that is older grows pale [ms].
+// An answer within this time seems immediate; an older picture is drawn pale after it [ms].
 const AT_ONCE = 100;
-// A younger solve is finished although the text has changed since, so that pictures follow a hand that goes on. An older one is
-// stopped: a reader who waits for longer than a second loses the thread [ms].
+// A solve of an older text is finished within this time, so that pictures follow a continuous drag. After it, the solve
+// is stopped: a reader who waits for longer than a second loses the thread [ms].
 const PATIENCE = 1000;
-// So many scenes are kept for comparison, as the engine has it too; of more, the oldest goes.
+// The number of scenes that are kept for comparison, as in the engine; the oldest is dropped beyond it.
 const MOST_KEPT = 3;
 
 const NAMES = {
@@ -19,24 +19,24 @@ const NAMES = {
 };
 
 export class Answers {
-  // `show(answer, text)` has the parts of the page show what the text has that can be changed.
+  // `show(answer, text)` updates the parts of the page that change the text.
   constructor({ engine, editor, picture, handles, show }) {
     Object.assign(this, { engine, editor, picture, handles, parts: show });
-    // What is seen, and the answer to the last text that could be solved.
+    // The view, and the answer to the last text that could be solved.
     this.seen = { show: "answer", step: null };
     this.last = null;
     // Scenes for comparison, the newest first.
     this.kept = [];
     this.tables = new Tables(one("#tables"));
-    // Why the picture is that of an earlier text, if it is so after a solve.
+    // The reason for which the picture is that of an earlier text after a solve, or null.
     this.reason = null;
-    // The solve that runs, and the event that the next one answers.
+    // The solve that runs, and the event that starts the next one.
     this.running = null;
     this.next = null;
     one("#steps input").addEventListener("input", (event) => this.look({ step: Number(event.target.value) }, event));
   }
 
-  // Shows something else of the same scene.
+  // Shows another view of the same scene.
   look(change, event) {
     Object.assign(this.seen, change);
     this.changed(event);
@@ -71,7 +71,7 @@ export class Answers {
     this.age();
   }
 
-  // Keeps the last good picture, with its age. A solve of an older text ends with the patience for it.
+  // Keeps the last good picture, with its age. Stops the solve of an older text after `PATIENCE`.
   age() {
     const time = this.running === null ? 0 : performance.now() - this.running.began;
     if (time > PATIENCE && this.running.text !== this.editor.text) this.running.controller.abort();
@@ -89,7 +89,7 @@ export class Answers {
     this.reason = answer.error ? "The text has a mistake: verdict and picture are those of the text before." : null;
     if (answer.numbers) this.parts(answer, text);
     this.showFault(answer.error, text === this.editor.text);
-    // What was dragged too far can be dragged back.
+    // A handle that was dragged too far can be dragged back.
     if (answer.error) return this.handles.show(answer.handles ?? [], this.picture.svg, text);
     this.last = { ...answer, text };
     const { verdict, sentence, warnings, seconds, picture, tables, report } = answer.shown;
@@ -117,7 +117,7 @@ export class Answers {
     if (line) place.prepend(button(`Line ${line}, column ${column}`, () => this.editor.show(line, column)));
   }
 
-  // The program, not the scene, is at fault.
+  // Shows an error of the program, not of the scene.
   fail(error) {
     setVerdict("", error.message);
     this.reason = "There is no answer: the picture is that of the text before.";
@@ -140,7 +140,7 @@ export class Answers {
     one("#steps output").textContent = steps[slider.value] ?? "";
   }
 
-  // Puts what is seen beside what will be seen.
+  // Keeps the present verdict and picture beside later ones.
   keep(event) {
     if (this.last === null) return;
     const { text, shown, controls } = this.last;
@@ -152,7 +152,7 @@ export class Answers {
       this.changed(now);
     };
     kept.figure = made("figure");
-    // Pictures side by side begin at one height.
+    // Pictures side by side have one upper edge.
     kept.section = made("section", {}, kept.figure, made("h2", { textContent: `Kept: ${shown.sentence}` }),
       button("Back to this", (now) => this.editor.set(text, now)),
       button("Drop", drop),
@@ -164,7 +164,8 @@ export class Answers {
     this.changed(event);
   }
 
-  // Pictures of what was kept, and how far they can be compared. What was kept or dropped since is seen in the next answer.
+  // Shows the kept pictures, and the sentence on their scale. Pictures that were kept or dropped since are updated with
+  // the next answer.
   showKept({ beside, scale }) {
     one("#scale").hidden = scale === null;
     one("#scale").textContent = scale ?? "";
@@ -177,12 +178,12 @@ export class Answers {
 
 function setVerdict(verdict, sentence) {
   one("#verdict").className = verdict;
-  // Only what differs is announced.
+  // Screen readers announce only differences.
   if (one("h1").textContent !== sentence) one("h1").textContent = sentence;
   document.title = `${verdict}: masonry live`;
 }
 
-// Measures from an input to the picture on the screen, as `performance.getEntriesByName("answer")` has it.
+// Measures the time from an input to the picture on the screen, for `performance.getEntriesByName("answer")`.
 function painted(event, seconds) {
   requestAnimationFrame(() => {
     const { port1, port2 } = new MessageChannel();

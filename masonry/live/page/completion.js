@@ -1,4 +1,4 @@
-// A list of what fits at the cursor, below it.
+// A list of possible continuations at the cursor, below the cursor.
 
 export class Completion {
   constructor(editor, engine) {
@@ -19,7 +19,7 @@ export class Completion {
 
   async open() {
     const [text, at] = [this.editor.text, this.area.selectionStart];
-    // Without an answer there is nothing to list; the solve of the same text says why.
+    // There is nothing to list without an answer; the solve of the same text shows the error.
     const { entries, before, after } = await this.engine.ask({ task: "complete", text, at }).catch(() => ({}));
     if (text !== this.editor.text || at !== this.area.selectionStart) return;
     this.close();

@@ -2,7 +2,7 @@ import { parts, replaced, stepOf, writtenAs } from "./numbers.js";
 
 // The text of the scene: a text area below a layer of the same letters in colours, in which numbers can be dragged.
 
-// So many pixels of dragging are one step of a number: one that stands near the left edge of a screen still comes to zero.
+// The pixels of dragging for one step of a number: a number near the left edge of a screen can still reach zero.
 const PIXELS = 2;
 // Typing is undone in pieces of this time [ms].
 const PIECE = 1000;
@@ -10,8 +10,8 @@ const PIECE = 1000;
 const DOUBLE_CLICK = 400;
 
 export class Editor {
-  // `onChange(event)` hears of every change by hand, `onLine(line)` of the line of the cursor, and `onNumber(number)` of the number
-  // that was dragged or is at the cursor.
+  // `onChange(event)` is called for every change by hand, `onLine(line)` with the line of the cursor, and
+  // `onNumber(number)` with the number that was dragged or is at the cursor.
   constructor({ onChange, onLine, onNumber }) {
     this.area = document.getElementById("scene");
     this.layer = document.getElementById("colours");
@@ -40,15 +40,15 @@ export class Editor {
     return this.area.value;
   }
 
-  // Puts in another text, with the one before to go back to.
+  // Replaces the text; undo restores the text before.
   set(text, event) {
     if (text === this.text) return;
     this.remember();
     this.put(text, event);
   }
 
-  // Changes some places, each `{ from, to, text }`, of this text, or of that at the beginning of a drag: what was remembered before
-  // it comes back at once.
+  // Changes some places, each `{ from, to, text }`, of `base`: the present text, or the text at the beginning of a
+  // drag. Undo restores the text that was remembered before.
   change(changes, event, base = this.text) {
     this.put(replaced(base, changes), event);
   }
@@ -62,7 +62,7 @@ export class Editor {
     this.onChange(event);
   }
 
-  // A new text to begin with, which cannot be undone.
+  // Begins with a new text; undo does not go back behind it.
   begin(text) {
     [this.past, this.future] = [[], []];
     this.put(text);
@@ -98,7 +98,7 @@ export class Editor {
     this.onChange(event);
   }
 
-  // Works wherever the focus is, since sliders and pictures change the text as well.
+  // Works at any focus, since sliders and pictures change the text as well.
   undoByKey(event) {
     const letter = event.key.toLowerCase();
     if (!(event.ctrlKey || event.metaKey) || (letter !== "z" && letter !== "y")) return;
@@ -116,7 +116,8 @@ export class Editor {
     this.turn(number, event.key === "ArrowUp" ? 1 : -1, event);
   }
 
-  // What the engine says of the numbers of this text: whether they count something, and their least value.
+  // Sets the properties of the numbers of this text from the engine: whether they count something, and their least
+  // value.
   setRules(numbers) {
     this.rules = new Map(numbers.map((it) => [it.from, it]));
   }
@@ -158,17 +159,18 @@ export class Editor {
   numberOf(span) {
     const [from, written] = [Number(span.dataset.from), span.textContent];
     const value = Number(written.replaceAll("_", ""));
-    // What is known of another number, before this text is answered, counts for nothing.
+    // Properties of another number, from before this text is answered, are ignored.
     const known = this.rules.get(from);
     const { whole, least } = known?.value === value ? known : { whole: /^[+-]?\d+$/.test(written), least: null };
-    // The last key before it is that of the number, or of the list in which it is.
+    // The last key before the number is its key, or the key of its list.
     const line = this.lineAt(from);
     const before = this.text.slice(0, from).split("\n").at(-1);
     const key = [...before.matchAll(/([\w-]+)\s*=/g)].at(-1)?.[1] ?? "number";
     return { from, to: from + written.length, written, value, whole, least, label: `${key} in line ${line}` };
   }
 
-  // Holds a number with the pointer. Without a movement it was a click, which sets the cursor, or the second of two, which select it.
+  // Holds a number with the pointer. Without a movement, a click sets the cursor, and the second of two clicks selects
+  // the number.
   hold(event) {
     const span = event.target.closest(".number");
     if (!span || event.button !== 0) return;
@@ -196,7 +198,7 @@ export class Editor {
       const isDouble = this.clicked.from === number.from && event.timeStamp - this.clicked.at < DOUBLE_CLICK;
       this.clicked = { from: number.from, at: event.timeStamp };
       const at = number.from + Math.round(((event.clientX - left) / width) * number.written.length);
-      // The line is in view; the end of the text area, to which a browser would scroll, need not be.
+      // The line is in view; a browser would scroll to the end of the text area, which may be out of view.
       this.area.focus({ preventScroll: true });
       if (isDouble) this.area.setSelectionRange(number.from, number.to);
       else this.area.setSelectionRange(at, at);
@@ -207,7 +209,7 @@ export class Editor {
     span.classList.add("held");
   }
 
-  // Changes a number by so many steps, with Shift by tenths of them.
+  // Changes a number by `steps` steps, or by tenths of them with Shift.
   turn({ from, to, written, value, whole, least }, steps, event, base = this.text) {
     const step = stepOf(value, whole, written) * (event.shiftKey && !whole ? 0.1 : 1);
     const turned = Math.max(value + steps * step, least ?? -Infinity);
@@ -218,7 +220,7 @@ export class Editor {
     return this.text.slice(0, place).split("\n").length;
   }
 
-  // Marks lines and shows the first of them.
+  // Marks lines.
   mark(first, last) {
     [...this.layer.children].forEach((row, index) => row.classList.toggle("marked", first <= index + 1 && index + 1 <= last));
   }
@@ -226,12 +228,12 @@ export class Editor {
   show(line, column) {
     const rows = this.text.split("\n");
     const before = rows.slice(0, line - 1).reduce((sum, row) => sum + row.length + 1, 0);
-    // Columns count letters, of which some take two units.
+    // Columns count letters, some of which take two units.
     const at = before + [...rows[line - 1]].slice(0, column - 1).join("").length;
     this.area.focus({ preventScroll: true });
     this.area.setSelectionRange(at, at);
     this.layer.children[line - 1]?.scrollIntoView({ block: "nearest" });
-    // The row is as wide as the longest line: its end would be in view, and its beginning not.
+    // The row is as wide as the longest line, so that a browser would show its end instead of its beginning.
     if (column === 1) this.box.scrollLeft = 0;
   }
 
@@ -240,7 +242,7 @@ export class Editor {
     this.box.scrollTo(0, 0);
   }
 
-  // Marks the place of a mistake; without one nothing is marked.
+  // Marks the place of a mistake, or no place without a line.
   fault(line, column) {
     for (const row of this.layer.children) row.classList.remove("wrong");
     const row = line ? this.layer.children[line - 1] : null;

@@ -1,4 +1,4 @@
-// Elements of the page, in short words.
+// Short names for elements of the page.
 
 // The namespace of pictures.
 export const SVG = "http://www.w3.org/2000/svg";

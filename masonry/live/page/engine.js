@@ -1,9 +1,9 @@
-// Two engines of one kind: a server that has served the page, and workers with the solver in this page.
+// Two engines with one interface: a server that has served the page, and workers with the solver in this page.
 //
-// `ask(question, { signal, onNews })` resolves to the answer; a signal that aborts ends the work, and then `ask` rejects with an
-// `AbortError`.
+// `ask(question, { signal, onNews })` resolves to the answer; a signal that aborts ends the work, and `ask` rejects
+// with an `AbortError`.
 
-// The engine of this page, as its address and its parts say.
+// The engine of this page: workers if the page contains the solver, or else its server.
 export function engineOfPage() {
   const solver = document.getElementById("solver");
   return solver ? new Workers(solver) : new Server(new URLSearchParams(location.search).get("token"));
@@ -34,7 +34,7 @@ class Server {
     throw new Error("the command has ended: start `masonry live` again");
   }
 
-  // A file of the page; without a name the newest.
+  // Loads a file of the page; the newest without a name.
   async load(name = null) {
     return this.post("/load", { name });
   }
@@ -60,7 +60,8 @@ class Server {
   }
 }
 
-// Workers with the solver. One that works on something that nobody waits for any more is ended, since nothing else stops it.
+// Workers with the solver. A worker whose answer is no longer needed is ended, since its work cannot be stopped
+// otherwise.
 class Workers {
   constructor(solver) {
     this.idle = [];
@@ -107,7 +108,7 @@ class Workers {
   }
 }
 
-// The solver is in the page as gzip in base64, and is compiled once for all workers.
+// The page contains the solver as gzip in base64; it is compiled once for all workers.
 async function compiled(solver) {
   const bytes = Uint8Array.from(atob(solver.textContent.trim()), (letter) => letter.charCodeAt(0));
   const plain = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip"));

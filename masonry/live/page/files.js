@@ -1,14 +1,14 @@
 import { button, made, one } from "./elements.js";
 
-// The file of the scene, scenes to begin with, and files to take away.
+// The file of the scene, scenes to begin with, and exports.
 
-// How often the page looks for a change of the file on the disk [ms].
+// The time between two checks for a change of the file on the disk [ms].
 const LOOK = 1000;
 
 // The name under which a tab keeps a text that was not saved.
 const UNSAVED = "unsaved";
 
-// The ends of the names of files, and what they are.
+// The endings of names of files, and their types.
 const EXPORTS = {
   page: ["html", "text/html"],
   text: ["txt", "text/plain"],
@@ -17,14 +17,14 @@ const EXPORTS = {
 };
 
 export class Files {
-  // `onBegin()` hears of a scene that has nothing to do with the one before.
+  // `onBegin()` is called for a new scene that is independent of the one before.
   constructor(engine, editor, picture, onBegin) {
     Object.assign(this, { engine, editor, picture, onBegin });
-    // The names of the files that were open, by the texts that they have.
+    // The names of the files that were open, by their texts.
     this.known = new Map();
-    // The name of the file, and the text that it has; of a new scene no name, and the text that it began with.
+    // The name and the text of the file; null and the initial text for a new scene.
     [this.name, this.saved] = [null, editor.text];
-    // The save that runs, and the text on the disk that differs from the one here and the one before.
+    // The save that runs, and the text on the disk if it differs both from the present text and from the saved one.
     [this.saving, this.conflict] = [null, null];
     one("#save").addEventListener("click", () => this.save());
     one("#begin").addEventListener("change", ({ target }) => this.take(target));
@@ -37,7 +37,7 @@ export class Files {
     addEventListener("beforeunload", (event) => {
       if (this.isChanged) event.preventDefault();
     });
-    // The last moments that a page is sure to hear of.
+    // The last events that a page is sure to receive.
     addEventListener("pagehide", () => this.leave());
     document.addEventListener("visibilitychange", () => document.hidden && this.leave());
   }
@@ -46,22 +46,22 @@ export class Files {
     return this.editor.text !== this.saved;
   }
 
-  // The name of the file without its end.
+  // The name of the file without its ending.
   get stem() {
     return this.name?.replace(/\.toml$/, "") ?? "scene";
   }
 
-  // Keeps what is not saved for the next page in this tab.
+  // Keeps unsaved changes for the next page in this tab.
   leave() {
     try {
       if (this.isChanged) sessionStorage.setItem(UNSAVED, JSON.stringify({ name: this.name, text: this.editor.text }));
       else if (one("#unsaved").hidden) sessionStorage.removeItem(UNSAVED);
     } catch {
-      // There is no room for it: the browser has asked whether to leave.
+      // The storage is full: the browser has asked whether to leave.
     }
   }
 
-  // Asks what becomes of the text that the page before in this tab has not saved.
+  // Offers to restore the text that the page before in this tab has not saved.
   offer() {
     const { name, text } = JSON.parse(sessionStorage.getItem(UNSAVED) ?? "{}");
     if (text === undefined || text === this.editor.text) return;
@@ -71,7 +71,7 @@ export class Files {
       tell(place, "");
     };
     const take = async () => {
-      // Without a file nothing is saved of it.
+      // Without a file, no part of the text is saved.
       const saved = name === null ? "" : (await this.engine.load(name).catch(failed)).text;
       this.editor.set(text);
       this.rename(name, saved ?? "");
@@ -81,7 +81,7 @@ export class Files {
     tell(place, `Changes of ${what} were not saved before this page was loaded.`, { Restore: take, Discard: drop });
   }
 
-  // A text of a file that was open, to which undo has led back, is that file again.
+  // If undo leads back to the text of a file that was open, the text belongs to this file again.
   changed() {
     const known = this.name === null ? this.known.get(this.editor.text) : undefined;
     if (known !== undefined) [this.name, this.saved] = [known, this.editor.text];
@@ -95,7 +95,7 @@ export class Files {
     this.changed();
   }
 
-  // Loads the scene of the command, or the first to begin with.
+  // Loads the scene of the command, or the first of the scenes to begin with.
   async begin() {
     const [scenes, { name, text, error }] = await Promise.all([this.engine.ask({ task: "begin" }), this.engine.load()]);
     this.scenes = scenes;
@@ -121,7 +121,7 @@ export class Files {
     this.onBegin();
   }
 
-  // Saves, one at a time. A save that is refused since the file has changed shows the conflict at once.
+  // Saves, one save at a time. If a save is refused since the file has changed, the conflict is shown at once.
   async save() {
     if (this.saving !== null) return;
     this.saving = this.write();
@@ -139,7 +139,7 @@ export class Files {
     const given = this.name ?? prompt("Name of the new file. It is written beside the scene that was opened, or else into the directory in which masonry was started.", "scene.toml");
     if (given === null) return;
     const name = given.endsWith(".toml") ? given : `${given}.toml`;
-    // A file of a new scene must not exist yet, or is one to be replaced.
+    // The file of a new scene must not exist yet, unless it may be replaced.
     const there = this.name === null ? (await this.engine.load(name).catch(failed)).text : this.saved;
     if (this.name === null && there !== undefined && !confirm(`There is a file ${name}. Replace it?`)) return;
     const was = there ?? null;
@@ -148,12 +148,12 @@ export class Files {
     tell(one("#notice"), error?.message ?? "");
   }
 
-  // A change on the disk is loaded, if nothing was changed here.
+  // Loads a change on the disk, if there are no unsaved changes.
   async lookAtDisk() {
     const { name, saved } = this;
     if (name === null || this.saving !== null) return;
     const { text } = await this.engine.load(name).catch(failed);
-    // A file that was saved or chosen in the meantime is not the one that was read.
+    // The file that was read is out of date if another one was saved or chosen in the meantime.
     if (text === undefined || this.saving !== null || name !== this.name || saved !== this.saved) return;
     if (text === saved) return this.settle();
     const keep = () => {
@@ -170,7 +170,7 @@ export class Files {
     tell(one("#conflict"), "The file has changed on the disk.", { "Load it": load, "Keep this text": keep });
   }
 
-  // Ends a conflict, and with it the notice of the save that it has stopped.
+  // Ends a conflict, and removes the notice of the save that it has stopped.
   settle() {
     if (this.conflict === null) return;
     this.conflict = null;
@@ -193,7 +193,7 @@ export class Files {
   }
 }
 
-// What stands for the answer of an engine that has failed.
+// The answer of an engine that has failed.
 const failed = (error) => ({ error });
 
 // Shows a message with buttons, or hides its place if the message is empty.

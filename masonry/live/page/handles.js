@@ -1,13 +1,13 @@
 import { SVG } from "./elements.js";
 import { writtenAs } from "./numbers.js";
 
-// What can be dragged in the picture: openings, and ends of supports. Lengths are in units of the scene.
+// Handles in the picture: openings, and ends of supports. Lengths are in units of the scene.
 
 // Radius of the end of a support, and breadth of a side, in units of the picture.
 const NEAR = 7;
 
 export class Handles {
-  // `editor` is changed by them.
+  // Handles change the text of `editor`.
   constructor(figure, editor) {
     [this.figure, this.editor] = [figure, editor];
     this.layer = document.createElementNS(SVG, "svg");
@@ -68,7 +68,7 @@ export class Handles {
     return 10 ** Math.floor(Math.log10(2 / this.scale));
   }
 
-  // Whether they are those of an older text, which has its numbers in other places.
+  // Whether the handles are those of an older text, whose numbers have other places.
   get isOld() {
     return this.text !== this.editor.text;
   }
@@ -80,7 +80,7 @@ export class Handles {
     shape.setPointerCapture(event.pointerId);
     shape.classList.add("held");
     const [{ handle }, base] = [shape, this.editor.text];
-    // The picture may be scaled otherwise than drawn.
+    // The size on the screen may differ from that of the picture.
     const pixels = this.layer.getScreenCTM().a * this.scale;
     let isMoved = false;
     const move = (now) => {
@@ -97,7 +97,8 @@ export class Handles {
     for (const [name, listener] of Object.entries(listeners)) shape.addEventListener(name, listener);
   }
 
-  // Moves a handle of a text by two lengths. By a key, which has no text to begin with, a number that counts goes on by one.
+  // Moves a handle of a text by two lengths. A key, which comes without the base text of a drag, changes a count by
+  // one.
   move(handle, lengths, event, base) {
     const text = base ?? this.editor.text;
     const changes = ["right", "up"].flatMap((way, index) =>

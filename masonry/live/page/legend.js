@@ -1,26 +1,27 @@
 import { SVG, all, made, one } from "./elements.js";
 
-// The legend of a picture, below it in letters of the page where the screen is narrow: letters of the picture would be too small.
+// The legend of a picture on a narrow screen: below the picture, in letters of the page, since those of the picture
+// would be too small.
 
-// The width below which letters of a picture, which is 900 wide, have less than two thirds of their size [px].
+// The width below which the letters of a picture, which is 900 wide, have less than two thirds of their size [px].
 const NARROW = 600;
-// Lines of one entry are nearer to each other than so many letters are high, and entries are farther.
+// The distance between lines of one entry is less than this number of letter heights; entries are farther apart.
 const NEXT_LINE = 1.6;
-// So many numbers of hinges have room for larger letters. Chosen.
+// The largest number of labels of hinges for which larger letters have room. Chosen.
 const FEW = 24;
 // The height of letters in a narrow drawing [px].
 const LETTERS = 11;
-// Half the sizes of a symbol in a legend, and what stays free around a drawing, in units of the picture.
+// Half the sizes of a symbol in a legend, and the free space around a drawing, in units of the picture.
 const [HALF_WIDTH, HALF_HEIGHT, EDGE] = [32, 9, 12];
 
 export const isNarrow = (figure) => figure.clientWidth > 0 && figure.clientWidth < NARROW;
 
-// Leaves the drawing in a picture that is too narrow for its legend, and returns the entries of the legend as a list.
+// Reduces a picture that is too narrow for its legend to its drawing, and returns the entries of the legend as a list.
 export function legendBelow(svg) {
   const drawing = one(".drawing", svg);
   const legend = one(".legend", svg);
   if (!drawing || !legend) return null;
-  // Letters of a readable size take part in the size of the drawing.
+  // Letters of a readable size count for the size of the drawing.
   svg.classList.add("narrow");
   svg.classList.toggle("few", all(".labels text", drawing).length <= FEW);
   svg.style.setProperty("--letters", `${(LETTERS * drawing.getBBox().width) / svg.clientWidth}px`);
@@ -47,7 +48,7 @@ export function legendBelow(svg) {
   return list;
 }
 
-// The symbol of an entry, which is drawn about its middle, as a picture of its own.
+// The symbol of an entry, which is drawn about its middle, as a separate picture.
 function symbolOf(part) {
   const symbol = document.createElementNS(SVG, "svg");
   symbol.setAttribute("viewBox", `${-HALF_WIDTH} ${-HALF_HEIGHT} ${2 * HALF_WIDTH} ${2 * HALF_HEIGHT}`);

@@ -9,9 +9,9 @@ import { Answers } from "./answers.js";
 import { Work } from "./work.js";
 import { Files } from "./files.js";
 
-// The page: its parts, and what each hears of the others.
+// The page: its parts, and the connections between them.
 
-// By this name it answers scripts in the console of the browser too.
+// The engine is also available to scripts in the console of the browser, by this name.
 const engine = (globalThis.masonryLive = engineOfPage());
 
 const editor = new Editor({
@@ -43,7 +43,7 @@ const answers = new Answers({
   handles,
   show({ numbers, controls, places, has_train, shown }, text) {
     editor.setRules(numbers);
-    // A mistake that hides what the text has leaves the sliders where they are.
+    // If a mistake hides the contents of the text, the sliders stay where they are.
     if (shown || controls.length > 0) sliders.show(controls, text);
     work.offer(controls, has_train);
     work.nameNumbers(shown?.verdict);

@@ -1,9 +1,9 @@
-// Numbers as they are written in a scene, and how they are changed.
+// Numbers as they are written in a scene, and their changes.
 
-// What a line of a scene is made of: comments, headers of tables, strings, numbers, and anything else.
+// The parts of a line of a scene: comments, headers of tables, strings, numbers, and anything else.
 const PART = /(?<comment>#.*)|(?<table>^\s*\[\[?[^\]]*\]\]?)|(?<string>"(?:[^"\\]|\\.)*"?|'[^']*'?)|(?<number>(?<![\w.+-])[+-]?\d[\d_]*(?:\.\d+)?(?:[eE][+-]?\d+)?(?![\w.]))|(?<other>[\w.-]+|\s+|.)/gu;
 
-// The parts of a line, each with its kind, its text and its place in it.
+// The parts of a line, each with its kind, its text and its place in the line.
 export function parts(line) {
   return [...line.matchAll(PART)].map((found) => {
     const [kind] = Object.entries(found.groups).find(([, text]) => text !== undefined);
@@ -11,20 +11,22 @@ export function parts(line) {
   });
 }
 
-// The step by which a number changes: one in its second digit, so that a hand of dragging changes it by its own size.
+// The step by which a number changes: one in its second digit, so that a drag of a hand's width changes the number by
+// its own size.
 export function stepOf(value, whole, written = "") {
   if (whole) return 1;
   if (value !== 0) return 10 ** (Math.floor(Math.log10(Math.abs(value)) + 1e-9) - 1);
   return 10 ** -Math.max(decimals(written), 1);
 }
 
-// Where a number may go when values of it are tried: from none of it to twice as much, or a hundred steps to both sides of zero.
+// The range in which values of a number are tried: from zero to twice the number, or a hundred steps to both sides of
+// zero.
 export function rangeOf({ value, whole, least, written }) {
   const size = value === 0 ? 100 * stepOf(value, whole, written) : Math.abs(value);
   return [Math.max(value - size, least ?? -Infinity), value + size];
 }
 
-// A value in the manner in which a number was written: its decimals, or more if the step needs them, and its exponent.
+// A value in the format of a written number: with its decimals, or more if the step needs them, and its exponent.
 export function writtenAs(value, written, step, whole) {
   if (whole) return String(Math.round(value));
   const shown = Math.max(decimals(written), Math.round(-Math.log10(step)), 0);

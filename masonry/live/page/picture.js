@@ -1,16 +1,16 @@
 import { isNarrow, legendBelow } from "./legend.js";
 
-// The picture of the answer, which changes in place, and what of it the text describes.
+// The picture of the answer, which changes in place, and the places of the text that describe its elements.
 
-// The kinds of elements, and what of them the text has as a name: of a joint that is its class.
+// The kinds of elements, and the attribute with their name in the text: the class for a joint.
 const KINDS = { block: "block", joint: "class", support: "support", load: "name" };
 // Marks of more elements than these are pale.
 const MANY = 12;
 const SELECTOR = Object.keys(KINDS).map((kind) => `[data-${kind}]`).join(",");
 
 export class Picture {
-  // `onPlace(place)` hears which place of the text describes what was clicked, `onWidth()` that the picture has room for a legend or
-  // has no more.
+  // `onPlace(place)` is called with the place of the text that describes a clicked element, `onWidth()` if the picture
+  // gets or loses room for a legend.
   constructor(onPlace, onWidth) {
     this.figure = document.getElementById("picture");
     this.places = [];
@@ -36,14 +36,14 @@ export class Picture {
     if (this.line) this.mark(this.line);
   }
 
-  // The element itself, or of a mark that has only the number of a joint one with the name of its class.
+  // The element itself, or, for a mark that has only the number of a joint, the element with the class of the joint.
   named(element) {
     const { joint, class: name } = element.dataset;
     if (joint === undefined || name !== undefined) return element;
     return this.svg.querySelector(`[data-joint="${joint}"][data-class]`) ?? element;
   }
 
-  // The place that describes an element: of a brick that of its wall, which has the name before the first stroke.
+  // The place that describes an element; for a brick, the place of its wall, whose name precedes the first slash.
   placeOf(element) {
     for (const [kind, key] of Object.entries(KINDS)) {
       const name = element.dataset[key];
@@ -55,7 +55,7 @@ export class Picture {
     return null;
   }
 
-  // Marks what the lines around one describe.
+  // Marks the elements that the lines around a line describe.
   mark(line) {
     this.line = line;
     const place = this.places.find((it) => it.first <= line && line <= it.last);
@@ -63,7 +63,7 @@ export class Picture {
     for (const element of this.svg?.querySelectorAll(SELECTOR) ?? []) {
       count += element.classList.toggle("found", place !== undefined && this.placeOf(element) === place);
     }
-    // What all bricks of a wall show has to be seen below their marks.
+    // Other marks on the bricks of a wall must stay visible if all bricks are marked.
     this.svg?.classList.toggle("many", count > MANY);
     return place;
   }
@@ -71,9 +71,9 @@ export class Picture {
 
 const pictureIn = (figure) => figure.querySelector("svg:not(.handles)");
 
-// Shows a picture in a figure, where the one before changes into it. A narrow one has its legend below it.
+// Shows a picture in a figure; the picture before changes into it. A narrow picture has its legend below it.
 export function put(figure, markup) {
-  // Without the ends of lines there are half as many nodes.
+  // Without line ends, there are half as many nodes.
   const innerHTML = markup.replaceAll(">\n<", "><");
   const { content } = Object.assign(document.createElement("template"), { innerHTML });
   const [old, next] = [pictureIn(figure), content.firstElementChild];
@@ -86,8 +86,8 @@ export function put(figure, markup) {
   if (legend) figure.after(legend);
 }
 
-// Gives an element the attributes and children of another one, and keeps what is of the same kind, so that it moves. What is
-// equal is passed over by the browser itself, which is faster than any script.
+// Gives an element the attributes and children of another one, and keeps elements of the same kind, so that they move.
+// The browser itself skips equal nodes, which is faster than any script.
 export function become(old, next) {
   if (old.isEqualNode(next)) return;
   const names = next.getAttributeNames();

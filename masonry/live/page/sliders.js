@@ -1,24 +1,24 @@
 import { button, made, one } from "./elements.js";
 import { stepOf, writtenAs } from "./numbers.js";
 
-// Sliders of what a scene offers, which change the numbers of its text.
+// Sliders of a scene, which change the numbers of its text.
 
 // The value of a control in words.
 export const valueOf = ({ value, is_largest: isLargest }) => `${isLargest ? "≤ " : ""}${Number(value.toPrecision(6))}`;
 
 export class Sliders {
-  // `onAsk(control)` hears of which control the change of the verdict is asked for.
+  // `onAsk(control)` is called with the control for which changes of the verdict are searched.
   constructor(editor, onAsk) {
     [this.editor, this.onAsk] = [editor, onAsk];
     this.box = one("#controls");
   }
 
-  // Shows the sliders of a text. One that has made the text that is there now stays where it is.
+  // Shows the sliders of a text. A slider that has made the present text stays where it is.
   show(controls, text) {
     this.text = text;
     const old = new Map([...this.box.children].map((it) => [it.offer.label, it]));
     const rows = controls.map((control) => old.get(control.label) ?? this.made(control));
-    // An element that is taken out and put in again loses hold and focus.
+    // An element that is taken out and put in again would lose the pointer and the focus.
     const isSame = rows.length === old.size && rows.every((it, index) => it === this.box.children[index]);
     if (!isSame) this.box.replaceChildren(...rows);
     rows.forEach((row, index) => {
@@ -46,8 +46,9 @@ export class Sliders {
     return row;
   }
 
-  // From its first movement on a slider changes the text as it was then. It goes on from its own text, also after it was let go,
-  // until an answer says where the numbers of this text are. Another slider that is moved before the answer waits for it.
+  // From its first movement on, a slider changes the text as it was then. The slider continues from its own text, even
+  // after its release, until an answer gives the places of the numbers in this text. Another slider that is moved
+  // before the answer waits for it.
   move(row, input, event) {
     const isOwn = row.held?.text === this.editor.text;
     const isKnown = this.text === this.editor.text;

@@ -1,7 +1,7 @@
 import { all, one } from "./elements.js";
 import { become } from "./picture.js";
 
-// Tables that are sorted by a column: by the values of numbers, else by words; what is empty comes last.
+// Tables that are sorted by a column: by the values of numbers, or else by words; empty cells come last.
 
 export class Tables {
   constructor(place) {

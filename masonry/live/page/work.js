@@ -3,10 +3,10 @@ import { rangeOf } from "./numbers.js";
 import { put } from "./picture.js";
 import { Tables } from "./tables.js";
 
-// Questions that take longer than a solve: limits, ranges, thicknesses, studies, and values at which the verdict changes; one at a
-// time, and each can be stopped.
+// Questions that take longer than a solve: limits, ranges, thicknesses, studies, and values at which the verdict
+// changes. One question runs at a time, and each can be stopped.
 
-// What is asked for a number, by the verdict that there is.
+// The question about a number, by the present verdict.
 const ASKED = { stands: "falls at?", falls: "stands at?", undecided: "changes at?" };
 
 export class Work {
@@ -27,7 +27,7 @@ export class Work {
     one("#stop").addEventListener("click", () => this.running?.abort());
   }
 
-  // The arch of which the least thickness is asked for, the first that has one; and the factors that a limit multiplies.
+  // Sets the first arch of a scene, for its least thickness, and the factors that a limit multiplies.
   offer(controls, hasTrain) {
     one("[data-task=train]").hidden = !hasTrain;
     const label = controls.find((it) => it.label.startsWith("thickness of "))?.label;
@@ -37,7 +37,7 @@ export class Work {
     this.factors = factors.map(({ label, value }) => ({ group: label.replace("factor of ", ""), value: Number(value.toPrecision(6)) }));
   }
 
-  // The number that is asked for when none of the sliders is.
+  // Chooses a number of the text, for the search without a slider.
   choose(number) {
     this.number = number;
     const button = one("#change");
@@ -46,8 +46,8 @@ export class Work {
     this.name(button);
   }
 
-  // The buttons of numbers say what is asked for, by the last verdict that there was, and for which number if it does not stand
-  // beside them.
+  // Names the buttons of numbers by their question, which depends on the last verdict, and by their number if it does
+  // not stand beside them.
   nameNumbers(verdict) {
     this.asked = ASKED[verdict] ?? this.asked;
     for (const it of all("[data-asks]")) this.name(it);
@@ -60,12 +60,12 @@ export class Work {
     button.title = "Finds values of this number between which the verdict changes";
   }
 
-  // Asks at which values of a number the verdict changes.
+  // Searches for values of a number at which the verdict changes.
   ask({ label, edits, value, range, whole = false }) {
     this.begin("change", "Search", { label, edits, value, range, whole });
   }
 
-  // What was found belongs to another scene.
+  // Removes the results, which belong to another scene.
   clear() {
     this.running?.abort();
     this.running = null;
@@ -74,7 +74,7 @@ export class Work {
     one("#found").replaceChildren();
   }
 
-  // What was found belongs to an earlier text, and numbers may be in other places.
+  // Marks the results, which belong to an earlier text; numbers may have other places.
   changed() {
     const now = this.number && this.editor.numberAt(this.number.from);
     this.choose(now?.label === this.number?.label ? now : null);
@@ -91,7 +91,7 @@ export class Work {
       one("#news").textContent = news;
       one("#news").classList.toggle("old", isOld());
     };
-    // A limit is a multiple of the load of the text, which has a factor of its own.
+    // A limit multiplies the load of the text, which has its own factor.
     const multiplied = (sentence) => {
       const own = task === "limit" && this.factors.find(({ group }) => sentence.includes(`"${group}"`));
       return own ? ` The limit multiplies the load with its factor of ${own.value}.` : "";
@@ -115,7 +115,7 @@ export class Work {
   }
 }
 
-// Whether what was found is of an earlier text.
+// Marks the results as those of an earlier text, or of the present one.
 function age(isOld) {
   for (const it of all("#found > section, #news")) it.classList.toggle("old", isOld);
 }

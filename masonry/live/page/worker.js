@@ -1,5 +1,5 @@
-// A worker with the solver: first it gets the compiled module, then questions, one after the other. `wasm_bindgen` stands before
-// this script.
+// A worker with the solver: the first message has the compiled module, later ones have questions. The script that
+// defines `wasm_bindgen` precedes this one.
 let ready;
 onmessage = async ({ data }) => {
   if (data.module) {
@@ -10,7 +10,7 @@ onmessage = async ({ data }) => {
     const solver = await ready;
     postMessage({ answer: solver.answer(data.question, (news) => postMessage({ news })) });
   } catch (error) {
-    // Out of the promise, so that the page hears of it.
+    // The error is thrown outside the promise, so that the page receives it.
     setTimeout(() => { throw error; });
   }
 };

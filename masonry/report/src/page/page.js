@@ -5,7 +5,7 @@
   const root = document.documentElement;
   root.classList.add("js");
 
-  // What is seen: a picture, a step, and a scale of its displacements.
+  // The view: a picture, a step, and a scale of its displacements.
   const keys = all("#switches button").map((it) => it.dataset.picture);
   const step = one("#step");
   const scale = one("#scale");
@@ -13,14 +13,14 @@
 
   const short = (value) => String(Number(value.toPrecision(3)));
 
-  // The data that the file has for a path.
+  // The data of a path in the file.
   const paths = new WeakMap();
   function ofFile(path) {
     if (!paths.has(path)) paths.set(path, path.getAttribute("d"));
     return paths.get(path);
   }
 
-  // Places of elements: from where they were before by the scale to where the file has them, or further.
+  // Moves elements: scale 0 is the place before the movement, scale 1 the place in the file.
   function moveTo(svg, by) {
     const number = /-?[0-9.]+/g;
     for (const it of all("[data-before]", svg)) {
@@ -101,7 +101,7 @@
     read();
   }
 
-  // A click on the head of a column sorts by it, another one the other way round; what is empty comes last.
+  // A click on the head of a column sorts by it, another click reverses the order; empty cells come last.
   function sort(head) {
     const table = head.closest("table");
     const column = [...head.parentNode.children].indexOf(head);
