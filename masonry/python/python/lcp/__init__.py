@@ -1,4 +1,4 @@
-"""Linear complementarity problems: solvers that prove what they say.
+"""Linear complementarity problems: solvers with proofs of their answers.
 
 Find ``z >= 0`` with ``w = M z + q >= 0`` and ``z.w = 0``:
 
@@ -83,12 +83,12 @@ def solve(
     max_iterations : int, optional
         Iterations of an iterative method, pivots of ``"lemke"``.
     callback : callable, optional
-        Called with the number of the iteration and the residual; something true that it returns ends the solve.
+        Called with the number of the iteration and the residual; a true return value ends the solve.
 
     Returns
     -------
     Solution
-        With ``z``, ``w``, ``status``, ``residuals``, ``certificate`` and ``info``.
+        The answer with ``z``, ``w``, ``status``, ``residuals``, ``certificate`` and ``info``.
 
     Raises
     ------
@@ -179,7 +179,7 @@ def solve_mixed(
     Parameters
     ----------
     free : array_like of bool
-        Which variables have no sign. The other parameters are those of :func:`solve`.
+        Flags of the variables without a sign. The other parameters are those of :func:`solve`.
 
     Examples
     --------
@@ -208,7 +208,7 @@ def solve_boxed(
     Parameters
     ----------
     lower, upper : array_like or float
-        Bounds, which may be infinite; ``None`` is no bound. The other parameters are those of :func:`solve`.
+        Bounds, which may be infinite; ``None`` is an infinite one. The other parameters are those of :func:`solve`.
 
     Examples
     --------
@@ -279,7 +279,7 @@ def solve_many(
     Parameters
     ----------
     problems : iterable of pairs
-        As for :func:`solve`, whose parameters ``tol`` and ``time_limit`` hold for each.
+        Matrices and vectors as for :func:`solve`, whose parameters ``tol`` and ``time_limit`` hold for each problem.
 
     Examples
     --------
@@ -293,12 +293,12 @@ def solve_many(
 
 
 class Sequence:
-    """A matrix with one ``q`` after the other: sides, factors and memory are those of the solve before.
+    """A matrix with one ``q`` after the other: each solve reuses sides, factors and memory of the solve before.
 
     Parameters
     ----------
     M : array_like or sparse matrix
-        As for :func:`solve`.
+        The matrix, as for :func:`solve`.
 
     Examples
     --------

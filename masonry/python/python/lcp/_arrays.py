@@ -1,4 +1,4 @@
-"""Matrices and vectors as the native half takes them."""
+"""Matrices and vectors in the form for the native half."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ def matrix(given: Any) -> Matrix:
     if type(given) is np.ndarray and given.dtype == np.float64 and given.ndim == 2:
         return given
     if hasattr(given, "tocsc"):
-        # The native half takes rows as well, so that they need no copy here.
+        # The native half also takes compressed rows, so that no copy is needed here.
         compressed = given if given.format in ("csc", "csr") else given.tocsc()
         if not compressed.has_canonical_format:
             # sum_duplicates works in place, and the matrix may be the caller's.
@@ -47,7 +47,7 @@ def vector(given: ArrayLike) -> Vector:
 
 
 def filled(given: ArrayLike | None, length: int, value: float) -> Vector:
-    """Give a vector that may be left out, or be one number for all entries."""
+    """Give a vector for an argument that may be missing, or be one number for all entries."""
     if given is None:
         return np.full(length, value)
     array = real(given, "a vector")

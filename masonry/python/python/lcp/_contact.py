@@ -21,7 +21,7 @@ class Contact2d:
     """Bodies of stiffness or mass ``K`` under loads ``f``, with contact points.
 
     A gap opens by ``C_n u``, and a point slips by ``C_t u``; normal forces are not negative, and tangential ones at most ``mu``
-    times as large, against the slip.
+    times as large and opposite to the slip.
 
     A solve begins with the states of the contacts in the solution before, which saves most of the work if few of them change.
     Forces and slips that are not unique may depend on these states: :meth:`forget` begins anew.
@@ -29,7 +29,7 @@ class Contact2d:
     Parameters
     ----------
     K : array_like or sparse matrix
-        Symmetric positive semidefinite, one row for every displacement. It is read at the first solve, and not again.
+        Symmetric positive semidefinite, one row for every displacement. The matrix is read only at the first solve.
     f : array_like
         Loads.
 
@@ -73,11 +73,11 @@ class Contact2d:
         normal, tangent : dict of int to float
             Entries of the rows of ``C_n`` and ``C_t``.
         gap, slip : float
-            Without displacements.
+            Values at zero displacements.
         mu : float
             Coefficient of friction.
         compliance : pair of float
-            Of springs in series with the point.
+            Compliances of springs in series with the point.
 
         Returns
         -------
@@ -131,7 +131,7 @@ class Contact2d:
         return self._native
 
     def _points(self) -> dict[str, Any]:
-        """Give the points as the native half takes them."""
+        """Give the points in the form for the native half."""
         data = real(self._data, "a contact point").reshape(-1, 5)
         gap, slip, mu = (np.ascontiguousarray(data[:, k]) for k in range(3))
         return {
@@ -144,7 +144,7 @@ class Contact2d:
         }
 
     def _sparse(self, side: int) -> dict[str, Any]:
-        """Give the rows of all points by compressed columns."""
+        """Give the rows of all points as compressed columns."""
         entries = sorted(
             (column, row, value)
             for row, sides in enumerate(self._rows)

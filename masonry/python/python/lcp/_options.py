@@ -12,7 +12,7 @@ def options(
     max_iterations: int | None,
     callback: Any,
 ) -> dict[str, Any]:
-    """Give the options as the native half takes them."""
+    """Give the options in the form for the native half."""
     if max_iterations is not None and max_iterations < 0:
         raise ValueError(f"max_iterations is {max_iterations}, but must be a number of iterations, not negative")
     return {

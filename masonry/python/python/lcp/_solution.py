@@ -26,13 +26,13 @@ class Unsolved(RuntimeError):
 
 
 class Answer:
-    """What answers to all problems have in common.
+    """The common part of answers to all problems.
 
     Attributes
     ----------
     status : str
         ``"Solved"`` if the residuals, recomputed from the data as given, are below the tolerance; ``"Infeasible"`` or
-        ``"NoSolution"`` with a certificate that was checked; or why there is neither, as ``"TimeLimit"``.
+        ``"NoSolution"`` with a certificate that was checked; or the reason for neither, such as ``"TimeLimit"``.
     """
 
     __slots__ = ("_details", "_native", "status")
@@ -72,7 +72,7 @@ class Answer:
         return found
 
     def raise_if_unsolved(self: S) -> S:
-        """Give the answer itself if it is a solution.
+        """Return the answer itself if it is a solution.
 
         Raises
         ------

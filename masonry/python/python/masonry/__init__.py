@@ -18,7 +18,8 @@
 >>> scene.solve().verdict
 'falls'
 
-``Scene`` is read from a file or a text, or made of keys; :func:`import_drawing` and :func:`from_compas` make scenes of drawings.
+``Scene`` is read from a file or a text, or made from keys; :func:`import_drawing` and :func:`from_compas` make scenes from
+drawings.
 ``solve``, ``limit``, ``ranges``, ``least_thickness``, ``study`` and ``plan`` are methods of a scene, and :func:`map` takes many scenes.
 Results are in the units of the scene.
 """

@@ -29,7 +29,7 @@ class Imported:
         self.scene = Scene._of(native.scene())
 
     def report(self) -> str:
-        """Say what was changed, left out and assumed."""
+        """Give the changes, the parts left out, and the assumptions as text."""
         return self._native.report()
 
     def to_toml(self) -> str:
@@ -37,7 +37,7 @@ class Imported:
         return self._native.to_toml()
 
     def plot(self) -> str:
-        """Draw the drawing under the blocks as SVG."""
+        """Draw the blocks over the drawing as SVG."""
         return self._native.picture()
 
     def __repr__(self) -> str:
@@ -48,20 +48,20 @@ class Imported:
 
 
 def import_drawing(path: str | os.PathLike[str], **options: Any) -> Imported:
-    """Make a scene of a drawing: DXF, SVG, OBJ, or JSON (COMPAS, or a list of blocks).
+    """Make a scene from a drawing: DXF, SVG, OBJ, or JSON (COMPAS, or a list of blocks).
 
     Parameters
     ----------
     path : path
         The drawing.
     **options
-        Those of the command ``masonry import``, each by its name: ``tolerance``, ``unit``, ``scale``, ``thickness``, ``joints``,
+        The options of the command ``masonry import``, by name: ``tolerance``, ``unit``, ``scale``, ``thickness``, ``joints``,
         ``density``, ``mu``, and ``ignore``, a list of layers; also ``title``.
 
     Raises
     ------
     masonry.SceneError
-        If the drawing cannot be mended, with the place in it and the remedy. A remedy names an option as the command does:
+        If the drawing cannot be mended; the message has the place and the remedy. Remedies name options of the command:
         ``--tolerance 0.012`` is ``tolerance=0.012`` here.
     OSError
         If the file cannot be read.
@@ -84,7 +84,7 @@ def import_drawing(path: str | os.PathLike[str], **options: Any) -> Imported:
 
 
 def from_compas(source: Any, **options: Any) -> Imported:
-    """Make a scene of an assembly or of meshes of COMPAS, which need not be installed.
+    """Make a scene from an assembly or meshes of COMPAS, which need not be installed.
 
     Bodies are projected on the upright plane across which all of them are prisms of one depth, with z up.
 
@@ -94,14 +94,14 @@ def from_compas(source: Any, **options: Any) -> Imported:
         A file of COMPAS, an object with ``to_jsonstring()``, such as an assembly, or bodies, each with ``to_vertices_and_faces()``,
         with ``vertices`` and ``faces``, or a pair of these. A body whose attribute ``is_support`` is true does not move.
     **options
-        Those of :func:`import_drawing`.
+        The options of :func:`import_drawing`.
 
     Raises
     ------
     masonry.SceneError
-        If bodies are no prisms of one depth across an upright plane, with the name of the first of them.
+        If bodies are not prisms of one depth across an upright plane; the message has the name of the first such body.
     TypeError
-        If an object is no body.
+        If an object is not a body.
 
     Examples
     --------
@@ -147,7 +147,7 @@ def _is_body(it: Any) -> bool:
 
 
 def _body(it: Any, place: int) -> dict[str, Any]:
-    """Give a body as COMPAS writes meshes."""
+    """Give a body in the form of meshes of COMPAS."""
     if hasattr(it, "to_vertices_and_faces"):
         vertices, faces = it.to_vertices_and_faces()
     elif _is_body(it):

@@ -19,13 +19,13 @@ class Done:
     Attributes
     ----------
     index : int
-        Its place among the scenes.
+        The place of the scene among the scenes.
     scene : Scene
         The scene.
     result : object
-        What the work gave; ``None`` if it raised an exception.
+        The result of the work; ``None`` if the work raised an exception.
     error : BaseException or None
-        The exception of the work, or of the executor if that has lost it.
+        The exception of the work, or that of the executor if the work is lost.
     """
 
     index: int
@@ -44,9 +44,10 @@ def map(
 ) -> Iterator[Done]:
     """Work on scenes on all cores, and give each as soon as it is done.
 
-    The work begins when the caller asks for the first result. A scene that raises an exception does not stop the others. Solves
-    release the lock of the interpreter, so that threads suffice on one machine. If the caller asks for no more, or after Ctrl-C,
-    no other scene begins, but scenes that run go on to their end in the background, and the process does not end before them.
+    The work begins when the caller takes the first result. A scene that raises an exception does not stop the others. Solves
+    release the lock of the interpreter, so that threads suffice on one machine. If the caller takes no more results, or after
+    Ctrl-C, no other scene begins, but running scenes go on to their end in the background, and the process does not end
+    before them.
 
     Parameters
     ----------
@@ -57,8 +58,8 @@ def map(
     workers : int, optional
         Threads, at least one; by default one for each core. An ``executor`` has workers of its own.
     executor : concurrent.futures.Executor, optional
-        What works in place of threads, such as the ``get_executor()`` of a client of dask. Results of other processes have to be
-        data: what ``what`` gives is then made of numbers, texts and arrays, not an :class:`Outcome`.
+        The executor that replaces threads, such as the ``get_executor()`` of a client of dask. Results of other processes have to
+        be data: ``what`` then returns numbers, texts and arrays, not an :class:`Outcome`.
     progress : bool
         Show a bar, as :meth:`Scene.solve` does.
 
@@ -102,7 +103,7 @@ def _done(
     try:
         with bar(progress, "scenes", len(given)) as shown:
             for count, future in enumerate(concurrent.futures.as_completed(waiting), 1):
-                # What is done is forgotten here, so that its memory is the caller's.
+                # References to finished work are dropped here, so that the caller alone holds its memory.
                 index = waiting.pop(future)
                 if shown is not None:
                     shown.at(count)
@@ -112,13 +113,13 @@ def _done(
     finally:
         for future in waiting:
             future.cancel()
-        # After Ctrl-C nobody waits for the scenes that run.
+        # The scenes that still run after Ctrl-C are not waited for.
         if executor is None:
             pool.shutdown(wait=False)
 
 
 def _error(future: concurrent.futures.Future[Any]) -> BaseException | None:
-    """Give the exception of the work, or that its executor has cancelled it."""
+    """Give the exception of the work, or one for work that the executor has cancelled."""
     if future.cancelled():
         return concurrent.futures.CancelledError("the executor has cancelled the work on this scene")
     return future.exception()

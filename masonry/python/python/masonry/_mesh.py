@@ -1,4 +1,4 @@
-"""Meshes for programs that draw or go on computing."""
+"""Meshes for other programs that draw or calculate."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from lcp import _native
 
-#: What VTK calls a polygon, a triangle and a quadrilateral.
+#: The numbers of a triangle, a polygon and a quadrilateral in VTK.
 _VTK = {"triangle": 5, "polygon": 7, "quad": 9}
 _NAMES = {3: "triangle", 4: "quad"}
 _STRESSES = ("sigma_x", "sigma_y", "tau_xy", "sigma_1", "sigma_2")
@@ -69,7 +69,7 @@ class Mesh:
         )
 
     def vtk(self) -> tuple[NDArray[np.int64], NDArray[np.uint8]]:
-        """Give cells and their types as :class:`pyvista.UnstructuredGrid` takes them, before the points.
+        """Give cells and their types, the first arguments of :class:`pyvista.UnstructuredGrid`, before the points.
 
         Examples
         --------

@@ -1,4 +1,4 @@
-"""Bars that show how far work has come."""
+"""Bars that show the progress of work."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ _REST = 0.1
 
 
 class Bar(Protocol):
-    """A bar, or a line in its place."""
+    """A bar, or a line that replaces the bar."""
 
     def at(self, number: int, note: str = "", total: int | None = None) -> None:
         """Show a number, and a note behind it."""
@@ -29,7 +29,7 @@ class _Tqdm:
         if total is not None:
             self._bar.total = total
         self._bar.set_postfix_str(note, refresh=False)
-        # Methods that follow one another each begin at zero.
+        # Each of several methods in sequence begins at zero.
         if number < self._bar.n:
             self._bar.reset(self._bar.total)
         self._bar.update(number - self._bar.n)
@@ -39,7 +39,7 @@ class _Tqdm:
 
 
 class _Line:
-    """A line on standard error, for those who have no tqdm."""
+    """A line on standard error, if tqdm is not installed."""
 
     def __init__(self, label: str, total: int | None) -> None:
         self._label, self._total = label, total

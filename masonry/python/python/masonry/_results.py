@@ -1,4 +1,4 @@
-"""What becomes of scenes."""
+"""Results of scenes."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ _COLOURS = {"stands": "#1a7f37", "falls": "#b3261e", "undecided": "#8a6100"}
 
 
 class Outcome:
-    """What became of a scene that was solved.
+    """The result of a scene that was solved.
 
     Attributes
     ----------
@@ -39,7 +39,7 @@ class Outcome:
 
     @property
     def details(self) -> dict[str, Any]:
-        """Everything that ``result.json`` has."""
+        """The contents of ``result.json``."""
         if self._details is None:
             self._details = json.loads(self._native.json())
         return self._details
@@ -117,13 +117,13 @@ class Outcome:
 
 
 class Plan:
-    """What a scene needs before it is solved.
+    """The plan of a solve: effects, unknowns and routes.
 
     Attributes
     ----------
     details : dict
-        Effects and why they are on or off, numbers of blocks, nodes, joints and unknowns, the routes in the order in which they
-        are tried, each with its reason and its memory in bytes, and why the scene is refused, if it is.
+        Effects with the reasons why they are on or off, numbers of blocks, nodes, joints and unknowns, the routes in the order in
+        which they are tried, each with its reason and its memory in bytes, and the reason why the scene is refused, if it is.
     """
 
     def __init__(self, native: _native.Found) -> None:
@@ -149,7 +149,7 @@ class Plan:
 
 
 class Study:
-    """What accuracy costs: a scene by several routes, to several tolerances, on several meshes.
+    """The cost of accuracy: a scene by several routes, to several tolerances, on several meshes.
 
     Attributes
     ----------
@@ -160,7 +160,7 @@ class Study:
         A record for each mesh: numbers of blocks, elements and contact points, values of its most accurate solution in the units
         of the scene, and their errors relative to those of the finest mesh.
     details : dict
-        Everything that ``study.json`` has.
+        The contents of ``study.json``.
     """
 
     def __init__(self, native: _native.Studied) -> None:
@@ -171,7 +171,7 @@ class Study:
 
     @property
     def is_interrupted(self) -> bool:
-        """Whether the callback has ended it, so that solves were skipped."""
+        """Whether the callback has ended the study, so that solves were skipped."""
         return bool(self.details["interrupted"])
 
     def report(self) -> str:
@@ -191,12 +191,12 @@ class Study:
 
 
 class Limit:
-    """What an analysis of limits has found.
+    """The result of an analysis of limits.
 
     Attributes
     ----------
     details : dict
-        Everything that ``limit.json`` has: factors and proofs by both laws, reactions, the seismic check, thicknesses.
+        The contents of ``limit.json``: factors and proofs by both laws, reactions, the seismic check, thicknesses.
     """
 
     def __init__(self, native: _native.Found) -> None:
@@ -221,7 +221,7 @@ class Limit:
 
 
 def _meshes(meshes: list[dict[str, Any]]) -> NDArray[np.void]:
-    """Give meshes as records; what is not known is not a number."""
+    """Give meshes as records; unknown values are NaN."""
 
     def values(of: str, name: str, place: int | None = None) -> NDArray[np.float64]:
         found = [(it[of] or {}).get(name) for it in meshes]

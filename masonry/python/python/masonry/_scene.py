@@ -1,4 +1,4 @@
-"""Scenes: what is built, and what acts on it."""
+"""Scenes: structures, and the loads on them."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from ._progress import Bar, bar
 from ._results import Limit, Outcome, Plan, Study
 
 Callback = Callable[[int, float], Any]
-#: Tables and lists in each other: a co-ordinate of a block is in five of them.
+#: The largest depth of nested tables and lists: a coordinate of a block is at depth five.
 _DEPTH = 8
 
 
@@ -87,7 +87,7 @@ class Scene:
         return value
 
     def __setitem__(self, path: str, value: Any) -> None:
-        """Give a key a value; the scene is checked when it is used."""
+        """Set the value of a key; the scene is checked at its next use."""
         place, _, last = path.rpartition(".")
         table: Any = self[place] if place else self._keys
         table[int(last) if isinstance(table, list) else last] = value
@@ -110,7 +110,7 @@ class Scene:
         return scene
 
     def copy(self) -> Scene:
-        """Give a scene of its own, whose keys may be changed."""
+        """Give an independent scene, whose keys may be changed."""
         scene = Scene._from_keys(copy.deepcopy(self._keys))
         scene._native, scene._text = self._native, self._text
         return scene
@@ -120,7 +120,7 @@ class Scene:
         return self._checked().to_toml()
 
     def plan(self) -> Plan:
-        """Say what the scene needs: effects, unknowns, memory, and the method."""
+        """Give the plan of the scene: effects, unknowns, memory, and the method."""
         return Plan(self._checked().plan())
 
     def plot(self) -> str:
@@ -136,10 +136,10 @@ class Scene:
         Parameters
         ----------
         callback : callable, optional
-            Called with the number of the iteration and the residual; something true that it returns ends the solve.
+            Called with the number of the iteration and the residual; a true return value ends the solve.
         progress : bool
-            Show a bar: the steps of a load history, or else the iterations. It is one of tqdm if that is installed, or else a line
-            on standard error.
+            Show a bar: the steps of a load history, or else the iterations. The bar is one of tqdm if tqdm is installed, or else a
+            line on standard error.
         """
         native = self._checked()
         with bar(progress, "solve") as shown:
@@ -177,14 +177,14 @@ class Scene:
         Parameters
         ----------
         group : str, optional
-            The load or group that grows, in place of that of the scene.
+            The load or group that grows, instead of that of the scene.
         law : str
             ``"associative"``: joints open by ``mu`` times their slip, with a proof; ``"path"``: Coulomb's friction; ``"both"``.
         both : bool
             Also take the opposite direction.
         callback : callable, optional
-            Called with a number and the largest factor that was found to stand, NaN as long as none was; something true that it
-            returns ends the search.
+            Called with a number and the largest factor that was found to stand, NaN until there is one; a true return value
+            ends the search.
         progress : bool
             Show a bar, as :meth:`solve` does.
         """
@@ -204,14 +204,14 @@ class Scene:
     ) -> Limit:
         """Find the limit load of the train of the scene at all of its positions.
 
-        Its ``details`` have ``positions``, the one that ``governs``, and the ``limit`` there.
+        The ``details`` of the result have ``positions``, the one that ``governs``, and the ``limit`` there.
 
         Parameters
         ----------
         law : str
-            The law, as of :meth:`limit`. With ``"both"`` the path is followed at the worst position by associative flow only.
+            The law, as for :meth:`limit`. The path is followed only at the worst position by associative flow with ``"both"``.
         callback : callable, optional
-            As of :meth:`limit`.
+            As for :meth:`limit`.
         progress : bool
             Show a bar, as :meth:`solve` does.
         """
@@ -225,7 +225,7 @@ class Scene:
         Parameters
         ----------
         callback : callable, optional
-            Called with the number of the iteration and the residual; something true that it returns ends the search.
+            Called with the number of the iteration and the residual; a true return value ends the search.
         progress : bool
             Show a bar, as :meth:`solve` does.
         """
@@ -241,10 +241,10 @@ class Scene:
         Parameters
         ----------
         arch : str
-            Its name.
+            The name of the arch.
         callback : callable, optional
-            Called with a number and the smallest thickness that was found to stand, NaN as long as none was; something true that it
-            returns ends the search.
+            Called with a number and the smallest thickness that was found to stand, NaN until there is one; a true return value
+            ends the search.
         progress : bool
             Show a bar, as :meth:`solve` does.
         """
@@ -263,7 +263,7 @@ class Scene:
         callback: Callable[[int, str, float], Any] | None = None,
         progress: bool = False,
     ) -> Study:
-        """Find what accuracy costs.
+        """Find the cost of accuracy.
 
         Parameters
         ----------
@@ -272,15 +272,14 @@ class Scene:
         tolerances : iterable of float, optional
             Largest residuals, from ``1e-2`` to ``1e-12`` if left out.
         meshes : iterable of int, optional
-            Factors of the numbers of elements in each direction, 1, 2 and 4 if left out; scenes of rigid blocks are studied as they
-            are.
+            Factors of the numbers of elements in each direction, 1, 2 and 4 if left out; the mesh of rigid blocks stays as it is.
         time_limit : float, optional
             Seconds of a solve, 20 if left out.
         repeats : int, optional
-            How often a solve of less than a second is run, 3 if left out; its time is the median.
+            The number of runs of a solve of less than a second, 3 if left out; its time is the median.
         callback : callable, optional
-            Called with the factor of the mesh, the route and the tolerance of the solve that runs, many times in each; something
-            true that it returns ends the study.
+            Called with the factor of the mesh, the route and the tolerance of the solve that runs, many times in each solve; a
+            true return value ends the study.
         progress : bool
             Show a bar, as :meth:`solve` does.
 
@@ -323,7 +322,7 @@ class Scene:
             return Study(native.study(settings, solve))
 
     def _written(self) -> str:
-        """Give the keys as JSON, arrays and numbers of numpy included."""
+        """Give the keys as JSON, including arrays and numbers of numpy."""
 
         def plain(value: Any) -> Any:
             if hasattr(value, "tolist"):
@@ -344,12 +343,12 @@ class Scene:
 
 
 def _given(table: dict[str, Any]) -> dict[str, Any]:
-    """Leave out the keys without a value."""
+    """Give the table without the keys that have no value."""
     return {key: value for key, value in table.items() if value is not None}
 
 
 def _not_finite(keys: dict[str, Any]) -> str | None:
-    """Say which key has a number that is not finite, down to the depth that scenes have."""
+    """Give a message with the key of a number that is not finite, down to the depth of scenes."""
 
     def found(value: Any, path: str, depth: int) -> str | None:
         if isinstance(value, float) and not math.isfinite(value):
@@ -371,7 +370,7 @@ def _listed(given: Iterable[Any] | None) -> list[Any] | None:
 
 
 def _told(callback: Callback | None, shown: Bar | None, what: str) -> Callback | None:
-    """Give a callback that also moves a bar; none if there is neither."""
+    """Give a callback that also moves a bar; ``None`` if there is neither callback nor bar."""
     if shown is None:
         return callback
 

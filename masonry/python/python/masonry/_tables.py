@@ -9,14 +9,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-#: Columns that are text, whatever it looks like, those of whole numbers, and those of yes and no.
+#: Columns of texts, which may look like numbers, columns of whole numbers, and columns of flags.
 _TEXTS = {"class", "a", "b", "status", "stage", "way", "route", "reason"}
 _NUMBERS = {"index", "joint", "step", "factorisations", "open", "stick", "slip", "mesh"}
 _FLAGS = {"overrun"}
 
 
 def table(text: str) -> NDArray[np.void]:
-    """Give a CSV table as records, whose fields are its columns."""
+    """Give a CSV table as records, whose fields are the columns."""
     names, *rows = csv.reader(io.StringIO(text))
     columns = {name: _column(name, [row[place] for row in rows]) for place, name in enumerate(names)}
     return gathered(columns, len(rows))
