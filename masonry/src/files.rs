@@ -28,7 +28,7 @@ pub fn read_bounded(path: &Path, largest: usize) -> io::Result<Vec<u8>> {
         return Err(io::ErrorKind::IsADirectory.into());
     }
     if !metadata.is_file() {
-        return Err(io::Error::other("it is a device or a pipe, and no file"));
+        return Err(io::Error::other("it is a device or a pipe, and not a file"));
     }
     let mut bytes = Vec::new();
     // One more byte than is allowed shows that the file is too large.

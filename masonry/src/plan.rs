@@ -129,7 +129,7 @@ fn solver(route: Route, form: Form, has_friction: bool) -> (&'static str, &'stat
             "quadratic programs",
             "every program has fixed bounds of friction; the fixed point of the bounds is the solution",
         ),
-        (Route::Qp, _) => ("quadratic program", "without friction one convex program is enough"),
+        (Route::Qp, _) => ("quadratic program", "one convex program is enough without friction"),
         (Route::Pgs, _) => (
             "projected Gauss-Seidel sweeps",
             "springs make the stiffness definite, and are re-centred until they carry nothing",
@@ -143,7 +143,7 @@ fn solver(route: Route, form: Form, has_friction: bool) -> (&'static str, &'stat
         }
         (_, Form::Auto) => (
             "lemke, Coulomb form; mixed form if it ends on rays",
-            "with friction a ray of the Coulomb form does not mean that there is no equilibrium",
+            "there may be an equilibrium despite a ray of the Coulomb form, because of friction",
         ),
         (_, Form::Coulomb) => ("lemke, Coulomb form", "solver.form = \"coulomb\""),
         (_, Form::StewartTrinkle) => {

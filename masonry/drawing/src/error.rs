@@ -62,13 +62,13 @@ pub enum DrawingErrorKind {
         message: String,
     },
     /// A text stands in the place of a number.
-    #[error("\"{text}\" is no number")]
+    #[error("\"{text}\" is not a number")]
     Number {
         /// The text.
         text: String,
     },
     /// A coordinate is not finite, or too large for a place.
-    #[error("a coordinate is no finite number below 1e60: correct it or delete the entity")]
+    #[error("a coordinate is not a finite number below 1e60: correct it or delete the entity")]
     NotFinite,
     /// There are more items than a drawing may have.
     #[error("there are more than {limit} {what}: save only the layers with the blocks")]
@@ -100,7 +100,7 @@ pub enum DrawingErrorKind {
     },
     /// A body is not a prism across the plane of the others.
     #[error(
-        "it is no prism across one plane with the others: the model is plane; cut it with a plane and draw the section"
+        "it is not a prism across the plane of the others: the model is plane; cut it with a plane and draw the section"
     )]
     NotPlane,
     /// Bodies lie behind each other.

@@ -138,7 +138,7 @@ fn mark(scene: &mut Scene, model: &Model, sheet: &mut Sheet, options: &ImportOpt
         }
     }
     let idle = sheet.marks.iter().zip(is_used).filter(|(_, is_used)| !is_used);
-    let what = "lines of joints that lie on none were dropped";
+    let what = "lines of joints that lie on no joint were dropped";
     sheet.changes.extend(idle.map(|(mark, _)| Change::new(what, &mark.place)));
 }
 

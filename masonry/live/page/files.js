@@ -136,7 +136,7 @@ export class Files {
       download("scene.toml", text, "application/toml");
       return this.rename(null, text);
     }
-    const given = this.name ?? prompt("Name of the new file. It is written beside the scene that was opened, or else into the directory in which masonry was started.", "scene.toml");
+    const given = this.name ?? prompt("Name of the new file, which is written beside the scene that was opened, or else into the directory in which masonry was started.", "scene.toml");
     if (given === null) return;
     const name = given.endsWith(".toml") ? given : `${given}.toml`;
     // The file of a new scene must not exist yet, unless it may be replaced.

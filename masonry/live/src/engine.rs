@@ -203,8 +203,8 @@ impl Engine {
         if scene.combinations.is_empty() {
             return Ok(scene);
         }
-        let message = "the scene has combinations: verdict and limit load take all of them; for other questions \
-                       remove [[combinations]] and leave the loads of one";
+        let message = "the scene has combinations: verdict and limit load take all of them; remove \
+                       [[combinations]] for other questions, and leave the loads of one";
         Err(Fault::new(&message))
     }
 

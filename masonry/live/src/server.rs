@@ -115,7 +115,7 @@ impl Shared {
             name: Option<String>,
         }
         let Ok(load) = serde_json::from_slice::<Load>(&request.body) else {
-            return Reply::error(400, "the request is no JSON of a name");
+            return Reply::error(400, "the request is not JSON of a name");
         };
         match self.desk.load(load.name.as_deref()) {
             Ok(sheet) => Reply::json(&json!(sheet)),
@@ -132,7 +132,7 @@ impl Shared {
             was: Option<String>,
         }
         let Ok(save) = serde_json::from_slice::<Save>(&request.body) else {
-            return Reply::error(400, "the request is no JSON of a file");
+            return Reply::error(400, "the request is not JSON of a file");
         };
         match self.desk.save(&save.name, &save.text, save.was.as_deref()) {
             Ok(()) => Reply::json(&json!({ "saved": save.name })),
@@ -143,7 +143,7 @@ impl Shared {
     /// Sends news while the engine works, each in a line, and then the answer.
     fn ask(&self, stream: &TcpStream, request: &Request) -> io::Result<()> {
         let Ok(question) = std::str::from_utf8(&request.body) else {
-            return http::send(stream, &Reply::error(400, "the question is no UTF-8 text"));
+            return http::send(stream, &Reply::error(400, "the question is not UTF-8 text"));
         };
         http::begin_lines(stream)?;
         let mut last = Instant::now();

@@ -68,7 +68,7 @@ impl<'a> Watch<'a> {
 pub(crate) fn detached<T: Send>(py: Python<'_>, work: impl FnOnce() -> T + Send) -> PyResult<T> {
     py.detach(|| catch_unwind(AssertUnwindSafe(work)).ok()).ok_or_else(|| {
         PyRuntimeError::new_err(
-            "a fault of the library, told on standard error: please report it with the data that led to it",
+            "a fault of the library, reported on standard error: please report it with the data that led to it",
         )
     })
 }

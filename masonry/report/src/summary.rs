@@ -284,7 +284,7 @@ fn why(outcome: &Outcome) -> Option<&'static str> {
         lcp::Status::Solved => return None,
         lcp::Status::AlmostSolved if outcome.state.is_some() && !has_history => {
             "The complementarity problem was solved, but the balance of the blocks, recomputed from \
-             forces and loads, does not hold. What was computed is kept for inspection only."
+             forces and loads, does not hold. The computed state is kept for inspection only."
         }
         lcp::Status::RayTermination if outcome.mechanism.is_some() => {
             "A collapse mechanism was found, but no equilibrium. The mechanism is a motion of the blocks \
@@ -292,40 +292,40 @@ fn why(outcome: &Outcome) -> Option<&'static str> {
              mechanism is not a proof of collapse."
         }
         lcp::Status::RayTermination => {
-            "No attempt found an equilibrium, and the last form ended on secondary rays. With \
-             friction this is not a proof of collapse: there may be an equilibrium that Lemke's method \
-             does not reach."
+            "No attempt found an equilibrium, and the last form ended on secondary rays. Such \
+             rays are not a proof of collapse if there is friction: there may be an equilibrium that Lemke's \
+             method does not reach."
         }
         lcp::Status::Infeasible => {
             "There is no equilibrium (proved): no contact forces within their limits and no displacements \
              that fit them balance the loads. The proof, a Farkas vector, was checked in the data."
         }
         lcp::Status::NoEquilibrium => {
-            "The blocks do not come to rest within small displacements. By itself this is evidence of collapse, not a proof."
+            "The blocks do not come to rest within small displacements, which alone is evidence of collapse, not a proof."
         }
         lcp::Status::Stalled => {
-            "The residuals stopped decreasing before the tolerance was reached. This says nothing about the \
-             structure: another route may find an equilibrium."
+            "The residuals stopped decreasing before the tolerance was reached. Whether the structure stands \
+             remains open: another route may find an equilibrium."
         }
         lcp::Status::IterationLimit => {
-            "The limit on iterations was reached. This says nothing about the structure: another route \
-             may find an equilibrium."
+            "The limit on iterations was reached. Whether the structure stands remains open: \
+             another route may find an equilibrium."
         }
         lcp::Status::PivotLimit => {
-            "The limit on pivots was reached. This says nothing about the structure: a larger \
-             limit or another start may find an equilibrium."
+            "The limit on pivots was reached. Whether the structure stands remains open: a \
+             larger limit or another start may find an equilibrium."
         }
         lcp::Status::NumericalTrouble => {
-            "Rounding errors are too large. This says nothing about the \
-             structure: look for blocks, stiffnesses or gaps of very different size."
+            "Rounding errors are too large. Whether the structure stands \
+             remains open: look for blocks, stiffnesses or gaps of very different size."
         }
         lcp::Status::AlmostSolved => {
             "The best point found satisfies the conditions only to a looser tolerance, which is \
              not accepted as an equilibrium."
         }
         lcp::Status::Cycling => {
-            "The pivots cycled in every attempt. This says \
-             nothing about the structure: another mesh or another form may find an equilibrium."
+            "The pivots cycled in every attempt. Whether the structure \
+             stands remains open: another mesh or another form may find an equilibrium."
         }
         lcp::Status::Cancelled => "The solve was cancelled.",
         _ => "The solver returned no equilibrium.",

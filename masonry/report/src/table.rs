@@ -51,7 +51,7 @@ pub fn report(outcome: &Outcome) -> String {
     }
     text += &section("Solution");
     text += &pairs(&solution(outcome));
-    text += &section("What was built");
+    text += &section("Plan");
     text += &built(&outcome.plan);
     text += &section("Time");
     text += &pairs(&times(outcome));
@@ -191,7 +191,7 @@ fn reactions(outcome: &Outcome) -> String {
     table.rows.extend(tables::forces(units, corners.chain(totals)).rows);
     let mut text = text::table(&table) + " Moments are about the origin.\n";
     if !names.is_empty() {
-        text += " Of supports that meet in a corner only the sum (+) is unique.\n";
+        text += " Only the sum (+) of supports that meet in a corner is unique.\n";
     }
     text
 }

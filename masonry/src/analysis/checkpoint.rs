@@ -42,7 +42,7 @@ pub enum CheckpointError {
     },
     /// The text is not a checkpoint.
     #[error(
-        "{}, line {}, column {}: this is no checkpoint: {source}; solve from the first step",
+        "{}, line {}, column {}: this is not a checkpoint: {source}; solve from the first step",
         path.display(), source.line(), source.column()
     )]
     Syntax {
@@ -87,7 +87,7 @@ pub enum CheckpointError {
     OneStep,
     /// A number is not finite, or forces and displacements are not those of an equilibrium.
     #[error(
-        "the state in the checkpoint is no equilibrium of the scene: solve from the first step"
+        "the state in the checkpoint is not an equilibrium of the scene: solve from the first step"
     )]
     NoEquilibrium,
     /// A list has a wrong length.

@@ -67,7 +67,7 @@ fn chosen(facts: Facts) -> Vec<(Route, String)> {
                  an equilibrium, and one convex program finds them or proves that there are none"
                     .to_owned(),
             ),
-            (Route::Interior, "where that leaves it open, or supports move".to_owned()),
+            (Route::Interior, "if the program leaves the answer open, or if supports move".to_owned()),
         ]
     } else {
         vec![
@@ -78,8 +78,8 @@ fn chosen(facts: Facts) -> Vec<(Route, String)> {
             (
                 Route::Forces,
                 format!(
-                    "after {STEPS_BEFORE_PROOF} steps without an answer: whether any forces inside friction \
-                     balance the loads, or none, which is a proof that the wall falls"
+                    "after {STEPS_BEFORE_PROOF} steps without an answer: forces inside friction that balance \
+                     the loads, or a proof that there are none and the wall falls"
                 ),
             ),
         ]
@@ -88,7 +88,7 @@ fn chosen(facts: Facts) -> Vec<(Route, String)> {
         list.push((
             Route::Lemke,
             format!(
-                "for a second opinion: pivots take about a second on dense matrices of order up to {FEW}, and \
+                "a second opinion: pivots take about a second on dense matrices of order up to {FEW}, and \
                  the largest is of order {largest_dense}"
             ),
         ));

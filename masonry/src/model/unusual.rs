@@ -165,7 +165,7 @@ impl Model {
         let densities = || self.blocks.iter().filter_map(|block| block.density);
         if gravity > 0.0 && !GRAVITY.contains(&gravity) {
             list.push(format!(
-                "Gravity is {gravity:e} m/s2, which is unusual. It is in m/s2 whatever the units of the scene."
+                "Gravity is {gravity:e} m/s2, which is unusual: its unit is m/s2 for all units of the scene."
             ));
         }
         if gravity > 0.0 && densities().next().is_none() {
@@ -177,7 +177,7 @@ impl Model {
         let odd = densities().find(|density| !DENSITY.contains(density));
         list.extend(odd.map(|density| {
             format!(
-                "A density of {density:e} kg/m3 is unusual. It is in kg/m3 whatever the units of the scene."
+                "A density of {density:e} kg/m3 is unusual: its unit is kg/m3 for all units of the scene."
             )
         }));
         list

@@ -20,7 +20,8 @@ pub(crate) fn of_unit_density(model: &Model) -> Option<String> {
         more => format!("Block \"{first}\" and {more} more have no density"),
     };
     Some(format!(
-        "{blocks}: no weight, and while blocks move the mass of {UNIT} kg/m3. Give `density` to the material if it is known."
+        "{blocks}: they have no weight, and the mass of {UNIT} kg/m3 while they move. Give `density` to the material if \
+         it is known."
     ))
 }
 

@@ -274,7 +274,7 @@ fn devices_and_pipes_are_no_lists() {
     let pipe = path.with_file_name("pipe.dxf");
     let _ = fs::remove_file(&pipe);
     assert!(Command::new("mkfifo").arg(&pipe).status().unwrap().success());
-    let words = "it is a device or a pipe, and no file";
+    let words = "it is a device or a pipe, and not a file";
     let message = |output: Output| {
         assert_eq!(output.status.code(), Some(2));
         String::from_utf8(output.stderr).unwrap()

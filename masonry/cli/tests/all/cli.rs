@@ -396,7 +396,7 @@ fn a_load_history_can_be_taken_up_where_it_stopped() {
     let output = solve(&pushed(4, 1.2), &["--resume"]);
     assert_eq!(output.status.code(), Some(2));
     assert!(
-        stderr(&output).contains("line 1, column 2: this is no checkpoint"),
+        stderr(&output).contains("line 1, column 2: this is not a checkpoint"),
         "{}",
         stderr(&output)
     );

@@ -60,12 +60,12 @@ fn mistakes_of_dxf_have_their_line() {
     assert_refused(
         &text.replace("10\n0\n20", "10\nO\n20"),
         DrawingFormat::Dxf,
-        "LWPOLYLINE 1 (line 32): \"O\" is no number",
+        "LWPOLYLINE 1 (line 32): \"O\" is not a number",
     );
     assert_refused(
         &text.replace("10\n0\n20", "10\n1e99\n20"),
         DrawingFormat::Dxf,
-        "LWPOLYLINE 1 (line 22): a coordinate is no finite number below 1e60: correct it or delete the entity",
+        "LWPOLYLINE 1 (line 22): a coordinate is not a finite number below 1e60: correct it or delete the entity",
     );
 }
 
@@ -75,7 +75,7 @@ fn a_coordinate_that_is_no_number_is_refused() {
     assert_refused(
         &text.replace("10\n0\n20", "10\nNaN\n20"),
         DrawingFormat::Dxf,
-        "LWPOLYLINE 1 (line 22): a coordinate is no finite number below 1e60: correct it or delete the entity",
+        "LWPOLYLINE 1 (line 22): a coordinate is not a finite number below 1e60: correct it or delete the entity",
     );
 }
 
@@ -137,7 +137,7 @@ fn mistakes_of_other_formats_have_their_place() {
         DrawingFormat::Obj,
         "v (line 1): the file ends in the middle: save it again",
     );
-    assert_refused("v 0 0 a\n", DrawingFormat::Obj, "v (line 1): \"a\" is no number");
+    assert_refused("v 0 0 a\n", DrawingFormat::Obj, "v (line 1): \"a\" is not a number");
     assert_refused(
         "v 0 0 0\nf 1 2 3\n",
         DrawingFormat::Obj,
@@ -147,7 +147,7 @@ fn mistakes_of_other_formats_have_their_place() {
     assert_refused(
         &svg("<rect id=\"r\" width=\"1x\"/>"),
         DrawingFormat::Svg,
-        "<rect> id \"r\" (line 2): \"1x\" is no number",
+        "<rect> id \"r\" (line 2): \"1x\" is not a number",
     );
     let deep = svg(&("<g>".repeat(80) + &"</g>".repeat(80)));
     assert_refused(
@@ -174,7 +174,7 @@ fn bodies_that_are_not_plane_are_refused() {
     assert_refused(
         &(first.clone() + &body(2, [1.0, 0.0, 0.0], 0.1)),
         DrawingFormat::Obj,
-        "o body2 (line 16): it is no prism across one plane with the others: the model is plane; cut it with a plane \
+        "o body2 (line 16): it is not a prism across the plane of the others: the model is plane; cut it with a plane \
          and draw the section",
     );
     assert_refused(
@@ -202,7 +202,7 @@ fn bodies_with_steps_across_the_plane_are_refused() {
     assert_refused(
         &text,
         DrawingFormat::Obj,
-        "o step (line 1): it is no prism across one plane with the others: the model is plane; cut it with a plane \
+        "o step (line 1): it is not a prism across the plane of the others: the model is plane; cut it with a plane \
          and draw the section",
     );
 }

@@ -67,7 +67,7 @@ fn pictures(all: &[&Solved], seen: Seen) -> (Vec<Option<String>>, Option<&'stati
         }
         Show::Mechanism => {
             let scale =
-                "Mechanisms tell how blocks move, not how far: their sizes cannot be compared.";
+                "Mechanisms have no scale of displacements: their sizes cannot be compared.";
             return (each(), Some(scale));
         }
         _ => return (each(), None),

@@ -34,19 +34,19 @@ pub(super) struct Sheet {
 #[non_exhaustive]
 pub enum DeskError {
     /// The last part of the path is not a file name in UTF-8.
-    #[error("{} is no name of a scene file: give one such as wall.toml", path.display())]
+    #[error("{} is not a name of a scene file: give one such as wall.toml", path.display())]
     NoName {
         /// The path.
         path: PathBuf,
     },
     /// The name has directories, or another ending.
-    #[error("\"{name}\" is no plain name that ends in .toml: give one such as wall.toml")]
+    #[error("\"{name}\" is not a plain name that ends in .toml: give one such as wall.toml")]
     NotPlain {
         /// The name.
         name: String,
     },
     /// The file exists, but is not a file of the page.
-    #[error("{} is no file of this page: save under the name of a new file", path.display())]
+    #[error("{} is not a file of this page: save under the name of a new file", path.display())]
     Foreign {
         /// The file.
         path: PathBuf,

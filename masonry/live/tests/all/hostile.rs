@@ -128,7 +128,7 @@ fn no_file_outside_of_the_directory_is_read_or_written() {
             let body = json!({ "name": name, "text": "x", "was": was }).to_string();
             let answer = said(&posted(&address, "/save", &body));
             let message = answer["error"]["message"].as_str().unwrap();
-            assert!(message.contains("is no plain name"), "{name}: {message}");
+            assert!(message.contains("is not a plain name"), "{name}: {message}");
         }
     }
     assert_eq!(fs::read_to_string(&secret).unwrap(), "secret");
@@ -239,7 +239,7 @@ fn another_scene_of_the_directory_is_neither_read_nor_written() {
     }
     assert_eq!(fs::read_to_string(&other).unwrap(), "# theirs");
     let message = loaded(&address, Some("other.toml"))["error"]["message"].take();
-    assert!(message.as_str().unwrap().contains("is no file of this page"), "{message}");
+    assert!(message.as_str().unwrap().contains("is not a file of this page"), "{message}");
 }
 
 #[test]

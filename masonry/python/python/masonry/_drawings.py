@@ -138,7 +138,7 @@ def _imported(name: str, data: bytes, options: dict[str, Any]) -> Imported:
     }
     for option in options:
         if option not in known:
-            raise TypeError(f"there is no option {option!r}: choose of {', '.join(known)}")
+            raise TypeError(f"there is no option {option!r}: choose one of {', '.join(known)}")
     return Imported(_native.import_drawing(name, data, {**known, **options}))
 
 

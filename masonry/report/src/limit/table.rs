@@ -48,7 +48,7 @@ pub fn table_both(both: &Directions) -> String {
         Governs::Given => "The given direction governs:",
         Governs::Opposite => "The opposite direction governs:",
         Governs::Both => "Both directions carry the same. The given one:",
-        Governs::Unknown => "Which direction governs is not known. The given one:",
+        Governs::Unknown => "The governing direction is not known. The given one:",
     };
     let Directions { given, opposite, .. } = both;
     let directions = [("Given direction", given), ("Opposite direction", opposite)];
@@ -89,7 +89,7 @@ pub fn range_table(range: &Range) -> String {
     let Some(list) = figures::limit::range(range) else { return text };
     text + &section("Least and largest reactions on the structure")
         + &columns(&list)
-        + "\nThe gaps are between the forces of a limit and the motion that proves that none are beyond it.\n"
+        + "\nEach gap is between the forces of a limit and the motion that proves that no forces exceed it.\n"
 }
 
 /// The report of a least thickness: the sentence, and both thicknesses.

@@ -65,8 +65,8 @@ pub(super) fn reactions(title: &str, model: &Model, list: &[Reaction]) -> String
 
 /// The forces and openings of all joints.
 pub(super) fn joints(title: &str, model: &Model, contacts: &[PointState]) -> String {
-    let note = "N presses where it is positive; e / l is the eccentricity of the resultant in lengths of the joint, \
-                outside the middle third above 0.167.";
+    let note = "N is positive in compression; e / l is the eccentricity of the resultant in lengths of the joint, \
+                above 0.167 outside the middle third.";
     section(title, note, &tables::joints(model, contacts))
 }
 

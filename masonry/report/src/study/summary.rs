@@ -147,8 +147,8 @@ fn elsewhere(study: &Study) -> Vec<String> {
         let record = solved.min_by(|a, b| a.tolerance.total_cmp(&b.tolerance))?;
         let error = record.errors?.worst().filter(|error| *error > ELSEWHERE)?;
         Some(format!(
-            "{} ends at a distance of {} from the reference at its tightest tolerance, {:e}. This is another \
-             equilibrium (with friction there may be several), or the tolerance does not bound the error.",
+            "{} ends at a distance of {} from the reference at its tightest tolerance, {:e}: it has found another \
+             equilibrium (there may be several if there is friction), or the tolerance does not bound the error.",
             route.name(),
             significant(error, 2),
             record.tolerance

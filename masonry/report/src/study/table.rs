@@ -71,8 +71,9 @@ fn meshes(study: &Study) -> String {
     let refused: String =
         refused.map(|(factor, why)| paragraph(&format!("Mesh {factor}: {why}"))).collect();
     wide(&figures::meshes(study))
-        + " Errors are relative to the finest mesh that has a reference, which has an error too. Thrust\n \
-           is that of the supports left of the middle; moved, a corner of a loaded block that moves most.\n"
+        + " Errors are relative to the finest mesh that has a reference, which has an error too. Thrust is\n \
+           that of the supports left of the middle; \"moved\" is the displacement of the corner of a loaded\n \
+           block that moves most.\n"
         + &refused
 }
 

@@ -31,7 +31,7 @@ pub(super) fn history(model: &Model, history: &History) -> String {
     let (energy, length) = (model.units.energy_name(), model.units.length_name());
     let meanings = format!(
         "W: work, D: dissipated energy, both from the beginning [{energy}]; U: strain energy [{energy}]. W-U-D is the \
-         error of the balance from steps that are too long; it does not tell whether friction kept its law. \
+         error of the balance from steps that are too long; it does not show whether friction kept its law. \
          moved: the largest displacement [{length}]."
     );
     let mut text = table.trim_fmt() + "\n" + &paragraph(&meanings);

@@ -78,7 +78,7 @@ impl Path {
 
     /// A warning that limits the meaning of the answer.
     pub(super) fn warning(&self) -> String {
-        let way = "With friction other paths may end at other factors.";
+        let way = "Other paths may end at other factors because of friction.";
         let sentences = [self.model.of_dry_joints(), mass::of_unit_density(&self.model)];
         sentences.into_iter().flatten().fold(way.to_owned(), |text, more| text + " " + &more)
     }

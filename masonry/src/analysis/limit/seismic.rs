@@ -110,8 +110,8 @@ pub(super) fn of(
     }
     if !is_of_accelerations(scene, structure.grows) {
         return Err(
-            "what grows has other loads than accelerations; a weight that an earthquake moves is a load with `mass` in \
-             another group",
+            "the growing group has other loads than accelerations; a weight that an earthquake moves is a load with \
+             `mass` in another group",
         );
     }
     let pushed = structure.under(0.0, 1.0).accelerations;
@@ -163,7 +163,7 @@ pub(super) fn of(
 }
 
 const UNDECIDED: &str = "the limit is undecided";
-const FALLS: &str = "the structure falls without what grows";
+const FALLS: &str = "the structure falls without the growing loads";
 const UNLIMITED: &str = "there is no limit";
 
 /// A factor and the rates of its mechanism.

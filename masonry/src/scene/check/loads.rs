@@ -59,7 +59,7 @@ impl Scene {
         let because = if load.acceleration.is_some() {
             "accelerations take none: leave `mass` out"
         } else if load.moment.is_some() {
-            "a moment is no weight: leave `mass` out"
+            "a moment is not a weight: leave `mass` out"
         } else if part > 0.0 && self.gravity.is_none_or(|it| it.iter().all(|it| *it == 0.0)) {
             "no load is a weight if gravity is missing or zero: set `gravity`, or leave `mass` out"
         } else {

@@ -150,7 +150,7 @@ fn at_step(step: &HistoryStep) -> String {
 fn reached(model: &Model, history: &History) -> Option<String> {
     let failed = history.failed.as_ref()?;
     let Some(last) = history.records.last() else {
-        return Some("No step before it was solved.".to_owned());
+        return Some("No earlier step was solved.".to_owned());
     };
     let (before, after) = (&last.step.actions, &failed.actions);
     let mut changed = Vec::new();

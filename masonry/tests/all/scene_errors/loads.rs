@@ -232,7 +232,7 @@ fn moments_of_loads() {
             "moment = 2.0\nmass = 0.25",
             "0.25",
             "mass",
-            "load \"more\" has a `mass`, but a moment is no weight: leave `mass` out",
+            "load \"more\" has a `mass`, but a moment is not a weight: leave `mass` out",
         ),
     ] {
         assert_load_error(&format!("{at}{keys}"), marked, &format!("loads[1].{key}"), message);
