@@ -26,7 +26,8 @@ pub(crate) fn associative(found: &Associative, model: &Model) -> Vec<Figure> {
     };
     let gap = limit.zip(load_factor).map(|(bound, factor)| bound - factor);
     let factor = meant(load_factor, BoundSide::Below, "carried by forces within friction");
-    let above = meant(limit, BoundSide::Above, "above which a motion proves that no forces carry the load");
+    let above =
+        meant(limit, BoundSide::Above, "above which a motion proves that no forces carry the load");
     let mut list = vec![
         Figure::new("load_factor", load_factor)
             .text("load factor", factor)
