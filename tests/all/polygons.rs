@@ -253,7 +253,7 @@ fn gauss_points_reach_a_part_of_a_joint() {
     assert_eq!(warned, None);
     let (inside, warned) = tipped(PointRule::Gauss);
     assert_close(inside, 0.2 / 3_f64.sqrt(), 1e-6);
-    assert!(warned.unwrap().contains("on 58 % of the length of one at least"));
+    assert!(warned.unwrap().contains("span only 58 % of the length of some joint"));
 }
 
 /// Outlines that are no polygon.

@@ -301,8 +301,9 @@ fn warnings(model: &Model, laws: Laws) -> Vec<String> {
     let reached = reached(model);
     if reached < 1.0 - SAME_PLACE {
         list.push(format!(
-            "Contact points are inside of joints, on {:.0} % of the length of one at least: joints open about these points and not \
-             about their ends, so that the structure may carry more. With `contact.points = \"vertices\"` they reach the ends.",
+            "Contact points are inside of joints, and span only {:.0} % of the length of some joint: joints open about these \
+             points and not about their ends, so that the structure may carry more. The points reach the ends with \
+             `contact.points = \"vertices\"`.",
             100.0 * reached
         ));
     }

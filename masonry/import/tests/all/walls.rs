@@ -366,7 +366,7 @@ fn layers_name_materials_supports_and_joints() {
     let classes: Vec<&str> =
         model.joints.iter().map(|it| model.joint_classes[it.class].name.as_str()).collect();
     assert_eq!(classes, ["lead", "support"]);
-    let dropped = ["touch no block", "lie on none", "ignored"];
+    let dropped = ["touch no block", "lie on no joint", "ignored"];
     assert_eq!(dropped.map(|what| changes(&imported, what)), [3, 1, 1], "{}", imported.report());
 }
 

@@ -55,7 +55,7 @@ fn write(path: &Path) -> Result<usize, Box<dyn Error>> {
     Ok(page.len())
 }
 
-/// Says how the target is installed if it is not there, which the compiler would say in other words for every crate.
+/// Reports how to install the target if it is missing; the compiler would report it in other words for every crate.
 fn check_target() -> Result<(), Box<dyn Error>> {
     let rustc = std::env::var_os("RUSTC").unwrap_or("rustc".into());
     let output =

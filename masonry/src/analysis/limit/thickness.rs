@@ -179,7 +179,7 @@ impl Bisection<'_> {
             (None, Some(stands)) => format!(
                 "Arch \"{arch}\" stands at all thicknesses that were tried, down to {stands} {name}."
             ),
-            (None, None) => format!("Undecided: whether arch \"{arch}\" stands was not found out."),
+            (None, None) => format!("Undecided: it is not known whether arch \"{arch}\" stands."),
         };
         let sentence = match &self.unfit {
             Some((thickness, error)) => {
