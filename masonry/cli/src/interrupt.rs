@@ -8,7 +8,7 @@ const ENDED_BY_SIGNAL: i32 = 130;
 
 static ASKED: AtomicBool = AtomicBool::new(false);
 
-/// Makes Ctrl-C request the end of the run. On a system without such signals, Ctrl-C still ends the program.
+/// Makes Ctrl-C request the end of the run. Ctrl-C still ends the program on a system without such signals.
 pub(super) fn listen() {
     let _ = ctrlc::set_handler(|| {
         if ASKED.swap(true, Ordering::SeqCst) {

@@ -31,7 +31,7 @@ pub(super) fn run(args: &LiveArgs) -> Result<u8, Failure> {
     server.run()
 }
 
-/// Opens an address in the browser of the user, if the system knows one.
+/// Opens an address in the browser of the user, if the system has one.
 fn is_opened(address: &str) -> bool {
     let (program, before): (&str, &[&str]) = if cfg!(target_os = "windows") {
         ("rundll32", &["url.dll,FileProtocolHandler"])

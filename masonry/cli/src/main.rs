@@ -1,7 +1,7 @@
 //! The command-line program `masonry`.
 //!
-//! `--json` prints one JSON object on standard output and nothing else there; progress and errors
-//! go to standard error. The exit code is 0 when solved, 1 when not solved, 2 for bad input.
+//! `--json` prints one JSON object on standard output and nothing else there; progress and errors go to standard error.
+//! The exit code is 0 if solved, 1 if not solved, 2 for bad input.
 
 mod completions;
 mod end;

@@ -9,7 +9,7 @@ use std::path::{Component, Path, PathBuf};
 use crate::end::{Failure, names};
 use masonry_report as report;
 
-/// The file that is locked. It lists the files that the last run of every command has written.
+/// The locked file, which lists the files that the last run of every command has written.
 pub(super) const RECORD: &str = ".masonry.json";
 
 /// Names of files by the name of the command.

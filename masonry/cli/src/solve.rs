@@ -113,7 +113,7 @@ fn run_combinations(scene: &Scene, args: &SolveArgs) -> Result<(Ran, Option<Case
     let lines = Cases::of_outcomes(&list);
     let governs = lines.as_ref().map_or(0, Cases::governs);
     let outcome = list.swap_remove(governs).of;
-    // Without stages, there is no step to continue from, and no step has a picture.
+    // There is no step to continue from without stages, and no step has a picture.
     Ok((Ran { outcome, frames: Vec::new(), files: Vec::new(), end: Ok(()) }, lines))
 }
 

@@ -1,7 +1,7 @@
 //! COMPAS JSON: assemblies and meshes.
 //!
-//! The versions of COMPAS nest their data differently, but a mesh always has an object `vertex`, of objects with `x`, `y`
-//! and `z`, and an object `face`, of lists of keys. So meshes are searched wherever they are.
+//! The versions of COMPAS nest their data differently, but a mesh always has an object `vertex`, of objects with `x`,
+//! `y` and `z`, and an object `face`, of lists of keys. Meshes are therefore searched at all levels.
 
 use nalgebra::Point3;
 use serde_json::{Map, Value};

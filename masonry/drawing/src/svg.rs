@@ -37,7 +37,7 @@ pub(super) fn read(text: &str) -> Result<Drawing, DrawingError> {
     Ok(drawing)
 }
 
-/// The unit of the width, and its number in one unit of the coordinates; no unit if the width has none.
+/// The unit of the width, and its number in one unit of the coordinates; `None` for a width without a unit.
 fn size_of_unit(root: Node) -> (Option<Unit>, f64) {
     let width = root.attribute("width").unwrap_or_default().trim();
     let symbol = width.trim_start_matches(|c: char| c.is_ascii_digit() || "+-.".contains(c));

@@ -5,10 +5,10 @@ import { Tables } from "./tables.js";
 
 // Solves the text, always the newest and one at a time, and shows the answer.
 
-// An answer within this time seems immediate; an older picture is drawn pale after it [ms].
+// An answer within this time seems immediate; the picture grows pale if a solve takes longer [ms].
 const AT_ONCE = 100;
-// A solve of an older text is finished within this time, so that pictures follow a continuous drag. After it, the solve
-// is stopped: a reader who waits for longer than a second loses the thread [ms].
+// The longest time for a solve of an older text, so that pictures follow a continuous drag. Longer solves are stopped:
+// a reader who waits for longer than a second loses the thread [ms].
 const PATIENCE = 1000;
 // The number of scenes that are kept for comparison, as in the engine; the oldest is dropped beyond it.
 const MOST_KEPT = 3;

@@ -41,7 +41,7 @@ export class Completion {
     const width = letters > 0 ? probe.getBoundingClientRect().width / letters : 0;
     this.list.style.left = `${8 + width * Math.max(until.at(-1).length - before, 0)}px`;
     this.list.hidden = false;
-    // Above the line if there is no room below it.
+    // The list is above the line if there is no room below the line.
     const [below, above] = [row.offsetTop + row.offsetHeight, row.offsetTop - this.list.offsetHeight];
     const { scrollTop, clientHeight } = this.editor.box;
     const isBelow = below + this.list.offsetHeight <= scrollTop + clientHeight || above < scrollTop;

@@ -169,7 +169,7 @@ export class Editor {
     return { from, to: from + written.length, written, value, whole, least, label: `${key} in line ${line}` };
   }
 
-  // Holds a number with the pointer. Without a movement, a click sets the cursor, and the second of two clicks selects
+  // Holds a number with the pointer. A click without a movement sets the cursor, and the second of two clicks selects
   // the number.
   hold(event) {
     const span = event.target.closest(".number");

@@ -71,7 +71,7 @@ export class Files {
       tell(place, "");
     };
     const take = async () => {
-      // Without a file, no part of the text is saved.
+      // No part of the text is saved without a file.
       const saved = name === null ? "" : (await this.engine.load(name).catch(failed)).text;
       this.editor.set(text);
       this.rename(name, saved ?? "");

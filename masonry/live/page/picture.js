@@ -73,7 +73,7 @@ const pictureIn = (figure) => figure.querySelector("svg:not(.handles)");
 
 // Shows a picture in a figure; the picture before changes into it. A narrow picture has its legend below it.
 export function put(figure, markup) {
-  // Without line ends, there are half as many nodes.
+  // There are half as many nodes without line ends.
   const innerHTML = markup.replaceAll(">\n<", "><");
   const { content } = Object.assign(document.createElement("template"), { innerHTML });
   const [old, next] = [pictureIn(figure), content.firstElementChild];

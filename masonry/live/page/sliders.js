@@ -46,9 +46,9 @@ export class Sliders {
     return row;
   }
 
-  // From its first movement on, a slider changes the text as it was then. The slider continues from its own text, even
-  // after its release, until an answer gives the places of the numbers in this text. Another slider that is moved
-  // before the answer waits for it.
+  // A slider changes the text as it was at its first movement. The slider continues from its own text, even after its
+  // release, until an answer gives the places of the numbers in this text. Another slider that is moved before the
+  // answer waits for the answer.
   move(row, input, event) {
     const isOwn = row.held?.text === this.editor.text;
     const isKnown = this.text === this.editor.text;

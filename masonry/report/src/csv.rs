@@ -58,8 +58,8 @@ fn field(value: &Value) -> String {
     }
 }
 
-/// A name as RFC 4180 requires: in quotes if it contains a comma, a quote or a line break. After an apostrophe if
-/// spreadsheets would take it for a formula.
+/// A name as RFC 4180 requires: in quotes if it contains a comma, a quote or a line break; after an apostrophe if
+/// spreadsheets would take the name for a formula.
 fn quoted(name: &str) -> Cow<'_, str> {
     let is_formula = name.starts_with(['=', '+', '-', '@']);
     let name = if is_formula { Cow::Owned(format!("'{name}")) } else { Cow::Borrowed(name) };

@@ -1,5 +1,5 @@
-//! Figures and tables that a user sees of a result, as one kind of value in the units of the scene, with their names,
-//! quantities and digits.
+//! Figures and tables of a result, as one kind of value in the units of the scene, with their names, quantities and
+//! digits.
 //!
 //! Text, pages, JSON and CSV write these values as they are; some formats have only an order of their own. A figure is
 //! added here and nowhere else, except for its unit and its fixed place in `json.rs`.

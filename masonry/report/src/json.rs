@@ -11,13 +11,13 @@ use masonry::model::Model;
 ///
 /// `verdict`, `evidence`, `sentence` and `warnings` come first, as in [`Judgement`](masonry::data::verdict::Judgement).
 ///
-/// Physical quantities are in the units of the scene, which `units` names one by one. Without a solution, `residuals`,
-/// `balance`, `reactions`, `contacts`, `strain_energy`, `max_displacement` and the stresses are null, and `reason`
-/// gives the cause; `mechanism` gives displacement rates of the corners of every block, the largest component one, if a
-/// mechanism is known. `films`, the extremes of the stresses in mortar films, exists only if there are films, and
-/// `history`, one record a step, only if there is a load history: if a step failed, the state is that after the step
-/// before. `springs`, `proved` and `soft` are those of [`SolveInfo`](masonry::analysis::outcome::SolveInfo). Numbers
-/// that are not finite become null.
+/// Physical quantities are in the units of the scene, which `units` names one by one. `residuals`, `balance`,
+/// `reactions`, `contacts`, `strain_energy`, `max_displacement` and the stresses are null without a solution, and
+/// `reason` gives the cause; `mechanism` gives displacement rates of the corners of every block, the largest component
+/// one, if a mechanism is known. `films`, the extremes of the stresses in mortar films, exists only if there are films,
+/// and `history`, one record a step, only if there is a load history: if a step failed, the state is that after the
+/// step before. `springs`, `proved` and `soft` are those of [`SolveInfo`](masonry::analysis::outcome::SolveInfo).
+/// Numbers that are not finite become null.
 ///
 /// # Errors
 /// None that this data can cause; the signature is that of the serialiser.

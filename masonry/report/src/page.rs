@@ -2,7 +2,7 @@
 //! slider for the step and one for the scale of displacements, and tables that can be sorted.
 //!
 //! Pictures are those of the files. Every element in pictures of displacements carries its undeformed place, so that
-//! the page can change the magnification. Without scripts, and on paper, all pictures are shown, one below the other.
+//! the page can change the magnification. All pictures are shown one below the other without scripts, and on paper.
 //!
 //! The hash of the address chooses the picture that is seen first, such as `#picture=deformed&step=3&scale=0.5`.
 

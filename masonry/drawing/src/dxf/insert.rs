@@ -76,7 +76,7 @@ impl<'a> Expansion<'a> {
         let layer = frame.layer_of(record);
         let hidden = self.hidden.get(&layer.to_lowercase());
         let shape = match record.kind {
-            // These are ends of lists, and attributes of blocks.
+            // Ends of lists and attributes of blocks have no shape.
             "SEQEND" | "ATTRIB" | "ATTDEF" | "VIEWPORT" => return Ok(()),
             _ if record.flags(60) == 1 => {
                 let what = "invisible entities were left out";

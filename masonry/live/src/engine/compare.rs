@@ -25,7 +25,7 @@ pub(super) struct Compared {
 /// A scene beside that of the text.
 #[derive(Debug, Serialize)]
 struct Beside {
-    /// The verdict, or the reason for which there is none any more.
+    /// The verdict, or the reason for which there is no verdict any more.
     sentence: String,
     picture: Option<String>,
 }

@@ -1,5 +1,5 @@
-//! Handles in the picture: openings of walls and ends of supports. Their places come from the text alone, so that a
-//! handle that was dragged too far can be dragged back.
+//! Handles in the picture: openings of walls and ends of supports. The places of handles come from the text alone, so
+//! that a handle that was dragged too far can be dragged back.
 
 use serde::Serialize;
 

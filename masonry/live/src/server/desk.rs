@@ -143,7 +143,7 @@ impl Desk {
         }
     }
 
-    /// The names, locked. They are consistent at any time, so that a panic elsewhere does not harm them.
+    /// The names, locked. The list is consistent at any time, so that a panic elsewhere does not harm it.
     fn own(&self) -> MutexGuard<'_, Vec<String>> {
         self.own.lock().unwrap_or_else(PoisonError::into_inner)
     }

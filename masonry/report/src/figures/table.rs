@@ -1,4 +1,4 @@
-//! Tables whose columns know their names, quantities and digits.
+//! Tables whose columns have names, quantities and digits.
 
 use super::{Members, Value};
 use crate::format::{InUnits, Quantity};
@@ -6,10 +6,10 @@ use crate::format::{InUnits, Quantity};
 /// The way in which a text writes the numbers of a column.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Digits {
-    /// As many decimals as give the largest number so many significant digits, in this column and in its neighbours of
-    /// the same quantity.
+    /// Decimals that give the largest number so many significant digits, in this column and in its neighbours of the
+    /// same quantity.
     Aligned(usize),
-    /// So many significant digits.
+    /// A number of significant digits.
     Significant(usize),
     /// Two digits and a power of ten.
     Power,

@@ -447,7 +447,7 @@ fn forces(model: &Model, labelled: &dyn Fn(LoadId, String) -> String) -> Vec<Pus
     all.map(push).collect()
 }
 
-/// All moments at places of blocks. Their values point up, so that the labels are above.
+/// All moments at places of blocks. The values of moments point up, so that the labels are above.
 fn moments(model: &Model, labelled: &dyn Fn(LoadId, String) -> String) -> Vec<Push> {
     let units = InUnits(model.units);
     let blocks = model.blocks.iter().enumerate();

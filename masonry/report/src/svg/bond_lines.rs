@@ -41,7 +41,7 @@ impl ReferenceLines {
         Some(Self { origins, angle: (length / (2.0 * height)).atan(), label: label.to_owned() })
     }
 
-    /// Both lines, up to the same height: the height at which they meet, or the top of the structure \[m\].
+    /// The two lines, up to the same height: the height at which they meet, or the top of the structure \[m\].
     pub(super) fn within(&self, top: f64) -> [[Point2<f64>; 2]; 2] {
         let [mut left, mut right] = self.origins;
         if left.x > right.x {

@@ -49,11 +49,11 @@ pub enum Look {
 /// Points that belong together, in their order.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Series {
-    /// Its name in the legend, unless it is empty.
+    /// The name in the legend, unless it is empty.
     pub name: String,
     /// The number of the colour and marker.
     pub style: usize,
-    /// How it is drawn.
+    /// The look of the series.
     pub look: Look,
     /// Points without a place on the axes are left out.
     pub points: Vec<[f64; 2]>,

@@ -18,7 +18,7 @@ use crate::joints::{self, JointForce};
 use masonry::data::state::PointState;
 use masonry::model::{Body, Model};
 
-/// In structures with more than `MANY` joints, resultants below this part of the largest are not drawn.
+/// Resultants below this part of the largest are not drawn in structures with more than `MANY` joints.
 const LEAST_OF_MANY: f64 = 1e-2;
 const MANY: usize = 150;
 /// The value of every resultant is shown in structures with at most this number of joints.
