@@ -20,7 +20,7 @@ pub struct Imported {
     pub(crate) drawn: Vec<Vec<Point2<f64>>>,
     /// The places of the blocks in the drawing.
     pub(crate) places: Vec<Place>,
-    /// The number of the last supports that belong to the scene which names the drawing.
+    /// The number of supports, the last ones, that belong to the scene which names the drawing.
     pub(crate) supports_of_scene: usize,
     /// The assumptions that the scene needs and nobody gave.
     pub(crate) assumed: Vec<String>,

@@ -28,7 +28,7 @@ pub fn contacts(model: &Model, state: &State) -> String {
 /// * the factor `gravity`, and a factor `load NAME` for each load;
 /// * `SUPPORT x_m`, `SUPPORT y_m` and `SUPPORT turn_rad` for each support;
 /// * `work_kJ`, `dissipation_kJ`, `friction_power` and `energy_created_kJ` of the step;
-/// * `strain_energy_kJ` and `max_displacement_m` after it;
+/// * `strain_energy_kJ` and `max_displacement_m` after the step;
 /// * the numbers `open`, `stick` and `slip` of contact points;
 /// * `SUPPORT fx_kN`, `SUPPORT fy_kN` and `SUPPORT m_kNm` (about the origin) for each support;
 /// * the `residual`, the `way` in which the step was found (`law` or `motion`), and its `factorisations`.

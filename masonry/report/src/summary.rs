@@ -225,7 +225,7 @@ pub fn corner_sums(outcome: &Outcome) -> Vec<CornerSum> {
 }
 
 fn groups_at_corners(model: &Model) -> Vec<Vec<usize>> {
-    /// Relative to the size of a block.
+    /// The largest distance between supports at the same place, relative to the size of a block.
     const SAME_PLACE: f64 = 1e-9;
     let mut held: Vec<Vec<(usize, Point2<f64>)>> = vec![Vec::new(); model.blocks.len()];
     for contact in &model.contacts {

@@ -1,4 +1,4 @@
-//! Completion: the keys, words and names that fit where the cursor is.
+//! Completion: the keys, words and names that fit at the cursor.
 
 use serde::Serialize;
 

@@ -131,9 +131,9 @@ fn names_of_units(model: &Model) -> Value {
     })
 }
 
-/// The object of `masonry limit --range --json`, pretty-printed: by support the `min` and `max` of `fx` and `fy`, each with its
-/// `value`, the `bound` that no forces exceed, and whether it is `unlimited`; `range` is null if no forces balance the loads.
-/// Ends that an `interrupted` search did not find are null.
+/// The object of `masonry limit --range --json`, pretty-printed: for every support the `min` and `max` of `fx` and
+/// `fy`, each with its `value`, the `bound` that no forces exceed, and whether it is `unlimited`; `range` is null if no
+/// forces balance the loads. Ends that an `interrupted` search did not find are null.
 ///
 /// # Errors
 /// As [`json`].

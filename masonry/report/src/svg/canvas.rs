@@ -150,7 +150,7 @@ pub(super) fn turning(centre: Pixel, radius: f64, sign: f64) -> String {
     chords + &arrow([place(8), place(9)])
 }
 
-/// The number of equal parts of a stroke that are not longer than `most`.
+/// The smallest number of equal parts of a stroke that are not longer than `most`.
 pub(super) fn parts([from, to]: [Pixel; 2], most: f64) -> u32 {
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
     let count = (from.distance(to) / most).ceil() as u32;
