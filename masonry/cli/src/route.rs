@@ -59,8 +59,8 @@ impl ValueEnum for OneRoute {
 fn possible(route: Route) -> PossibleValue {
     PossibleValue::new(route.name()).help(match route {
         Route::Forces => {
-            "Forces within friction that balance the loads, by one convex program; for rigid blocks without gaps, or a \
-             proof that there are none"
+            "Forces within friction that balance the loads, by one convex program, or a proof that there are no such \
+             forces; for rigid blocks without gaps"
         }
         Route::Lemke => {
             "Lemke's method on the problem reduced to contact forces, with dense matrices"

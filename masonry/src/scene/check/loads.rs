@@ -143,15 +143,18 @@ fn check_edge(at: &KeyPath, load: &Load) -> Check {
     let because = "is for a traction: a pressure within a joint could act on either of the blocks that meet there";
     let otherwise = ", or give a `traction`";
     unwanted(load.inside && load.traction.is_none(), at, "inside", because, otherwise)?;
-    match load.kind() {
-        Some(LoadKind::Edge { stress: EdgeStress::Pressure(pressure), .. }) => {
+    let Some(LoadKind::Edge { stress, inside, .. }) = load.kind() else {
+        return Err(Fault::new(at.clone(), LoadError::NoStress));
+    };
+    match stress {
+        EdgeStress::Pressure(pressure) => {
             let at = at.key("pressure");
             if pressure.is_uniform() {
                 return finite(at, pressure.from);
             }
             point(&at, [pressure.from, pressure.to])
         }
-        Some(LoadKind::Edge { stress: EdgeStress::Traction(traction), inside, .. }) => {
+        EdgeStress::Traction(traction) => {
             point(&at.key("traction"), traction)?;
             let (force, along) = (Vector2::from(traction), Vector2::from(to) - Vector2::from(from));
             let across = force.perp(&along).abs();
@@ -160,10 +163,7 @@ fn check_edge(at: &KeyPath, load: &Load) -> Check {
             }
             Ok(())
         }
-        Some(LoadKind::Edge { stress: EdgeStress::Earth(earth), .. }) => {
-            check_earth(&at.key("earth"), earth, from[1].min(to[1]))
-        }
-        _ => Err(Fault::new(at.clone(), LoadError::NoStress)),
+        EdgeStress::Earth(earth) => check_earth(&at.key("earth"), earth, from[1].min(to[1])),
     }
 }
 
