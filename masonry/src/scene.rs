@@ -164,7 +164,7 @@ pub struct Scene {
     /// Settings of the solver of the complementarity problem.
     #[serde(default, deserialize_with = "strict::read")]
     pub solver: SolverSettings,
-    /// Output.
+    /// The results that are computed besides displacements and forces.
     #[serde(default, deserialize_with = "strict::read")]
     pub output: Output,
     /// The text that the scene was read from, for the places of errors.

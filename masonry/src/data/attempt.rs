@@ -45,8 +45,8 @@ impl Display for RouteAttempt {
 
 fn pivots(f: &mut Formatter<'_>, start: Option<&str>, path: &lemke::Attempt) -> Result {
     match start {
-        Some(name) => write!(f, "start {name}, covering ")?,
-        None => write!(f, "start {}, covering ", path.start)?,
+        Some(name) => write!(f, "start {name}, covering vector ")?,
+        None => write!(f, "start {}, covering vector ", path.start)?,
     }
     match path.covering {
         AttemptCovering::Given => f.write_str("cohesive")?,

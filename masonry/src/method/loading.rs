@@ -125,8 +125,8 @@ impl Loading<'_> {
         if drag > 0.0 && drag.is_finite() { 1.0 / drag } else { 1.0 }
     }
 
-    /// The expected distance of the blocks: the movement of supports, or the previous displacement times the change of
-    /// the loads.
+    /// An estimate of how far blocks will move \[m\]: the movement of supports, or the previous displacement times the
+    /// relative change of the loads.
     fn distance(&self) -> Option<f64> {
         let (before, state) = self.before?;
         let largest = |a: &[f64], b: &[f64]| {

@@ -18,7 +18,8 @@ use crate::data::info::{SoftReport, SolveInfo};
 use crate::forms::Sparse;
 use crate::scene::Route;
 
-/// Stiffness of the springs if the scene gives none: soft springs need fewer rounds, and more sweeps in each.
+/// Stiffness of the auxiliary springs if the scene gives none, relative to that of the bodies \[-\]: softer springs need
+/// fewer rounds, but more sweeps in each.
 pub const SOFT: f64 = 1e-3;
 
 /// Rounds at most.

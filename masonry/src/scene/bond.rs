@@ -101,8 +101,8 @@ pub fn bricks_in_mortar(wall: &Wall, joints: JointThickness) -> Vec<PlacedBrick>
         .collect()
 }
 
-/// The first course and the place in it, from 0 and with openings counted, at which the head joint leaves no length of
-/// a brick.
+/// Finds the first brick of which the head joint would leave no length: its course and its place in the course, both
+/// from 0, with openings counted.
 pub(crate) fn first_without_length(wall: &Wall, joints: JointThickness) -> Option<[usize; 2]> {
     let gone = |&[start, end]: &Span| left_of(end - start, wall, joints) <= SAME_PLACE;
     // Two courses represent all courses of a bond without openings.

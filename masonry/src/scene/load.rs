@@ -189,7 +189,7 @@ impl Load {
         pub fn mass(mut self, part: f64) { self.mass = Some(part) }
     }
 
-    /// Lets a traction act within joints, on the edges that it presses.
+    /// Lets a traction act on edges within joints too, if it presses them.
     #[must_use]
     pub fn inside(self) -> Self {
         Self { inside: true, ..self }

@@ -1,6 +1,6 @@
 //! Methods that change one value of their object and return it, so that a scene is built in one expression.
 
-/// Generates such methods: a body changes `self`, which is returned after it.
+/// Generates builder methods: each takes `self`, runs its body, which changes `self`, and returns `self`.
 macro_rules! setters {
     ($($(#[$about:meta])* pub fn $name:ident(mut $self:ident, $($new:ident: $type:ty),+) $change:block)+) => {
         $(

@@ -99,8 +99,8 @@ impl Checks {
     /// Whether a state is an equilibrium: every error is at most the tolerance, or 1e-9 if that is larger; and all
     /// loads are carried, to a thousandth or the tolerance.
     ///
-    /// A thousandth is a weaker limit, and must be: if forces on blocks differ by more than the digits of a number, or
-    /// exceed the loads by so much, loads cannot be distinguished from rounding errors more accurately.
+    /// The limit of a thousandth has to be weaker. If the forces on blocks exceed the loads by a factor near the
+    /// reciprocal of the rounding error, these rounding errors hide how much of a small load is carried.
     pub fn hold(&self, tolerance: f64) -> bool {
         self.excess(tolerance) <= 1.0 && self.uncarried <= tolerance.max(LARGEST_UNCARRIED)
     }

@@ -109,7 +109,7 @@ fn attempt_lines(attempts: &[Attempt]) -> String {
         let number = number + 1;
         let _ = writeln!(
             lines,
-            "attempt {number}: start {start}, covering {covering}: {end:?} after {pivots} pivots"
+            "attempt {number}: start {start}, covering vector {covering}: {end:?} after {pivots} pivots"
         );
     }
     lines

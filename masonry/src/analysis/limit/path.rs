@@ -92,7 +92,7 @@ pub struct Stand {
     /// The largest displacement \[m\] since the factor was zero; the displacement of rigid blocks comes from the
     /// springs and has no meaning by itself.
     pub displacement: f64,
-    /// Contact points that are open, stick and slide.
+    /// The numbers of open, sticking and sliding contact points, in this order.
     pub contacts: [usize; 3],
 }
 

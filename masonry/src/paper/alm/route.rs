@@ -14,7 +14,7 @@ use crate::system::System;
 /// in the films are measured row by row.
 const BETTER: f64 = 0.1;
 
-/// The route on a sparse problem without compliances of contacts ([`Sparse::with_free_faces`]).
+/// Runs the augmented Lagrangian method on a sparse problem without compliances of contacts ([`Sparse::with_free_faces`]).
 ///
 /// # Errors
 /// As [`solve`].

@@ -110,9 +110,9 @@ impl Scene {
             "a flat arch is at least one course high",
         )?;
         let JointThickness { bed, head } = JointThickness::of(self, wall);
-        let wanted =
-            "the wall around a flat arch has no mortar; build the arch of blocks, or leave it out";
-        value(at.key("voussoirs"), bed.max(head), bed.max(head) <= 0.0, wanted)
+        let because = "is for a wall with dry joints, and this wall has mortar";
+        let otherwise = ", or build the flat arch of single blocks";
+        unwanted(bed.max(head) > 0.0, at, "voussoirs", because, otherwise)
     }
 }
 

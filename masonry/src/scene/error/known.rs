@@ -39,7 +39,7 @@ const MOST_NAMES: usize = 12;
 /// The least similarity of names that may be mistaken for each other \[-\].
 const SIMILAR: f64 = 0.7;
 
-/// The name that is most similar to another one, if any is similar.
+/// The known name most similar to the given one; `None` if no name is similar enough.
 fn nearest<'a>(given: &str, names: impl Iterator<Item = &'a str>) -> Option<&'a str> {
     let likeness = |name: &str| strsim::normalized_damerau_levenshtein(given, name);
     let like =

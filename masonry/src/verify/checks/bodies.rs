@@ -102,7 +102,7 @@ impl Bodies {
         Self(list)
     }
 
-    /// Errors of the balances due to errors of the forces around the blocks \[N\].
+    /// Rounding errors to expect in the balances of the blocks, from the forces on them and on their neighbours \[N\].
     pub(super) fn roundings(&self) -> impl Iterator<Item = f64> {
         self.0.iter().map(|body| body.rounding)
     }
