@@ -1,4 +1,5 @@
-//! From a point to the states of its contacts and their exact equations, and the best point so far.
+//! The step from a point to the states of its contacts and their exact equations, and the best
+//! point so far.
 
 mod crossover;
 mod original;

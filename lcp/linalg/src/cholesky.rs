@@ -13,10 +13,10 @@ use faer::{Conj, MatMut, Par, Side, Spec};
 
 use crate::VANISHING;
 
-/// The operations for each stored number, as a part of faer's choice, from which columns are eliminated together.
+/// Number of operations for each stored number, relative to faer's choice, from which columns are eliminated together.
 ///
-/// Measured on matrices of walls: at 1000 bricks, far below that choice, a factorisation takes a quarter of the time of one
-/// by single columns; at 100 bricks as much; in arches, which are chains, a third more.
+/// Measured on matrices of walls, with a value far below that choice: a factorisation at 1000 bricks takes a quarter of
+/// the time of one by single columns; at 100 bricks as much; in arches, which are chains, a third more.
 const TOGETHER: SupernodalThreshold = SupernodalThreshold(0.3);
 
 /// Factors of matrices with one pattern, again and again for other values, in an order of approximate minimum degree.
@@ -29,7 +29,7 @@ impl Cholesky {
     /// Plans factors for the pattern of the lower triangle.
     ///
     /// # Errors
-    /// That memory does not suffice.
+    /// If memory does not suffice.
     pub fn new(lower: SymbolicSparseColMatRef<'_, usize>) -> Result<Self, FaerError> {
         let params = CholeskySymbolicParams {
             supernodal_flop_ratio_threshold: TOGETHER,
@@ -41,18 +41,18 @@ impl Cholesky {
         Ok(Self { symbolic, values })
     }
 
-    /// Factorises a symmetric matrix without exchanges; `None` where a pivot is zero, or numbers overflow.
+    /// Factorises a symmetric matrix without exchanges; `None` if a pivot is zero, or numbers overflow.
     pub fn factorise(&mut self, lower: SparseColMatRef<'_, usize, f64>) -> Option<()> {
         self.numeric(lower, LdltRegularization::default())
     }
 
-    /// Factorises a positive semidefinite matrix with a diagonal of order one. Variables of pivots that vanish will be
-    /// zero, which iterative refinement of the caller has to make good.
+    /// Factorises a positive semidefinite matrix with a diagonal of order one. Variables of pivots that vanish become
+    /// zero, which the caller has to correct by iterative refinement.
     pub(super) fn factorise_semidefinite(&mut self, lower: SparseColMatRef<'_, usize, f64>) {
         let signs = vec![1; lower.ncols()];
         let held = LdltRegularization {
             dynamic_regularization_signs: Some(&signs),
-            // Beside which everything is nothing.
+            // So large that everything else vanishes beside it.
             dynamic_regularization_delta: f64::MAX.sqrt(),
             dynamic_regularization_epsilon: VANISHING,
         };

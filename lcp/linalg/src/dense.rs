@@ -15,8 +15,8 @@ use crate::max_abs;
 pub struct Lu(PartialPivLu<f64>);
 
 impl Lu {
-    /// Factorises a square matrix; `None` when a pivot vanishes against the largest entry of its
-    /// column of `U`, which is what an LU with partial pivoting shows of a singular matrix.
+    /// Factorises a square matrix; `None` when a pivot vanishes against the largest entry of its column of
+    /// `U`, the sign of a singular matrix in an LU with partial pivoting.
     pub fn new(m: MatRef<'_, f64>) -> Option<Self> {
         let lu = m.partial_piv_lu();
         has_pivots(lu.U()).then_some(Self(lu))
@@ -62,7 +62,7 @@ pub fn add_product(
 }
 
 /// Overwrites the right-hand sides with the solutions for a lower triangular matrix whose diagonal is
-/// taken for one, on one thread.
+/// assumed to be one, on one thread.
 pub fn solve_unit_lower(matrix: MatRef<'_, f64>, rhs: MatMut<'_, f64>) {
     solve_unit_lower_triangular_in_place(matrix, rhs, Par::Seq);
 }
@@ -72,11 +72,12 @@ pub fn solve_upper(matrix: MatRef<'_, f64>, rhs: MatMut<'_, f64>) {
     solve_upper_triangular_in_place(matrix, rhs, Par::Seq);
 }
 
-/// LU factorisation in place of a block with row exchanges, which `beside` follows: at step `k` rows `k` and
-/// `exchanges[k]`. Pivots below `vanishing` times the largest entry of their column are replaced by that
-/// bound; gives their number. (A column by itself may be small against others and exact nevertheless.)
+/// LU factorisation in place of a block with row exchanges, which `beside` follows: step `k` exchanges rows
+/// `k` and `exchanges[k]`. Pivots below `vanishing` times the largest entry of their column are replaced by
+/// that bound; the result is their number. (A column by itself may be small against others and exact
+/// nevertheless.)
 ///
-/// Blocks of sparse problems are narrow, for which this is as fast as anything blocked.
+/// Blocks of sparse problems are narrow, so this is as fast as blocked algorithms.
 pub fn factorise_block(
     mut block: MatMut<'_, f64>,
     mut beside: MatMut<'_, f64>,
@@ -145,7 +146,7 @@ fn swap_rows(mut matrix: MatMut<'_, f64>, i: usize, j: usize) {
     }
 }
 
-/// Estimate of the 1-norm of the inverse of a matrix of order `n` (Hager 1984; Higham 1988), given what
+/// Estimate of the 1-norm of the inverse of a matrix of order `n` (Hager 1984; Higham 1988). `solve`
 /// overwrites a vector with the solution of the system, or of the transposed one.
 pub fn inverse_norm(n: usize, mut solve: impl FnMut(&mut [f64], bool)) -> f64 {
     let mut x = vec![1.0 / n as f64; n];

@@ -5,7 +5,7 @@ use faer::sparse::{FaerError, SparseColMatRef, SymbolicSparseColMatRef};
 use crate::cholesky::Cholesky;
 use crate::{HALF_DIGITS, NONE, Pattern, index, power_of_two, solve_refined};
 
-/// An entry of `K + delta 1 + A S A^T` that is no number or overflows.
+/// An entry of `K + delta 1 + A S A^T` that is not a number or overflows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 #[error("entry ({row}, {col}) of K + delta 1 + A S A^T is no finite number")]
 pub struct Overflow {
@@ -18,15 +18,15 @@ pub struct Overflow {
 /// Cholesky factors of `K + delta 1 + A S A^T` with a positive `delta`, a symmetric positive semidefinite `K`, a sparse
 /// `A` and a diagonal `S >= 0`, again and again for other numbers.
 ///
-/// Order and pattern are found once. Columns of `A` that follow one another and have the same rows are added
-/// together.
+/// Order and pattern are found once. Adjacent columns of `A` with the same rows are added together.
 pub struct Gram {
     /// The lower triangle, every column from its diagonal on.
     pattern: Pattern,
     values: Vec<f64>,
-    /// None for an entry that the mirrored one stands for.
+    /// `NONE` for an entry whose mirrored one is stored.
     of_stiffness: Vec<u32>,
-    /// Columns of `A` with the same rows: where they end, and where the lower triangle of their products goes, row by row.
+    /// Columns of `A` with the same rows: their ends, and the places of the lower triangle of their products, row by
+    /// row.
     ends: Vec<usize>,
     places: Vec<u32>,
     /// Factors that make the diagonal of order one.
@@ -35,10 +35,10 @@ pub struct Gram {
 }
 
 impl Gram {
-    /// Plans factors for the patterns of `K`, zero if there is none, and `A`.
+    /// Plans factors for the patterns of `K` (`None` is a zero matrix) and `A`.
     ///
     /// # Errors
-    /// That memory does not suffice.
+    /// If memory does not suffice.
     ///
     /// # Panics
     /// If `K` is not square with as many rows as `A`.
@@ -69,10 +69,10 @@ impl Gram {
         Ok(Self { pattern, values, of_stiffness, ends, places, units, factors })
     }
 
-    /// Factorises for these values of `K`, of which the lower triangle counts, `A`, `S` and `delta`.
+    /// Factorises for these values of `K` (only its lower triangle is read), `A`, `S` and `delta`.
     ///
     /// # Errors
-    /// [`Overflow`] with the first entry of the sum that is no number or overflows.
+    /// [`Overflow`] with the first entry of the sum that is not a number or overflows.
     ///
     /// # Panics
     /// If the patterns are not those given before.
@@ -134,7 +134,7 @@ impl Gram {
     /// Overwrites right-hand sides, one after the other, with the solutions for the last factorisation.
     ///
     /// # Panics
-    /// If the length is no multiple of the order.
+    /// If the length is not a multiple of the order.
     pub fn solve(&self, x: &mut [f64]) {
         let n = self.units.len().max(1);
         assert!(x.len().is_multiple_of(n), "right-hand sides are as long as the matrix");
@@ -165,7 +165,7 @@ impl Gram {
     }
 }
 
-/// Where columns with the same rows end.
+/// The ends of the groups of columns with the same rows.
 fn ends(a: SymbolicSparseColMatRef<'_, usize>) -> Vec<usize> {
     let rows = |j: usize| a.row_idx_of_col_raw(j);
     (1..=a.ncols()).filter(|&j| j == a.ncols() || rows(j) != rows(j - 1)).collect()

@@ -1,8 +1,9 @@
-//! Linear algebra for the crate `lcp`, beside that of [`faer`]: sparse columns and their order, LU that grows by columns, LU and
-//! Cholesky's factors for one pattern and many values, and dense LU with estimates of the condition number.
+//! Linear algebra for the crate `lcp`, in addition to that of [`faer`]: sparse columns and their order, LU that grows
+//! by columns, LU and Cholesky factors for one pattern and many values, and dense LU with estimates of the condition
+//! number.
 //!
-//! [`SupernodalLu`] and [`SparseLu`] replace pivots that vanish and tell how many or which; [`Lu`] and [`Cholesky`] are `None` for
-//! matrices that they cannot factorise.
+//! [`SupernodalLu`] and [`SparseLu`] replace pivots that vanish and return their number or places; [`Lu`] and
+//! [`Cholesky`] return `None` for matrices that they cannot factorise.
 
 mod cholesky;
 mod dense;
@@ -26,17 +27,17 @@ use std::f64::consts::SQRT_2;
 
 use faer::sparse::SymbolicSparseColMatRef;
 
-/// Pivots below this multiple of what they are measured by, the largest entry of their column or a diagonal of order one, are
+/// Pivots below this multiple of their measure (the largest entry of their column, or a diagonal of order one) are
 /// rounding errors. Rounding: some eps.
 const VANISHING: f64 = 1e-15;
 
-/// Half of all digits, about the root of eps. Theory: what is right to this is wrong in its square by rounding, and what this
-/// is added to for regularity loses no more than a step of refinement brings back. Chosen where it is the shortest step, the
-/// size of what parts ties, or a slack that is in doubt.
+/// Half of all digits, about the root of eps. Theory: the square of an error of this size is a rounding error, and a
+/// term of this size, added for regularity, loses no more than one step of refinement restores. Chosen as the shortest
+/// step, the size of perturbations that break ties, and the bound of a slack in doubt.
 pub const HALF_DIGITS: f64 = 1e-8;
 
-/// Steps of iterative refinement of a solution of linear equations at most. Chosen: each gains the digits that the condition
-/// number leaves.
+/// Largest number of steps of iterative refinement of linear equations. Chosen: each step gains the digits that the
+/// condition number leaves.
 pub const REFINEMENTS: usize = 3;
 
 /// No place.
@@ -108,8 +109,8 @@ impl Columns {
         self.entries(j).map(|(i, v)| v * x[i]).sum()
     }
 
-    /// The rows of a matrix with so many of them as columns, from its entries `(row, column, value)`; those of a row stay in
-    /// their order.
+    /// The rows of a matrix, `count` in number, as columns, from its entries `(row, column, value)`; entries of a row
+    /// keep their order.
     pub fn by_rows(count: usize, all: impl Iterator<Item = (usize, usize, f64)> + Clone) -> Self {
         let mut starts = vec![0; count + 1];
         all.clone().for_each(|(i, ..)| starts[i + 1] += 1);
@@ -133,15 +134,15 @@ impl Columns {
     }
 }
 
-/// The pattern of a matrix: where its columns start, and their rows, ascending.
+/// The pattern of a matrix: the starts of its columns, and their rows, ascending.
 pub struct Pattern {
     starts: Vec<usize>,
     rows: Vec<usize>,
 }
 
 impl Pattern {
-    /// That of a square matrix with a diagonal, entries between the rows of a group, and further ones, as far as they are
-    /// wanted.
+    /// The pattern of a square matrix with a diagonal, entries between the rows of a group, and further ones, as far as
+    /// they are wanted.
     pub fn of<'a, I: Iterator<Item = &'a usize>>(
         n: usize,
         groups: &[&'a [usize]],
@@ -173,7 +174,7 @@ impl Pattern {
         self.rows.len()
     }
 
-    /// As faer has it, with so many rows.
+    /// The pattern in the form of faer, with this number of rows.
     pub fn symbolic(&self, rows: usize) -> SymbolicSparseColMatRef<'_, usize> {
         let columns = self.starts.len() - 1;
         SymbolicSparseColMatRef::new_checked(rows, columns, &self.starts, None, &self.rows)
@@ -201,8 +202,8 @@ impl Pattern {
     }
 }
 
-/// Overwrites a right-hand side with the solution by factors, refined as long as what is left of it halves and is more than
-/// a part `enough` of it. `subtract_product` takes away the product of the matrix with a vector.
+/// Overwrites a right-hand side with the solution by factors, refined as long as the residual halves and is more than a
+/// part `enough` of the right-hand side. `subtract_product` subtracts the product of the matrix with a vector.
 pub fn solve_refined(
     x: &mut [f64],
     enough: f64,
@@ -237,7 +238,7 @@ pub fn max_abs(v: &[f64]) -> f64 {
     v.iter().fold(0.0, |max, x| max.max(x.abs()))
 }
 
-/// The power of two nearest to a positive number, on a logarithmic scale, between `2^-1000` and `2^1000`: as a factor it
+/// The power of two nearest to a positive number, on a logarithmic scale, between `2^-1000` and `2^1000`: such a factor
 /// costs no accuracy.
 #[inline]
 pub fn power_of_two(x: f64) -> f64 {

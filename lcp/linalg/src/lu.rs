@@ -6,8 +6,8 @@ use crate::{Columns, NONE, index};
 /// The pivot is the entry in the emptiest row, among those of at least this part of the largest one.
 const THRESHOLD: f64 = 0.1;
 
-/// A factorisation that takes one column after the other and refuses those that depend on the ones
-/// before.
+/// A factorisation that takes one column after the other and refuses those that depend on columns before
+/// them.
 #[derive(Debug)]
 pub struct GrowingLu {
     /// Below the unit diagonal, by steps; rows as in the matrix until the end.
@@ -28,7 +28,7 @@ pub struct GrowingLu {
 }
 
 impl GrowingLu {
-    /// Begins with a matrix that has so many entries in its rows.
+    /// Begins with a matrix that has these numbers of entries in its rows.
     pub fn new(row_counts: Vec<u32>) -> Self {
         let n = row_counts.len();
         Self {
@@ -50,7 +50,7 @@ impl GrowingLu {
         self.step_of_row.len()
     }
 
-    /// Takes a column of a matrix for the place `slot`; `false`, and nothing changed, where no entry
+    /// Takes a column of a matrix for the place `slot`; `false`, with nothing changed, if no entry
     /// outside the span of the columns before is larger than `tolerance` times its largest entry.
     pub fn offer(&mut self, slot: usize, columns: &Columns, turn: Turn, tolerance: f64) -> bool {
         let j = turn.column;
@@ -105,8 +105,8 @@ impl GrowingLu {
         }
     }
 
-    /// The preferred row where its entry is large enough, else of those that are the one with fewest
-    /// entries.
+    /// The preferred row if its entry is large enough, else the one with fewest entries among the rows
+    /// whose entry is.
     fn pivot_row(&self, preferred: Option<usize>, least: f64) -> Option<u32> {
         let size = |row: u32| self.x[row as usize].abs();
         let is_fit = |&row: &usize| self.step_of_row[row] == NONE && self.x[row].abs() >= least;
@@ -141,7 +141,7 @@ impl GrowingLu {
         self.slot_of_step.push(index(slot));
     }
 
-    /// The factorisation. Slots without a column get a unit column in one of the rows left: these are
+    /// The factorisation. Slots without a column get a unit column in one of the rows left and are
     /// returned as `(slot, row)`.
     pub fn finish(mut self) -> (SparseLu, Vec<(usize, usize)>) {
         let n = self.order();
@@ -177,14 +177,14 @@ pub struct SparseLu {
     diagonal: Vec<f64>,
     row_of_step: Vec<u32>,
     slot_of_step: Vec<u32>,
-    /// The first step that has entries below the diagonal: those before eliminate nothing.
+    /// The first step that has entries below the diagonal: earlier steps eliminate nothing.
     first_below: usize,
 }
 
 impl SparseLu {
     /// Factorises a square matrix. Columns that depend on others are replaced by unit columns, which are
-    /// returned as `(column, row)`. A column depends if its pivot vanishes against the largest entry
-    /// of its column of `U`.
+    /// returned as `(column, row)`. A column depends if its pivot vanishes against the largest entry of
+    /// its column of `U`.
     pub fn new(columns: &Columns) -> (Self, Vec<(usize, usize)>) {
         let n = columns.len();
         let tolerance = 4.0 * n as f64 * f64::EPSILON;
@@ -299,7 +299,7 @@ mod tests {
         }
     }
 
-    /// A column that is the sum of two others, and an empty one, give way to unit columns.
+    /// A column that is the sum of two others, and an empty one, are replaced by unit columns.
     #[test]
     fn dependent_columns_are_replaced() {
         let m = columns(11, |i, j| match j {

@@ -8,7 +8,7 @@ use crate::{Columns, Pattern};
 
 /// Rows and columns with more than this multiple of the root of their number of entries come last.
 const DENSE: f64 = 10.0;
-/// With at least this share of entries that have a mirrored one a pattern counts as symmetric.
+/// A pattern with at least this share of entries that have a mirrored one counts as symmetric.
 const SYMMETRIC: f64 = 0.5;
 
 /// A column in its turn.
@@ -20,11 +20,11 @@ pub struct Turn {
     pub row: Option<usize>,
 }
 
-/// An order of the columns in which an LU factorisation fills in little: first those that have one
-/// entry in the rows not yet taken, one after the other, which leave no trace on the others; then
-/// the rest by approximate minimum degree. Where the rest is symmetric in its pattern, with the
-/// largest entries of the columns on the diagonal, that is AMD (Amestoy, Davis and Duff 1996) with
-/// pivots on the diagonal, else COLAMD (Davis, Gilbert, Larimore and Ng 2004) with any.
+/// An order of the columns in which an LU factorisation fills in little: first those with one entry in
+/// the rows not yet taken, one after the other, which leave the others unchanged; then the rest by
+/// approximate minimum degree. The rest is ordered by AMD (Amestoy, Davis and Duff 1996) with pivots on
+/// the diagonal if its pattern is symmetric and the largest entries of the columns are on the diagonal,
+/// else by COLAMD (Davis, Gilbert, Larimore and Ng 2004) with any pivots.
 pub fn elimination_order(rows: usize, columns: &Columns) -> Vec<Turn> {
     let by_rows = columns.transposed(rows);
     let mut left: Vec<usize> = (0..columns.len()).map(|j| columns.rows(j).len()).collect();
@@ -102,7 +102,7 @@ impl Core {
     }
 
     /// The row of every column that makes the pattern symmetric, and the pattern with these rows on the
-    /// diagonal, if there are such.
+    /// diagonal, if such rows exist.
     fn symmetric(&self) -> Option<(Vec<usize>, Pattern)> {
         let n = self.columns.len();
         if self.rows.len() != n {
@@ -114,7 +114,7 @@ impl Core {
                 column_of_row[*row].get_or_insert(k);
             }
         }
-        // What is left over in both is paired as it comes.
+        // Rows and columns left over are paired in their order.
         let is_paired =
             |k: &usize| self.largest[*k].is_some_and(|row| column_of_row[row] == Some(*k));
         let mut unpaired = (0..n).filter(|k| !is_paired(k)).collect::<Vec<_>>().into_iter();
@@ -166,7 +166,8 @@ fn minimum_degree(pattern: &Pattern) -> Option<Vec<usize>> {
     })
 }
 
-/// An order of so many columns, by what writes it and its inverse; `None` if memory does not suffice.
+/// An order of `n` columns from a function that writes the order and its inverse; `None` if memory does
+/// not suffice.
 fn ordered<T>(
     n: usize,
     scratch: StackReq,
@@ -186,7 +187,7 @@ mod tests {
         order.iter().map(|turn| turn.column).collect()
     }
 
-    /// A permutation, whatever the order of the entries in their columns.
+    /// The order is a permutation, whatever the order of the entries in their columns.
     #[test]
     fn every_column_comes_once() {
         let n = 12;
@@ -214,7 +215,7 @@ mod tests {
         assert_eq!(columns_of(&elimination_order(n, &columns)), (0..n).collect::<Vec<_>>());
     }
 
-    /// A ring whose rows are turned round by three: the diagonal is found.
+    /// The diagonal of a ring is found although its rows are rotated by three.
     #[test]
     fn symmetric_patterns_are_found() {
         let n = 10;

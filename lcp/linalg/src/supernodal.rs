@@ -14,17 +14,17 @@ use faer::{MatMut, MatRef, Par, Side};
 use crate::VANISHING;
 use crate::dense::{add_product, factorise_block, solve_unit_lower, solve_upper};
 
-/// LU factors of matrices with one symmetric pattern and unsymmetric values, again and again for other values: supernodes in
-/// an order of approximate minimum degree, each with the rows of a Cholesky factorisation of the pattern.
+/// LU factors of matrices with one symmetric pattern and unsymmetric values, again and again for other values:
+/// supernodes in an order of approximate minimum degree, each with the rows of a Cholesky factorisation of the pattern.
 ///
 /// Pivots are exchanged within a supernode only, so that pattern, order and memory never change. A pivot that vanishes
-/// against its column is replaced by a small one, which iterative refinement of the caller has to make good. Costs what
-/// two sparse Cholesky factorisations of the pattern cost, nearly all of it in dense matrix products.
+/// against its column is replaced by a small one, which the caller has to correct by iterative refinement. The cost is
+/// that of two sparse Cholesky factorisations of the pattern, nearly all of it in dense matrix products.
 pub struct SupernodalLu {
     /// The variable at every place of the order.
     order: Vec<usize>,
     nodes: Vec<Supernode>,
-    /// Where every entry of the matrix goes among the values.
+    /// The place of every entry of the matrix among the values.
     places: Vec<usize>,
     /// The factors of one supernode after the other.
     values: Vec<f64>,
@@ -36,14 +36,14 @@ pub struct SupernodalLu {
 struct Supernode {
     columns: Range<usize>,
     rows: Vec<usize>,
-    /// Where its values begin: first `L` with the block of the columns on top, by columns, then the rows of `U` to the
-    /// right of the block, by columns.
+    /// The first of its values: `L` with the block of the columns on top, by columns, then the rows of `U` to the right
+    /// of the block, by columns.
     begin: usize,
     /// The supernodes before it that have rows among its columns.
     earlier: Vec<Earlier>,
 }
 
-/// A supernode, and which of its rows are columns of another.
+/// A supernode, and those of its rows that are columns of another.
 struct Earlier {
     node: usize,
     rows: Range<usize>,
@@ -76,7 +76,7 @@ impl Supernode {
         self.width() + found.unwrap_or_else(|_| unreachable!("the pattern has all entries"))
     }
 
-    /// Where an entry goes that is in a row or a column of the supernode.
+    /// The place of an entry in a row or a column of the supernode.
     fn place(&self, row: usize, col: usize) -> usize {
         let (order, width) = (self.order(), self.width());
         if self.columns.contains(&col) {
@@ -87,11 +87,11 @@ impl Supernode {
 }
 
 impl SupernodalLu {
-    /// Plans factors for the pattern of a square matrix, which must contain every diagonal entry and with every entry
-    /// the mirrored one.
+    /// Plans factors for the pattern of a square matrix, which must contain every diagonal entry and the mirrored one
+    /// of every entry.
     ///
     /// # Errors
-    /// That memory does not suffice.
+    /// If memory does not suffice.
     pub fn new(pattern: SymbolicSparseColMatRef<'_, usize>) -> Result<Self, FaerError> {
         let params = CholeskySymbolicParams {
             supernodal_flop_ratio_threshold: SupernodalThreshold::FORCE_SUPERNODAL,
@@ -140,8 +140,8 @@ impl SupernodalLu {
         Ok(Self { order, nodes, places, values: vec![0.0; stored], exchanges: vec![0; n] })
     }
 
-    /// Factorises for the values of the entries, in the order of the pattern. Gives the number of pivots
-    /// that were replaced.
+    /// Factorises for the values of the entries, in the order of the pattern, and returns the number of pivots that
+    /// were replaced.
     pub fn factorise(&mut self, values: &[f64]) -> usize {
         let Self { order, nodes, places, values: factors, exchanges } = self;
         factors.fill(0.0);
@@ -217,7 +217,7 @@ impl SupernodalLu {
     }
 }
 
-/// The entries in the columns and rows of a supernode, which its factors take the place of.
+/// The entries in the columns and rows of a supernode, which are overwritten by its factors.
 struct Front<'a> {
     node: &'a Supernode,
     lower: &'a mut [f64],
@@ -225,7 +225,7 @@ struct Front<'a> {
 }
 
 impl Front<'_> {
-    /// Gives the number of pivots that were replaced.
+    /// Eliminates the block and returns the number of pivots that were replaced.
     fn eliminate(&mut self, exchanges: &mut [usize]) -> usize {
         let (order, width) = (self.node.order(), self.node.width());
         let lower = MatMut::from_column_major_slice_mut(self.lower, order, width);
@@ -248,7 +248,7 @@ struct Work {
 }
 
 impl Work {
-    /// Subtracts what another supernode, some rows of which are columns of the present one, makes of it by its elimination.
+    /// Subtracts the update by the elimination of another supernode, some rows of which are columns of the present one.
     fn subtract(
         &mut self,
         front: &mut Front<'_>,

@@ -78,7 +78,7 @@ fn symmetric_systems_are_solved_for_several_right_hand_sides() {
     }
 }
 
-/// Every variable is there twice, so half of the pivots vanish: the others solve the equations.
+/// Every variable occurs twice, so half of the pivots vanish: the others solve the equations.
 #[test]
 fn variables_with_vanishing_pivots_are_zero() {
     for half in [20, 150] {

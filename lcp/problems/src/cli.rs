@@ -21,7 +21,7 @@ use clap::Parser;
 use args::{Cli, Command};
 use output::{BAD_INPUT, Failure, SOLVED, print};
 
-/// Runs the program on its arguments, the first of which is its name, and gives the exit code.
+/// Runs the program on its arguments, the first of which is its name, and returns the exit code.
 pub fn run(
     args: impl IntoIterator<Item = OsString>,
     input: &mut dyn Read,
@@ -40,7 +40,7 @@ pub fn run(
             Err(failure) => (BAD_INPUT, format!("error: {failure}\n")),
         },
     };
-    // Where standard error is closed, the exit code still says what happened.
+    // The exit code still shows the outcome if standard error is closed.
     let _ = err.write_all(message.as_bytes());
     code
 }

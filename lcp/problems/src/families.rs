@@ -53,11 +53,11 @@ use lcp::{HorizontalLcp, Lcp, Matrix};
 pub struct Instance<P = HorizontalLcp> {
     /// The problem.
     pub problem: P,
-    /// What is known of it.
+    /// The known facts about its solutions.
     pub known: KnownAnswer,
 }
 
-/// What is known about a problem. In the standard and in the mixed form `t` is `z` and `y` is `w`.
+/// The known facts about a problem. `t` is `z` and `y` is `w` in the standard and in the mixed form.
 #[derive(Debug, Clone, PartialEq)]
 pub enum KnownAnswer {
     /// It has exactly one solution.
@@ -83,18 +83,18 @@ pub enum KnownAnswer {
     },
 }
 
-/// What a planted solution is like.
+/// The kind of a planted solution.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Planting {
     /// Without a degenerate pair, and the only one.
     Unique,
     /// Without a degenerate pair.
     Strict,
-    /// In half of the pairs both variables are zero.
+    /// Both variables are zero in half of the pairs.
     Degenerate,
 }
 
-/// Small integers, and what is made of them.
+/// Random small integers, and matrices and vectors of them.
 struct Integers(SplitMix);
 
 impl Integers {

@@ -26,15 +26,17 @@
 //! # QPS
 //! Convex quadratic programs, in free or fixed format: the sections `NAME`, `OBJSENSE` (`MIN`), `ROWS`, `COLUMNS`, `RHS`,
 //! `RANGES`, `BOUNDS`, and `QUADOBJ` or `QSECTION` (one triangle of `P`) or `QMATRIX` (all its entries). The objective has
-//! minus its right-hand side as constant. Lines of `RHS`, `RANGES` and `BOUNDS` may leave out the name of the set. Bounds
-//! from 1e20 on are none. A negative `UP` without `LO` frees its variable below; `BV` is between 0 and 1, integer or not.
+//! minus its right-hand side as constant. Lines of `RHS`, `RANGES` and `BOUNDS` may leave out the name of the set.
+//! Bounds
+//! from 1e20 on count as infinite. A negative `UP` without `LO` frees its variable below; `BV` is between 0 and 1,
+//! integer or not.
 //!
 //! # Siconos
 //! The `.dat` files of that library for linear complementarity problems, mixed ones, relays (variables between bounds,
-//! `inf` where there is none: the problem is a [`BoxedLcp`]), and plane contact with friction, reduced to the contacts
-//! (`FrictionContactProblem`) or with the velocities of the bodies (`GlobalFrictionContactProblem`,
-//! `M v = q + H r`, `u = H^T v + b`: the problem is a [`Contact2d`] of velocities and impulses); dense, in sparse
-//! blocks, or sparse. Text may follow the last number, except for contact problems.
+//! `inf` for no bound: the problem is a [`BoxedLcp`]), and plane contact with friction, reduced to the contacts
+//! (`FrictionContactProblem`) or with the velocities of the bodies (`GlobalFrictionContactProblem`, `M v = q + H r`, `u
+//! = H^T v + b`: the problem is a [`Contact2d`] of velocities and impulses); dense, in sparse blocks, or sparse. Text
+//! may follow the last number, except for contact problems.
 //!
 //! # Matrix Market
 //! [`market`] reads the matrices and vectors of a problem one by one.
@@ -102,9 +104,9 @@ pub fn read_file(path: &Path, format: Option<ProblemFormat>) -> Result<ProblemFi
     read(&bytes, format.or(named))
 }
 
-/// Reads the content of a file, in that format or in the one that it fits.
+/// Reads the content of a file, in the given format or in the one that the content fits.
 ///
-/// Allocations are in proportion to the content, whatever sizes the content announces.
+/// Allocations are in proportion to the content, whatever sizes its header announces.
 ///
 /// ```
 /// use lcp_problems::io::{ProblemFormat, read};
@@ -129,7 +131,7 @@ pub fn read(content: &[u8], format: Option<ProblemFormat>) -> Result<ProblemFile
     }
 }
 
-/// The one format that fits; where none does, the failure of the one that came furthest.
+/// Reads the content in the one format that fits, or fails with the error of the format that came furthest.
 fn read_by_content(text: &str) -> Result<ProblemFile, ReadError> {
     let mut fits: Vec<ProblemFile> = Vec::new();
     let mut failure: Option<(ProblemFormat, ReadError)> = None;

@@ -18,7 +18,8 @@ pub mod families;
 #[cfg(feature = "io")]
 pub mod io;
 
-/// A sparse matrix from entries `(row, column, value)` inside of it, which add up where they coincide.
+/// A sparse matrix from entries `(row, column, value)` within its size; entries at the same place are
+/// added.
 fn sparse(
     rows: usize,
     cols: usize,

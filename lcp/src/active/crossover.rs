@@ -1,39 +1,42 @@
-//! From a point inside to the exact one on the boundary: the state of every contact is guessed, the
-//! equations of these states are solved, and the few contacts that contradict change their state.
+//! The step from an interior point to the exact one on the boundary: the state of every contact is guessed, the
+//! equations of these states are solved, and the few contacts that contradict their state change it.
 
 use crate::problem::ContactStatus;
 use crate::states::{Condensed, PROXIMAL, Point, PointRef, Scaled, Springs};
 use crate::vector::{HALF_DIGITS, SMALL, max_abs};
 
-/// Steps of refinement. Chosen: without an end they go on with what vanishes, down to the least number there is.
+/// Largest number of steps of refinement. Chosen: refinement of vanishing values would go on down to the smallest
+/// number.
 const REFINEMENTS: usize = 12;
-/// Contradictions smaller than this part of the largest are left to what its exchange makes of them. Chosen.
+/// Contradictions smaller than this part of the largest are left alone until its exchange has changed them. Chosen.
 const LARGE: f64 = 0.01;
-/// A largest contradiction below this part of those before is progress, as a smaller number is. Chosen.
+/// A largest contradiction below this part of those before counts as progress, as a smaller number of contradictions
+/// does. Chosen.
 const SMALLER: f64 = 0.1;
 
-/// How much is spent on exchanges. Every round costs a factorisation, as a step of the iteration does.
+/// The effort spent on exchanges. Every round costs a factorisation, as a step of the iteration does.
 pub(crate) struct Effort {
     /// Rounds of exchanges.
     pub(crate) rounds: usize,
-    /// Rounds without a decrease of the number of contradictions by a quarter, or of the largest by far.
+    /// Rounds without a decrease of the number of contradictions by a quarter, or of the largest one by the factor
+    /// [`SMALLER`].
     pub(crate) patience: usize,
-    /// Points for one contradiction that is allowed, beyond a few.
+    /// Number of points for each contradiction that is allowed, beyond a few.
     pub(crate) points: usize,
-    /// Whether rounds start from the given point, which keeps unknowns that the states leave free.
+    /// Whether rounds start from the given point, and so keep unknowns that the states leave free.
     pub(crate) anchored: bool,
-    /// Whether all contacts with contradictions change their state even if there were fewer before. With friction they may go
-    /// round in circles then.
+    /// Whether all contacts with contradictions change their state even if there were fewer before. Exchanges with
+    /// friction may then cycle.
     pub(crate) all_at_once: bool,
-    /// The proximal term with which the equations of the states are solved. States that are a little wrong may leave a
-    /// motion free, which a small one lets go anywhere.
+    /// The proximal term with which the equations of the states are solved. States with a few errors may leave a motion
+    /// free, which is arbitrarily large for a small proximal term.
     pub(crate) proximal: f64,
 }
 
 impl Effort {
-    /// While the iteration comes nearer, when few contacts are left to exchange.
+    /// For an iteration that converges, when few contacts are left to exchange.
     pub(crate) const QUICK: Self = Self { rounds: 8, patience: 2, points: 400, ..Self::THOROUGH };
-    /// Where it does not come any nearer.
+    /// For an iteration that does not converge any further.
     pub(crate) const THOROUGH: Self = Self {
         rounds: 60,
         patience: 10,
@@ -42,19 +45,19 @@ impl Effort {
         all_at_once: false,
         proximal: PROXIMAL,
     };
-    /// From given states, of which any number may be wrong.
+    /// For given states, of which any number may be wrong.
     pub(crate) const START: Self =
         Self { patience: 3, points: 1, all_at_once: true, ..Self::THOROUGH };
-    /// From a point amid all solutions of a convex problem.
+    /// For a point amid all solutions of a convex problem.
     #[cfg(feature = "clarabel")]
     pub(crate) const ANCHORED: Self = Self { anchored: true, ..Self::THOROUGH };
 
-    /// From a point that is near to the last digits: what the states leave free is held there.
+    /// For a point that is right except for the last digits: unknowns that the states leave free are held there.
     pub(crate) const fn held(proximal: f64) -> Self {
         Self { rounds: 3, anchored: true, proximal, ..Self::THOROUGH }
     }
 
-    /// Contradictions with which it makes sense to begin.
+    /// The largest number of contradictions with which exchanges begin.
     fn most(&self, points: usize) -> usize {
         10 + points / self.points
     }
@@ -68,9 +71,10 @@ pub(crate) struct Vertex {
     pub(crate) contacts: Vec<ContactStatus>,
 }
 
-/// Solves for given states and exchanges those that contradict, as long as these become fewer. The forces are those nearest to
-/// the given ones where redundant contacts leave a choice. Says whether one of the points is a solution, which is asked of
-/// every point with whether its states contradict nowhere; exchanges go on from there to one whose states contradict nowhere.
+/// Solves for given states and exchanges those that contradict, as long as their number decreases. The forces are those
+/// nearest to the given ones if redundant contacts leave a choice. `is_solution` is called with every point and whether
+/// its states are free of contradictions; the result is whether it accepted one. Exchanges go on from an accepted point
+/// to one whose states are free of contradictions.
 pub(crate) fn cross_over(
     problem: &Scaled,
     condensed: &mut Condensed,
@@ -105,7 +109,7 @@ pub(crate) fn cross_over(
         if exchanged == 0 || since > effort.patience || is_hopeless {
             break;
         }
-        // All at a time may go round in circles, with friction above all.
+        // Exchanges of all contacts at a time may cycle, above all with friction.
         let are_all = is_nearer || is_dust || !has_friction || effort.all_at_once;
         vertex.exchange(&contradictions, are_all);
         fewest = fewest.min(exchanged);
@@ -115,11 +119,11 @@ pub(crate) fn cross_over(
 }
 
 impl Vertex {
-    /// Solves the equations of the states; `None` where they have no solution.
+    /// Solves the equations of the states; `None` if they have no solution.
     fn solve(&mut self, problem: &Scaled, condensed: &mut Condensed, proximal: f64) -> Option<()> {
         let points = problem.points.iter().zip(&self.contacts);
-        // The equations are solved to the last digit by refinement: stiffness is no penalty but the size of a proximal step,
-        // which redundant contacts need.
+        // The equations are solved to the last digit by refinement: the stiffness is not a penalty but the size of a
+        // proximal step, which redundant contacts need.
         let springs: Vec<Springs> =
             points.map(|(point, contact)| contact.springs(point, 1.0 / HALF_DIGITS)).collect();
         condensed.factorise(problem, &springs, proximal);
@@ -154,13 +158,13 @@ impl Vertex {
         }
         self.close(problem);
         if max_abs(&self.u) <= SMALL * before.max(1.0) {
-            // Bodies at rest: what is left is noise, by which nothing should be measured.
+            // Bodies at rest: the displacements left are rounding errors, which must not serve as a measure.
             self.u.fill(0.0);
         }
         Some(())
     }
 
-    /// Displacements that a closed contact fixes alone, to the last digit.
+    /// Makes displacements that one closed contact determines alone exact to the last digit.
     fn close(&mut self, problem: &Scaled) {
         let points = problem.points.iter().zip(&self.contacts).zip(&self.forces);
         for ((point, contact), (t_n, _)) in points {
@@ -173,7 +177,7 @@ impl Vertex {
         }
     }
 
-    /// The contacts that contradict their states by more than `rounding`: by how much, which, and the state that
+    /// The contacts that contradict their states by more than `rounding`: the size, the contact, and the state that
     /// fits better.
     fn contradictions(&self, problem: &Scaled, rounding: f64) -> Vec<(f64, usize, ContactStatus)> {
         let force =
@@ -206,7 +210,7 @@ impl Vertex {
         contradictions
     }
 
-    /// The most that a spring of a contact is pressed together or drawn aside.
+    /// The largest compression or tangential deformation of the spring of a contact.
     fn pressed(&self, problem: &Scaled) -> f64 {
         let all = problem.points.compliance.iter().zip(&self.forces);
         all.fold(0.0, |max, ([normal, tangential], (t_n, t_t))| {
@@ -214,8 +218,8 @@ impl Vertex {
         })
     }
 
-    /// Gives the contacts that contradict their states most other states; or only the first of them, which cannot cycle
-    /// if all principal minors are positive.
+    /// Gives other states to the contacts with the largest contradictions; or only to the first contact with one, a
+    /// rule that cannot cycle if all principal minors are positive.
     fn exchange(&mut self, contradictions: &[(f64, usize, ContactStatus)], is_block: bool) {
         let least = LARGE * largest_of(contradictions);
         let all = contradictions.iter().filter(|(size, ..)| *size >= least || !is_block);
@@ -226,13 +230,13 @@ impl Vertex {
     }
 }
 
-/// The most that a contact contradicts its state.
+/// The largest contradiction of a contact.
 fn largest_of(contradictions: &[(f64, usize, ContactStatus)]) -> f64 {
     contradictions.iter().fold(0.0_f64, |max, (size, ..)| max.max(*size))
 }
 
-/// The state of a contact that closes. One that has slid by more than it overlaps goes on sliding: to stick it
-/// would have to be taken back all the way, against forces that are no guide to anything.
+/// The state of a contact that closes. A contact that has slid by more than it overlaps goes on sliding: if it stuck,
+/// the whole slip would have to be undone, against forces that give no guidance.
 fn closed(point: Point<'_>, gap: f64, slip: f64) -> ContactStatus {
     if point.mu == 0.0 || slip.abs() <= -gap {
         ContactStatus::Stick
@@ -251,7 +255,8 @@ mod tests {
     use super::*;
     use crate::Contact2d;
 
-    /// Normal forces are zero to the last digit, negative or not: what friction would have to hold is the contradiction.
+    /// Normal forces are zero to the last digit, negative or not: the tangential force, which exceeds friction, is the
+    /// contradiction.
     #[test]
     fn a_force_beside_the_tip_of_the_cone_contradicts() {
         let (zero, mu) = (vec![0.0], vec![0.5]);

@@ -36,8 +36,8 @@ pub(super) fn run(
     Ok(if solves { SOLVED } else { NOT_SOLVED })
 }
 
-/// The verdict on a point with these residuals. A point may hold as a whole, measured by the largest loads, and miss rows of small
-/// loads.
+/// The verdict on a point with these residuals. A point may hold as a whole, measured by the largest loads, and miss
+/// rows of small loads.
 fn sentence(residuals: &Residuals, tolerance: f64) -> String {
     let as_a_whole = residuals.natural.max(residuals.loads);
     if residuals.worst() <= tolerance {

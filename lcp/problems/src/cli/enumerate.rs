@@ -27,7 +27,7 @@ struct Solutions {
 struct Set {
     /// Zero for one solution alone; else there are infinitely many.
     dimension: usize,
-    /// Which variable of every pair of the general form may be positive.
+    /// The variable of every pair of the general form that may be positive.
     basis: String,
     vertices: Vec<Point>,
     rays: Vec<Point>,
@@ -128,7 +128,7 @@ impl Set {
 }
 
 impl Point {
-    /// In the variables of the problem; without the bounds, where it is a direction.
+    /// A point, in the variables of the problem; a direction is without the bounds.
     fn of(problem: &Problem, point: &ExactPoint, is_place: bool) -> Self {
         let origin = |bound: f64| RBig::try_from(bound).ok().filter(|_| is_place);
         let (z, w) = match problem.boxed() {

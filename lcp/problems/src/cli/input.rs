@@ -138,7 +138,7 @@ pub(super) struct Point {
 }
 
 impl Point {
-    /// From a file, of which `-` is standard input.
+    /// Reads the point from a file; `-` is standard input.
     pub(super) fn read(
         path: &Path,
         stdin: &mut dyn Read,

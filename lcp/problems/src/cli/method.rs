@@ -1,4 +1,4 @@
-//! The method that the command line asks for, on the problem of the file.
+//! The method named on the command line, applied to the problem of the file.
 
 use std::io::Read;
 
@@ -13,8 +13,8 @@ use lcp::{
     SemismoothNewton, SemismoothNewtonSettings, Side, Solution, Solver, WarmStart,
 };
 
-/// Solves by a method in the forms that it treats, friction in the standard form where it treats only that, and others in their
-/// general form. The problem of the file judges the answer to another form.
+/// Solves by a method in the forms that it treats: friction in the standard form if the method treats only that, and
+/// others in their general form. An answer to another form is judged by the problem of the file.
 macro_rules! in_a_form {
     ($solver:expr, $problem:expr, $($own:ident)|+ $(, standard of $standard:ident)?) => {
         match $problem {
@@ -38,8 +38,8 @@ fn judged(problem: &Problem, mut solution: Solution, tolerance: f64) -> Solution
     solution
 }
 
-/// Every method gets the problem in its own form where it treats that, else in the general form, whose
-/// pairs the solution has in any case.
+/// Solves the problem in its own form if the method treats that, else in the general form. The solution has the pairs
+/// of the general form in any case.
 pub(super) fn solve(
     args: &SolveArgs,
     stdin: &mut dyn Read,
@@ -106,7 +106,7 @@ pub(super) fn solve(
     Ok(solution?)
 }
 
-/// The method, after a look at the options that only some of them have.
+/// The method, after a check of the options that only some methods have.
 fn method(args: &SolveArgs) -> Result<Method, Failure> {
     let pivots = [
         ("--max-pivots", args.max_pivots.is_some()),

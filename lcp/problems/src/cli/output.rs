@@ -12,7 +12,7 @@ pub(super) const SOLVED: u8 = 0;
 pub(super) const NOT_SOLVED: u8 = 1;
 pub(super) const BAD_INPUT: u8 = 2;
 
-/// The failure with the name of the file, which the error of a place in it does not have.
+/// The failure with the name of the file, which an error with a place in the file lacks.
 pub(super) fn in_file(path: &Path, error: &dyn std::fmt::Display) -> Failure {
     let name = if path.as_os_str() == "-" { Path::new("standard input") } else { path };
     format!("{}: {error}", name.display()).into()
@@ -43,7 +43,7 @@ pub(super) fn show(
     print(out, &if is_json { serde_json::to_string(object)? + "\n" } else { report() })
 }
 
-/// A closed pipe is the reader's choice, not a failure of ours.
+/// Prints the text; a pipe that its reader has closed is not a failure.
 pub(super) fn print(out: &mut dyn Write, text: &str) -> Result<(), Failure> {
     match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
         Err(error) if error.kind() == ErrorKind::BrokenPipe => Ok(()),

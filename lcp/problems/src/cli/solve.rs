@@ -24,7 +24,7 @@ pub(super) struct Answer<'a> {
     pub(super) n: usize,
     /// Wall-clock time.
     pub(super) time_s: f64,
-    /// Processor time, where the system tells it.
+    /// Processor time, if the system provides it.
     pub(super) cpu_s: Option<f64>,
     #[serde(flatten)]
     pub(super) work: Work,

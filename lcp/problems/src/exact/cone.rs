@@ -13,14 +13,14 @@ pub(super) struct Budget {
     pub(super) generators: usize,
 }
 
-/// Why an enumeration ends early.
+/// The reason for which an enumeration ends early.
 pub(super) enum Stop {
     Time,
     Limit(Error),
 }
 
 impl Budget {
-    /// That there is time left, and that so many vertices and rays are not more than allowed.
+    /// Checks that time is left, and that this number of vertices and rays is allowed.
     pub(super) fn check(&self, value: usize) -> Result<(), Stop> {
         let limit = self.generators;
         if value > limit {
@@ -39,13 +39,13 @@ struct Generator {
 
 /// The extreme rays, as primitive integer vectors, of `{x >= 0 : g.x >= 0 for every g}`.
 ///
-/// From the orthant on one inequality after the other cuts the cone; a new ray lies between two
-/// neighbours on either side of the cut, and two rays are neighbours when no third one meets all the
-/// inequalities with equality that both do (Fukuda and Prodon 1996). At most 64 inequalities, those
-/// of the orthant included.
+/// Starting from the orthant, one inequality after the other cuts the cone. A new ray lies between
+/// two neighbours on opposite sides of the cut; two rays are neighbours if no third one meets with
+/// equality all inequalities that both of them do (Fukuda and Prodon 1996). The number of
+/// inequalities is at most 64, including those of the orthant.
 ///
 /// # Errors
-/// When the budget is at its end.
+/// If the budget is exhausted.
 pub(super) fn extreme_rays(
     dimension: usize,
     inequalities: &[Vec<IBig>],

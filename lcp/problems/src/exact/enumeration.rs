@@ -19,7 +19,7 @@ pub struct EnumerationSettings {
     pub max_order: usize,
     /// Largest number of vertices and rays, over all faces.
     pub max_generators: usize,
-    /// Wall-clock time; `None` is no limit. What was found until then is given.
+    /// Wall-clock time; `None` is unlimited. The result has the solutions found until then.
     pub time_limit: Option<Duration>,
 }
 
@@ -40,7 +40,7 @@ pub struct ExactEnumeration {
     /// The solutions as a union of polyhedra, none of which lies in another; they may touch. Ordered
     /// by the variables that are positive in them.
     pub faces: Vec<Face>,
-    /// Whether these are all solutions: the time sufficed.
+    /// Whether these are all solutions, because the time sufficed.
     pub is_complete: bool,
     /// Whether some complementary basis is nonsingular, as far as the time sufficed to find one.
     pub has_basis: bool,
@@ -159,7 +159,7 @@ impl Node {
         self.pair == self.basic.len()
     }
 
-    /// The node in which the next pair has chosen.
+    /// The node with a side chosen for the next pair.
     fn child(&self, side: Side) -> Self {
         let variable = number(self.pair, side);
         let column = self.dependent.len();
@@ -209,8 +209,8 @@ impl Node {
     }
 }
 
-/// The faces found so far that lie in no other, each under the set of variables that are positive in
-/// it, as bits: a face lies in another just when its set does.
+/// The faces found so far that lie in no other, each under the set of variables that are positive in it, as bits: a
+/// face lies in another exactly if its set does.
 struct Faces {
     budget: Budget,
     found: BTreeMap<u64, Face>,
@@ -229,8 +229,8 @@ impl Faces {
         self.collect(&node.child(Side::Y))
     }
 
-    /// The face of a complementary choice: nonnegative dependent variables that leave the basic ones
-    /// nonnegative. With a factor for `c` as one more variable it is a cone.
+    /// The face of a complementary choice: nonnegative dependent variables for which the basic ones are nonnegative.
+    /// The face is a cone if a factor for `c` is added as a variable.
     fn add(&mut self, leaf: &Node) -> Result<(), Stop> {
         let rows = leaf.basic.iter().zip(&leaf.tableau.rows);
         let solved = rows.filter_map(|(basic, row)| basic.map(|variable| (variable, row)));
@@ -252,7 +252,7 @@ impl Faces {
                 .filter(|(_, value)| !value.is_zero())
                 .collect();
             support |= values.iter().fold(0, |bits, (variable, _)| bits | 1 << variable);
-            // A ray has one as its largest entry.
+            // The largest entry of a ray is one.
             let (points, unit) = if factor.is_zero() {
                 (&mut rays, values.iter().map(|(_, v)| v).max().cloned().unwrap_or(IBig::ONE))
             } else {

@@ -11,9 +11,9 @@ use lcp::HorizontalLcp;
 /// Whether `A t + B y = c`, `t >= 0`, `y >= 0` can be met, complementarity aside.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Feasibility {
-    /// It can, by this point.
+    /// The conditions can be met, by this point.
     Feasible(ExactPoint),
-    /// It cannot.
+    /// The conditions cannot be met.
     Infeasible {
         /// The proof (Farkas): a vector with `A^T farkas <= 0`, `B^T farkas <= 0` and `c . farkas > 0`.
         farkas: Vec<RBig>,
@@ -39,7 +39,8 @@ pub fn feasibility(problem: &HorizontalLcp) -> Feasibility {
     let n = problem.order();
     let Integers { rows, factors } = Integers::new(problem);
     let signs: Vec<IBig> = rows.iter().map(|row| sign(&row[2 * n])).collect();
-    // `A B | 1 | c` with `c >= 0`, and below the reduced costs of the sum of the artificial variables.
+    // `A B | 1 | c` with `c >= 0`, and below them the reduced costs of the sum of the artificial
+    // variables.
     let mut costs = vec![IBig::ZERO; 3 * n + 1];
     let mut signed = Vec::with_capacity(n + 1);
     for (i, (row, sign)) in rows.iter().zip(&signs).enumerate() {

@@ -16,7 +16,7 @@ pub(super) fn number(pair: usize, side: Side) -> usize {
 pub(super) struct Integers {
     /// Rows, with the columns in the order of [`number`] and `c` at the end.
     pub(super) rows: Vec<Vec<IBig>>,
-    /// What the rows of the problem were multiplied by.
+    /// The factors of the rows.
     pub(super) factors: Vec<UBig>,
 }
 

@@ -3,8 +3,8 @@
 use dashu_int::IBig;
 
 /// Rows of integers over one positive denominator, the determinant of the pivots so far: `entry /
-/// determinant` is what elimination with fractions has (Bareiss, Mathematics of Computation 22, 1968).
-/// A pivot column becomes `determinant` times a unit vector.
+/// determinant` is the entry of elimination with fractions (Bareiss, Mathematics of Computation 22,
+/// 1968). A pivot column becomes `determinant` times a unit vector.
 #[derive(Debug, Clone)]
 pub(super) struct Tableau {
     pub(super) rows: Vec<Vec<IBig>>,
@@ -16,14 +16,14 @@ impl Tableau {
         Self { rows, determinant: IBig::ONE }
     }
 
-    /// Makes the column a unit vector with its one in the row, whose entry must not be zero.
+    /// Makes the column a unit vector with its one in this row, whose entry must not be zero.
     pub(super) fn pivot(&mut self, row: usize, column: usize) {
         let pivot_row = std::mem::take(&mut self.rows[row]);
         let pivot = &pivot_row[column];
         for other in self.rows.iter_mut().filter(|row| !row.is_empty()) {
             let factor = other[column].clone();
             for (v, p) in other.iter_mut().zip(&pivot_row) {
-                // A minor of the data, so that the division leaves no remainder.
+                // The quotient is a minor of the data, so that the division leaves no remainder.
                 *v = (&*v * pivot - &factor * p) / &self.determinant;
             }
         }
@@ -50,8 +50,8 @@ impl Tableau {
     }
 }
 
-/// Eliminates one column after the other: the pivot row of every one, none for a column that depends
-/// on those before it.
+/// Eliminates one column after the other and returns the pivot row of each, `None` for a column that
+/// depends on those before it.
 pub(super) fn eliminate(tableau: &mut Tableau, columns: usize) -> Vec<Option<usize>> {
     let mut is_used = vec![false; tableau.rows.len()];
     let mut pivot_row = |column: usize| {

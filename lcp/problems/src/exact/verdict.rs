@@ -21,7 +21,7 @@ pub enum ExactVerdict {
         /// The pair with the most negative value, measured as in
         /// [`Residuals::feasibility`](lcp::Residuals::feasibility).
         pair: usize,
-        /// Which variable of the pair it is.
+        /// The side of the pair that is negative.
         side: Side,
         /// The value, negative, in units of the largest magnitude of `t` or of `y`.
         relative: f64,

@@ -6,9 +6,9 @@ use lcp::{BoxedLcp, Lcp};
 
 /// Model-predictive control of one state by one bounded input over some steps: states and multipliers are free.
 ///
-/// `min sum x_k^2 + r u_k^2` under `x_{k+1} = a x_k + b u_k` and `|u_k| <= 1`, as the conditions of Karush, Kuhn and Tucker
-/// for `(x, u, lambda)`. `a` is between 0.5 and 1.2, so that some systems are unstable; inputs are at their bounds first, and
-/// states fade away by powers of ten. There is one solution.
+/// `min sum x_k^2 + r u_k^2` under `x_{k+1} = a x_k + b u_k` and `|u_k| <= 1`, as the conditions of Karush, Kuhn and
+/// Tucker for `(x, u, lambda)`. `a` is between 0.5 and 1.2, so that some systems are unstable; inputs are at their
+/// bounds first, and states decay by powers of ten. There is one solution.
 pub fn control(steps: usize, seed: u64) -> Instance<BoxedLcp> {
     let mut random = Integers::new(seed);
     let mut between = |low: f64, high: f64| low + (high - low) * random.0.next_f64();
@@ -41,12 +41,13 @@ pub fn control(steps: usize, seed: u64) -> Instance<BoxedLcp> {
     Instance { problem, known: KnownAnswer::Solvable }
 }
 
-/// A perpetual American put option with a strike of one, on a grid of `points` in the logarithm of the price: `z` is what
-/// the option is worth beyond its payoff. `M` is an M-matrix, not symmetric.
+/// A perpetual American put option with a strike of one, on a grid of `points` in the logarithm of the price: `z` is
+/// the value of the option beyond its payoff. `M` is an M-matrix and not symmetric.
 ///
 /// `r V - (r - s^2/2) V' - s^2/2 V'' >= 0` and `V >= 1 - S`, one of them with equality, for the interest `r` and the
-/// volatility `s`. It is exercised at prices up to `S* = g / (1 + g)`, with `g = 2 r / s^2`, and is worth
-/// `(1 - S*) (S / S*)^-g` above (Merton 1973). The grid goes from `ln S*  - 1` to `ln S* + 4`, where `V` is what it is worth.
+/// volatility `s`. The option is exercised at prices up to `S* = g / (1 + g)`, with `g = 2 r / s^2`, and is worth `(1 -
+/// S*) (S / S*)^-g` above (Merton 1973). The grid goes from `ln S*  - 1` to `ln S* + 4`, at which `V` is set to this
+/// value.
 pub fn perpetual_option(points: usize, interest: f64, volatility: f64) -> Instance<Lcp> {
     let variance = volatility * volatility;
     let g = 2.0 * interest / variance;

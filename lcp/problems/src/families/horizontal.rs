@@ -5,9 +5,9 @@ use faer::Mat;
 use super::{Instance, Integers, KnownAnswer, Planting, product};
 use lcp::{HorizontalLcp, Matrix};
 
-/// Monotone with both matrices singular (from order 6 on): a semidefinite problem with a matrix of a
-/// third of its order as rank, the variables of every other pair swapped, and every row plus or minus
-/// another, with a planted solution.
+/// Monotone with both matrices singular (from order 6 on), with a planted solution: a semidefinite
+/// problem whose matrix has a rank of a third of its order, with the variables of every other pair
+/// swapped, and another row added to or subtracted from every row.
 pub fn horizontal_monotone(n: usize, seed: u64) -> Instance {
     let mut random = Integers::new(seed);
     let c = random.matrix(n, n / 3, -2, 2);
@@ -23,8 +23,8 @@ pub fn horizontal_monotone(n: usize, seed: u64) -> Instance {
     Instance { problem: with_solution(a, b, &t, &y), known: KnownAnswer::Solution { t, y } }
 }
 
-/// No class at all: random integers, where a quarter of the columns of `A` are sums of two others,
-/// and likewise in `B` (from order 4 on), with a planted solution.
+/// Of no class: random integers, with a quarter of the columns of `A` sums of two others, and
+/// likewise in `B` (from order 4 on), with a planted solution.
 pub fn horizontal_singular(n: usize, seed: u64) -> Instance {
     let mut random = Integers::new(seed);
     let mut matrix = |dependent: &dyn Fn(usize) -> usize| {
@@ -43,8 +43,8 @@ pub fn horizontal_singular(n: usize, seed: u64) -> Instance {
 }
 
 /// Random integers with the signs of columns and of `c` such that a random vector proves
-/// infeasibility. In every pair one column outweighs the rest of its row, so that there is a
-/// complementary basis.
+/// infeasibility. One column of every pair outweighs the rest of its row, so that a complementary
+/// basis exists.
 pub fn infeasible(n: usize, seed: u64) -> Instance {
     let n = n.max(1);
     let mut random = Integers::new(seed);

@@ -5,9 +5,9 @@ use faer::Mat;
 use super::{Instance, Integers, KnownAnswer, Planting};
 use lcp::MixedLcp;
 
-/// The conditions of a convex quadratic program with equations: `M = [0 E; -E^T C C^T]`, monotone and
-/// with a zero block for the free variables, its multipliers. About a third of the variables is free;
-/// `E` has full rank. With a planted solution.
+/// The conditions of a convex quadratic program with equations, with a planted solution: `M = [0 E;
+/// -E^T C C^T]`, monotone and with a zero block for the free variables, its multipliers. About a
+/// third of the variables is free; `E` has full rank.
 pub fn mixed_monotone(n: usize, seed: u64) -> Instance<MixedLcp> {
     let mut random = Integers::new(seed);
     let free = n / 3;
@@ -28,8 +28,8 @@ pub fn mixed_monotone(n: usize, seed: u64) -> Instance<MixedLcp> {
     with_solution(m, free, &mut random)
 }
 
-/// No class: random integers, half of the variables free, and every second row of their block, from
-/// order 4 on, equal to the one before. With a planted solution.
+/// Of no class: random integers with a planted solution, half of the variables free, and every second
+/// row of their block, from order 4 on, equal to the one before.
 pub fn mixed_singular(n: usize, seed: u64) -> Instance<MixedLcp> {
     let mut random = Integers::new(seed);
     let free = n / 2;

@@ -10,8 +10,8 @@ use lcp::{Basis, Error, Lcp, Side, WarmStart};
 #[non_exhaustive]
 pub enum Ground {
     /// Flat ground, onto which a uniform load presses the membrane. The frame is held such that the contact region is
-    /// a disc of this radius, between 0 and 1, and the gap is known: `r^2 - a^2 - 2 a^2 ln(r / a)` at the distance
-    /// `r > a` from the middle.
+    /// a disc of this radius, between 0 and 1, and the gap is known: `r^2 - a^2 - 2 a^2 ln(r / a)` at the distance `r
+    /// > a` from the middle.
     Disc {
         /// Radius `a` of the contact region.
         radius: f64,
@@ -19,7 +19,7 @@ pub enum Ground {
     /// Hills below a level frame, this number in each direction; the load presses the membrane onto some parts of
     /// them.
     Hills {
-        /// In both directions.
+        /// Number in each direction.
         count: u32,
     },
 }
@@ -52,7 +52,7 @@ pub struct Obstacle {
 }
 
 impl Obstacle {
-    /// At least one point in both directions, else one is taken.
+    /// A membrane with these numbers of points, at least one in either direction.
     pub fn new(columns: usize, rows: usize, ground: Ground) -> Self {
         Self { columns: columns.max(1), rows: rows.max(1), ground }
     }
@@ -92,7 +92,7 @@ impl Obstacle {
             let mut sum = self.load() * hx * hy;
             for (i, j, stiffness) in neighbours(point) {
                 let (x, y) = self.grid_place(i, j);
-                // Outside of the grid the gap is given.
+                // The gap is given outside of the grid.
                 let gap = if self.is_inside(i, j) { 0.0 } else { self.frame(x, y) };
                 sum += stiffness * (level - self.ground(x, y) - gap);
             }
@@ -107,23 +107,22 @@ impl Obstacle {
         super::standard(m, q)
     }
 
-    /// The gap at every point, where it is known: for [`Ground::Disc`], of the membrane itself, from which
-    /// that of the grid differs by `O(h^2)`, up to a logarithm.
+    /// The gap of the membrane itself at every point, known for [`Ground::Disc`]; the gap of the grid differs from it
+    /// by `O(h^2)`, up to a logarithm.
     pub fn exact_gap(&self) -> Option<Vec<f64>> {
         let Ground::Disc { .. } = self.ground else { return None };
         let places = (0..self.order()).map(|point| self.place(point));
         Some(places.map(|(x, y)| self.frame(x, y)).collect())
     }
 
-    /// A start from the solution on a coarser grid, of about half as many points in both directions: the
-    /// basis of the points that are in contact, or not, by that solution.
+    /// A start from the solution on a coarser grid, of about half as many points in both directions: the basis of the
+    /// points that are in contact, or not, by that solution.
     ///
-    /// At a distance `d` from the contact region the gap is `load d^2 / 2`, so that the gap at a point of
-    /// the coarse grid gives its distance from the contact region: all points that are nearer to it are
-    /// not in contact.
+    /// The gap at a distance `d` from the contact region is `load d^2 / 2`, so that the gap at a point of the coarse
+    /// grid gives its distance from the contact region: all points within that distance are not in contact.
     ///
     /// # Errors
-    /// [`Error::Length`] when `z` does not fit to the coarse grid, [`Error::NotFinite`] for a NaN or an
+    /// [`Error::Length`] if the length of `z` is not that of the coarse grid, [`Error::NotFinite`] for a NaN or an
     /// infinity.
     pub fn refined_start(&self, coarse: &Self, z: &[f64]) -> Result<WarmStart, Error> {
         if z.len() != coarse.order() {
@@ -143,7 +142,7 @@ impl Obstacle {
         Ok(WarmStart::Basis(Basis::new((0..self.order()).map(side).collect())))
     }
 
-    /// Whether a point of the plane, in that cell, is not in contact by the gaps around it.
+    /// Whether a point of the plane, in this cell, is not in contact, judged by the gaps around it.
     fn is_apart(&self, z: &[f64], [i, j]: [usize; 2], [x, y]: [f64; 2]) -> bool {
         let corners = [(i, j), (i + 1, j), (i, j + 1), (i + 1, j + 1)];
         corners.into_iter().any(|(i, j)| {
@@ -159,7 +158,7 @@ impl Obstacle {
         (2.0 / (self.columns as f64 + 1.0), 2.0 / (self.rows as f64 + 1.0))
     }
 
-    /// Place of a point, counted from the frame, where the number is zero.
+    /// Place of a point, counted from the frame, which has the number zero.
     fn grid_place(&self, i: usize, j: usize) -> (f64, f64) {
         let (hx, hy) = self.steps();
         (i as f64 * hx - 1.0, j as f64 * hy - 1.0)
@@ -173,7 +172,7 @@ impl Obstacle {
         (j - 1) * self.columns + i - 1
     }
 
-    /// The load on the membrane, by its tension.
+    /// The load on the membrane, divided by its tension.
     fn load(&self) -> f64 {
         match self.ground {
             Ground::Disc { .. } => 4.0,
@@ -191,8 +190,8 @@ impl Obstacle {
         }
     }
 
-    /// What presses the membrane onto the ground where it lies on it: the load, and the tension over
-    /// the curvature of the ground.
+    /// The pressure of the membrane on the ground in the contact region: the load, and the tension over the curvature
+    /// of the ground.
     fn pressure(&self, x: f64, y: f64) -> f64 {
         match self.ground {
             Ground::Disc { .. } => self.load(),
@@ -206,7 +205,7 @@ impl Obstacle {
         }
     }
 
-    /// The gap at a point of the frame, for discs also at every other one.
+    /// The gap at a point of the frame; for discs also at every other point.
     fn frame(&self, x: f64, y: f64) -> f64 {
         match self.ground {
             Ground::Disc { radius } => {

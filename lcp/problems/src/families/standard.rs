@@ -60,15 +60,15 @@ pub fn copositive_plus(n: usize, seed: u64) -> Instance<Lcp> {
     planted(m, &mut random, Planting::Degenerate)
 }
 
-/// No class: random integers with a planted solution.
+/// Of no class: random integers with a planted solution.
 pub fn indefinite(n: usize, seed: u64) -> Instance<Lcp> {
     let mut random = Integers::new(seed);
     let m = random.matrix(n, n, -5, 5);
     planted(m, &mut random, Planting::Strict)
 }
 
-/// P0 and sparse: lower triangular with zeros and ones on its diagonal, with a planted solution. A pair with a zero on
-/// the diagonal does not decide its own side, and paths of pivots end on rays.
+/// P0 and sparse: lower triangular with zeros and ones on its diagonal, with a planted solution. The diagonal does not
+/// decide the side of a pair with a zero there, and paths of pivots end on rays.
 pub fn triangular(n: usize, seed: u64) -> Instance<Lcp> {
     let mut random = Integers::new(seed);
     let mut m = random.matrix(n, n, -3, 3);
@@ -83,8 +83,8 @@ pub fn triangular(n: usize, seed: u64) -> Instance<Lcp> {
     planted(m, &mut random, Planting::Strict)
 }
 
-/// Nothing but ties: the pairs fall into about `n / 3` groups, `m_ij = 1` within a group and 0
-/// elsewhere, and the `z` of every group must add up to the same number.
+/// Nothing but ties: the pairs form about `n / 3` groups, `m_ij = 1` within a group and 0 elsewhere, and the `z` of
+/// every group must add up to the same number.
 pub fn ties(n: usize, seed: u64) -> Instance<Lcp> {
     let mut random = Integers::new(seed);
     let groups: Vec<usize> = (0..n).map(|_| random.index(n / 3 + 1)).collect();
@@ -118,7 +118,7 @@ pub fn harker_pang(n: usize, seed: u64) -> Instance<Lcp> {
 /// The equilibria of a game of two players, each with one choice at least, with costs `P`, `Q` of 1
 /// to 9 (Lemke and Howson 1964): `M = [0 P; Q^T 0]`, `q = -1`.
 ///
-/// A solution exists, but `M` is not copositive-plus: from a ray nothing follows.
+/// A solution exists, but `M` is not copositive-plus: a ray proves nothing.
 pub fn bimatrix(rows: usize, columns: usize, seed: u64) -> Instance<Lcp> {
     let mut random = Integers::new(seed);
     let (rows, columns) = (rows.max(1), columns.max(1));

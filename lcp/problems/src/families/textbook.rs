@@ -9,14 +9,14 @@ use crate::sparse;
 use lcp::Lcp;
 
 /// Ones on the diagonal and twos below it, `q = -1` (Murty, Mathematical Programming Study 7, 1978):
-/// the solution is the first unit vector, and Lemke's method takes `2^n` pivots to it with a covering
-/// vector of ones and the lexicographic rule.
+/// the solution is the first unit vector, and Lemke's method needs `2^n` pivots to reach it with a
+/// covering vector of ones and the lexicographic rule.
 pub fn murty(n: usize) -> Instance<Lcp> {
     first_unit_vector(murty_matrix(n))
 }
 
 /// `M = L L^T` with Murty's matrix `L`, `q = -1` (Fathi, Mathematical Programming 17, 1979): the same
-/// with a symmetric positive definite matrix.
+/// number of pivots with a symmetric positive definite matrix.
 pub fn fathi(n: usize) -> Instance<Lcp> {
     let l = murty_matrix(n);
     first_unit_vector(&l * l.transpose())
@@ -30,7 +30,8 @@ fn murty_matrix(n: usize) -> Mat<f64> {
     })
 }
 
-/// `q = -1`, where the first unit vector solves: the first column has 1 on top, and 2 below.
+/// The problem `q = -1` for a first column with 1 on top and 2 below: the first unit vector solves
+/// it.
 fn first_unit_vector(m: Mat<f64>) -> Instance<Lcp> {
     let n = m.nrows();
     let unit = |i: usize, value: f64| if i == 0 { value } else { 0.0 };

@@ -1,4 +1,4 @@
-//! Why a file was not read.
+//! The errors of reading a file.
 
 use std::fmt::Display;
 use std::path::PathBuf;
@@ -20,20 +20,20 @@ impl Display for Position {
     }
 }
 
-/// Why a file was not read: the place, what was expected there, and the remedy.
+/// An error of reading a file: the place, the datum expected there, and the remedy.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ReadError {
-    /// Something else stands where the format expects a datum.
+    /// Something else stands in the place of a datum that the format expects.
     #[error("{at}: expected {expected}, found {found}; {remedy}")]
     Unexpected {
-        /// Where.
+        /// The place.
         at: Position,
-        /// What the format has there.
+        /// The datum that the format expects.
         expected: String,
-        /// What the file has there.
+        /// The text in the file.
         found: String,
-        /// What to do.
+        /// The remedy.
         remedy: &'static str,
     },
     /// A header announces more data than the file holds.
@@ -42,34 +42,34 @@ pub enum ReadError {
          correct the sizes, or complete the file"
     )]
     TooShort {
-        /// Where the data begin.
+        /// The place at which the data begin.
         at: Position,
-        /// Which datum.
+        /// The datum.
         what: &'static str,
-        /// Numbers that it needs (`usize::MAX` when that is beyond counting).
+        /// Numbers that the datum needs (`usize::MAX` if there are too many to count).
         needed: usize,
         /// Words that the file still has.
         left: usize,
     },
-    /// The file is not the JSON that is described in [`crate::io`].
+    /// The file does not have the JSON form described in [`crate::io`].
     #[error(
         "{at}: {message}; the fields of every kind are listed in the documentation of lcp_problems::io"
     )]
     Json {
-        /// Where.
+        /// The place.
         at: Position,
-        /// What is wrong.
+        /// The mistake.
         message: String,
     },
-    /// The data were read, but do not make a problem.
+    /// The data were read, but do not form a problem.
     #[error("{at}: {source}")]
     Refused {
-        /// Where the data begin.
+        /// The place at which the data begin.
         at: Position,
-        /// What is wrong with them.
+        /// The mistake in them.
         source: lcp::Error,
     },
-    /// No format fits; this one came furthest.
+    /// No format fits; `format` came furthest.
     #[error(
         "{source} (none of the known formats fits: {}; {format} comes furthest: name another if that is wrong)",
         known()
@@ -77,7 +77,7 @@ pub enum ReadError {
     Unrecognised {
         /// The format.
         format: ProblemFormat,
-        /// Why it does not fit.
+        /// The reason for which it does not fit.
         source: Box<ReadError>,
     },
     /// A name that no format has.
@@ -103,7 +103,7 @@ pub enum ReadError {
     File {
         /// The file.
         path: PathBuf,
-        /// What the system says.
+        /// The message of the system.
         reason: String,
     },
 }
@@ -118,8 +118,8 @@ impl ReadError {
         Self::Unexpected { at, expected: expected.to_string(), found: found.to_string(), remedy }
     }
 
-    /// How far a reader came: first whether to the end of what is there, with numbers that are no problem or in a file
-    /// that is nearly complete, then the place.
+    /// The progress of a reader, compared first by whether it reached the end of the text, including numbers that do
+    /// not form a problem and files that are nearly complete, then by the place.
     pub(super) fn reach(&self) -> (bool, Option<Position>) {
         let is_to_the_end = match self {
             Self::TooShort { needed, left, .. } => *left >= needed / 2 && *needed > 0,
@@ -128,7 +128,7 @@ impl ReadError {
         (is_to_the_end, self.position())
     }
 
-    /// Where in the file, if the error has a place.
+    /// The place in the file, if the error has one.
     pub fn position(&self) -> Option<Position> {
         match self {
             Self::Unexpected { at, .. }
@@ -151,7 +151,7 @@ fn list(formats: &[ProblemFormat]) -> String {
     names.join(" or as ")
 }
 
-/// From its name.
+/// Parses a format from its name.
 impl std::str::FromStr for ProblemFormat {
     type Err = ReadError;
 

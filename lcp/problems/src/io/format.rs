@@ -4,7 +4,7 @@
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum ProblemFormat {
-    /// Our JSON.
+    /// The JSON of this crate.
     Json,
     /// Plain text: `n`, `M` by rows, `q`.
     Text,

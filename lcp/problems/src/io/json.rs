@@ -1,4 +1,4 @@
-//! Our JSON: one object with a `kind` and the fields of that kind.
+//! The JSON of this crate: one object with a `kind` and the fields of that kind.
 
 use std::collections::BTreeMap;
 
@@ -10,7 +10,7 @@ use super::{Position, Problem, ReadError};
 use lcp::Error;
 use lcp::Stored;
 
-/// What says which fields a document has.
+/// The field that decides which other fields a document has.
 #[derive(Deserialize)]
 struct Tag {
     kind: Kind,
@@ -63,7 +63,7 @@ fn made<P: Stored>(text: &str) -> Result<P, ReadError> {
 fn parsed<'a, T: Deserialize<'a>>(text: &'a str) -> Result<T, ReadError> {
     from_str(text).map_err(|error| {
         let (line, column) = (error.line(), error.column());
-        // Its message ends with the place where it has one.
+        // The message ends with the place if it has one.
         let message = error.to_string();
         let place = format!(" at line {line} column {column}");
         let message = message.strip_suffix(&place).unwrap_or(&message).to_owned();
@@ -71,7 +71,8 @@ fn parsed<'a, T: Deserialize<'a>>(text: &'a str) -> Result<T, ReadError> {
     })
 }
 
-/// Where the datum begins that an error is about: a field, a row or an entry of a matrix, or else the document.
+/// The place at which the datum of an error begins: a field, a row or an entry of a matrix, or else the
+/// document.
 fn place(text: &str, error: &Error) -> Position {
     let fields: BTreeMap<String, &RawValue> = from_str(text).unwrap_or_default();
     let field = |name: &str| fields.get(&name.to_ascii_lowercase()).copied();
@@ -84,7 +85,7 @@ fn place(text: &str, error: &Error) -> Position {
         Error::Bounds { .. } => field("lower"),
         Error::Indefinite { .. } => field("k"),
         Error::NotConvex { .. } => field("p"),
-        // These do not say of which matrix they are, but its size.
+        // These errors do not name the matrix, but have its size.
         Error::RowLength { row, len, expected } => {
             let length = |row: &RawValue| items(row).map(|it| it.len());
             let matrices = fields.values().filter_map(|it| items(it));

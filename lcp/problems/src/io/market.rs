@@ -22,15 +22,15 @@ use super::tokens::Tokens;
 use crate::sparse;
 use lcp::Matrix;
 
-/// How a file of this format begins.
+/// The beginning of every file of this format.
 pub(super) const BANNER: &str = "%%MatrixMarket";
 
 const LINE: &str =
     "the first line is, for instance, `%%MatrixMarket matrix coordinate real general`";
-/// A vector with zeros may be longer than its file by this factor; beyond it is a mistake.
+/// A vector with zeros may be longer than its file by this factor; a longer one is an error.
 const ZEROS: usize = 1000;
 
-/// What the first line says.
+/// The contents of the first line.
 #[derive(Debug, Clone, Copy)]
 struct Header {
     is_array: bool,
@@ -39,7 +39,7 @@ struct Header {
     mirrored: Option<f64>,
 }
 
-/// Reads a matrix of that size: dense from an `array`, sparse from coordinates.
+/// Reads a matrix of this size: dense from an `array`, sparse from coordinates.
 ///
 /// # Errors
 /// [`ReadError`], with the place in the content.
@@ -121,7 +121,7 @@ impl Header {
         Ok(Self { is_array, is_pattern, mirrored })
     }
 
-    /// The first row that is written of a column.
+    /// The first row that is written in a column.
     fn first_row(self, col: usize) -> usize {
         match self.mirrored {
             None => 0,
@@ -131,7 +131,7 @@ impl Header {
     }
 }
 
-/// All entries by columns, of a symmetric matrix its lower triangle.
+/// All entries by columns; only the lower triangle for a symmetric matrix.
 fn array(
     tokens: &mut Tokens<'_>,
     header: Header,
@@ -149,7 +149,7 @@ fn array(
     places.map(|(i, j)| Ok((i, j, tokens.number("an entry of the matrix")?))).collect()
 }
 
-/// The number of entries, then row and column of each, from 1, with its value, which a pattern has not.
+/// The number of entries, then row and column of each, from 1, with its value, which is absent in a pattern.
 fn coordinates(
     tokens: &mut Tokens<'_>,
     header: Header,

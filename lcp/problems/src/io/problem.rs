@@ -8,7 +8,7 @@ use lcp::{
     Residuals,
 };
 
-/// The same of a problem of every kind.
+/// Evaluates the same expression for a problem of any kind.
 macro_rules! each {
     ($of:expr, $problem:ident => $what:expr) => {
         match $of {
@@ -30,8 +30,9 @@ pub(crate) use each;
 
 /// A problem of any kind that files hold.
 ///
-/// All kinds have the vectors `z` and `w`: in the general form `z = t` and `w = y`; of [`Friction2d`] those of its
-/// standard form, of [`Contact2d`] the pairs of its general form, and of [`Qp`] those of its conditions.
+/// All kinds have the vectors `z` and `w`: `z = t` and `w = y` in the general form; for [`Friction2d`] the vectors
+/// of its standard form, for [`Contact2d`] the pairs of its general form, and for [`Qp`] the vectors of its
+/// conditions.
 #[derive(Debug, Clone, serde::Serialize)]
 #[serde(tag = "kind", rename_all = "lowercase")]
 #[non_exhaustive]
@@ -107,7 +108,7 @@ impl Problem {
         }
     }
 
-    /// The problem with bounds that the kind is, or is a case of.
+    /// The problem with bounds that the kind contains or is a case of.
     pub(crate) fn boxed(&self) -> Option<&BoxedLcp> {
         match self {
             Self::Mixed(problem) => Some(problem.boxed()),
@@ -133,7 +134,7 @@ impl Problem {
         self.boxed().map_or_else(|| (z.to_vec(), w.to_vec()), |boxed| boxed.to_pairs(z, w))
     }
 
-    /// `w = M z + q`, for the kinds that have it so: all but the general form and contact.
+    /// `w = M z + q`, for the kinds of this form: all except the general form and contact.
     ///
     /// # Panics
     /// If `z` does not have one entry for every variable.
@@ -164,7 +165,7 @@ impl Problem {
     }
 }
 
-/// The problem of data that end a file, or what is wrong with them.
+/// The problem of data that end a file, or the error in them.
 pub(super) fn posed<P>(
     problem: Result<P, lcp::Error>,
     kind: impl FnOnce(P) -> Problem,
@@ -184,10 +185,10 @@ pub(crate) fn pairs_of_forces(
     problem.to_pairs(&r, &affine(problem.w(), &r, problem.q()))
 }
 
-/// Rounding errors of a sum, by the largest of its terms.
+/// Rounding errors of a sum, relative to the largest of its terms.
 const ROUNDING: f64 = 16.0 * f64::EPSILON;
 
-/// `M z + q`, where what cancels up to rounding is zero.
+/// `M z + q`, with zero for terms that cancel up to rounding.
 fn affine(m: &Matrix, z: &[f64], q: &[f64]) -> Vec<f64> {
     assert_eq!(z.len(), q.len(), "one entry for every variable");
     let (mut sums, mut sizes) = (q.to_vec(), q.iter().map(|q| q.abs()).collect::<Vec<f64>>());

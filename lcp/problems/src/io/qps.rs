@@ -1,6 +1,6 @@
 //! QPS, the format of convex quadratic programs: MPS with a section for the quadratic terms.
 //!
-//! Words are separated by white space (free format). Where that does not fit they stand in columns (fixed format), so
+//! Words are separated by white space (free format). If that does not fit they stand in columns (fixed format), so
 //! that names may have spaces.
 
 mod line;
@@ -12,7 +12,7 @@ use super::{Position, Problem, ReadError};
 use line::Layout;
 use program::{Program, Section};
 
-/// In the format in which it can be read, or the error of the one that comes further.
+/// Reads a program in the format that fits, or fails with the error of the format that comes further.
 pub(super) fn read(text: &str) -> Result<Problem, ReadError> {
     parse(text, Layout::Free).or_else(|free| {
         parse(text, Layout::Fixed)

@@ -1,7 +1,7 @@
 //! The `.dat` files of Siconos: linear complementarity problems, mixed ones, relays, and contact with
 //! friction in the plane.
 //!
-//! White space separates the words. Words for people may follow the last number, except of contact problems.
+//! White space separates the words. Text for readers may follow the last number, except in contact problems.
 
 mod contact;
 mod matrix;

@@ -5,9 +5,9 @@ use std::fmt::Display;
 use super::{Position, ReadError};
 
 const END: &str = "the end of the file";
-/// From this size on a bound is none, by the convention of MPS.
+/// A bound of at least this size is infinite, by the convention of MPS.
 const NO_BOUND: f64 = 1e20;
-/// What sizes in a file are to be.
+/// The remedy for sizes that do not agree.
 pub(super) const SIZES: &str = "sizes must agree with each other";
 
 #[derive(Debug, Clone, Copy)]
@@ -27,8 +27,8 @@ impl Token<'_> {
         value.ok_or_else(|| self.unexpected(what, "every value is a finite decimal number"))
     }
 
-    /// The word as a bound: a number, or infinity where there is none, as it is written or by a size from 1e20 on, the
-    /// convention of files with programs.
+    /// The word as a bound: a number, or infinity if it is written so or has a size from 1e20 on, the convention of
+    /// files with programs.
     pub(super) fn bound(&self, what: impl Display) -> Result<f64, ReadError> {
         match self.text.to_ascii_lowercase().trim_start_matches('+') {
             "inf" | "infinity" => Ok(f64::INFINITY),
@@ -40,7 +40,7 @@ impl Token<'_> {
         }
     }
 
-    /// The word as a count or an index that is allowed.
+    /// The word as a count or an index that satisfies a condition.
     pub(super) fn count_if(
         &self,
         what: impl Display,
@@ -57,8 +57,7 @@ impl Token<'_> {
     }
 }
 
-/// The words of a text, separated by white space; `#`, or another sign, begins a comment up to the end of the
-/// line.
+/// The words of a text, separated by white space; `#`, or another sign, begins a comment up to the end of the line.
 ///
 /// The number of words is counted in advance, so that sizes in a header are compared with it before
 /// anything is allocated.
@@ -106,7 +105,7 @@ impl<'a> Tokens<'a> {
         }
     }
 
-    /// The next word, which the format calls for.
+    /// The next word, which the format requires.
     pub(super) fn expect(&mut self, what: impl Display) -> Result<Token<'a>, ReadError> {
         self.next().ok_or_else(|| ReadError::unexpected(self.next, what, END, "complete the file"))
     }
@@ -115,7 +114,7 @@ impl<'a> Tokens<'a> {
         self.count_if(what, "", |_| true)
     }
 
-    /// The next word as a count or an index that is allowed.
+    /// The next word as a count or an index that satisfies a condition.
     pub(super) fn count_if(
         &mut self,
         what: impl Display,
@@ -168,8 +167,8 @@ impl<'a> Tokens<'a> {
             .collect()
     }
 
-    /// Refuses numbers where the format has none left. Words may follow, which are for people, and before them
-    /// up to `known` numbers of an answer that is known.
+    /// Refuses numbers after those of the format. Text for readers may follow, preceded by up to `known` numbers of a
+    /// known answer.
     pub(super) fn end_of_numbers(&mut self, known: usize) -> Result<(), ReadError> {
         let number = |token: &Token<'_>| token.text.parse::<f64>().is_ok();
         for _ in 0..known {
@@ -188,13 +187,12 @@ impl<'a> Tokens<'a> {
         self.next().map_or(Ok(()), |token| Err(token.unexpected(END, remedy)))
     }
 
-    /// Where the next word is looked for.
+    /// The place from which the next word is searched.
     pub(super) fn position(&self) -> Position {
         self.next
     }
 
-    /// Refuses a header that announces more words than are left; `None` is a product that
-    /// overflows.
+    /// Refuses a header that announces more words than are left; `None` is a product that overflows.
     pub(super) fn room_for(
         &self,
         needed: Option<usize>,

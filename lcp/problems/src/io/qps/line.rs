@@ -3,7 +3,7 @@
 use crate::io::Position;
 use crate::io::tokens::{Token, Tokens};
 
-/// Where the words of a line stand.
+/// The layout of the words of a line.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Layout {
     /// Between white space.
@@ -12,7 +12,7 @@ pub(super) enum Layout {
     Fixed,
 }
 
-/// Where the fields of the fixed layout begin and end, in characters from 0.
+/// The first and last columns of the fields of the fixed layout, in characters from 0.
 const FIELDS: [[usize; 2]; 6] = [[1, 3], [4, 12], [14, 22], [24, 36], [39, 47], [49, 61]];
 
 impl Layout {

@@ -7,7 +7,7 @@ use crate::io::tokens::Token;
 use crate::sparse;
 use lcp::{Error, Qp};
 
-/// What a line of data says, by the header before it.
+/// The kind of a line of data, by the header before it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Section {
     Sense,
@@ -22,7 +22,7 @@ pub(super) enum Section {
     Quadratic,
 }
 
-/// What a name of the section ROWS is.
+/// The meaning of a name of the section ROWS.
 #[derive(Debug, Clone, Copy)]
 enum Row {
     Objective,
@@ -31,7 +31,7 @@ enum Row {
     Constraint(usize),
 }
 
-/// How a row is compared with its right-hand side.
+/// The comparison of a row with its right-hand side.
 #[derive(Debug, Clone, Copy)]
 enum Comparison {
     Equal,
@@ -52,11 +52,11 @@ struct Constraint {
 struct Bounds {
     lower: f64,
     upper: f64,
-    /// Whether a line says what the lower one is.
+    /// Whether a line gives the lower bound.
     has_lower: bool,
 }
 
-/// What the lines so far say.
+/// The data of the lines so far.
 #[derive(Debug, Default)]
 pub(super) struct Program<'a> {
     rows: BTreeMap<&'a str, Row>,
@@ -77,7 +77,7 @@ pub(super) struct Program<'a> {
 const INTEGERS: &str = "there are no integer variables in a convex program";
 
 impl<'a> Program<'a> {
-    /// A line of data, which has a word at least.
+    /// Reads a line of data, which has at least one word.
     pub(super) fn line(&mut self, section: Section, words: &[Token<'a>]) -> Result<(), ReadError> {
         match section {
             Section::Sense => match words[0].text {
@@ -164,7 +164,7 @@ impl<'a> Program<'a> {
         Ok(())
     }
 
-    /// `KIND [set] column [value]`, of which some kinds need no value.
+    /// `KIND [set] column [value]`; some kinds need no value.
     fn bound(&mut self, words: &[Token<'a>]) -> Result<(), ReadError> {
         let (kind, rest) = (words[0], &words[1..]);
         let needs_value = match kind.text {
@@ -193,7 +193,7 @@ impl<'a> Program<'a> {
         match kind.text {
             "UP" => {
                 *upper = value;
-                // The lower bound zero is meant only where it is written.
+                // The lower bound zero is kept only if it is written.
                 if value < 0.0 && !*has_lower {
                     *lower = f64::NEG_INFINITY;
                 }
@@ -227,7 +227,7 @@ impl<'a> Program<'a> {
         Ok(())
     }
 
-    /// Refuses a quadratic form that is not of the objective.
+    /// Refuses a quadratic form that does not belong to the objective.
     pub(super) fn check_objective(&self, row: Token<'a>) -> Result<(), ReadError> {
         if self.objective.is_none_or(|name| name == row.text) {
             return Ok(());
@@ -266,7 +266,7 @@ impl<'a> Program<'a> {
 }
 
 impl Constraint {
-    /// What the row is between.
+    /// The bounds of the row.
     fn limits(&self) -> (f64, f64) {
         let Self { comparison, right, range } = *self;
         let range_size = range.map_or(f64::INFINITY, f64::abs);
@@ -281,7 +281,7 @@ impl Constraint {
     }
 }
 
-/// Names, what they are, and the number after each of them, from the first of these words on.
+/// Names, their meanings, and the number after each of them, from word number `first` on.
 fn pairs<'a, T>(
     words: &[Token<'a>],
     first: usize,
@@ -293,6 +293,6 @@ fn pairs<'a, T>(
             _ => Err(words[0]
                 .unexpected("a name with its number", "every name is followed by its number")),
         };
-    // A line without any is one name too short.
+    // A line without pairs lacks one name.
     words[first.min(words.len() - 1)..].chunks(2).map(pair).collect()
 }

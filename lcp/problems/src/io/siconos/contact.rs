@@ -1,5 +1,5 @@
 //! Contact with friction in the plane, reduced to the contacts, or with the velocities of the bodies as unknowns:
-//! `M v = q + H r`, `u = H^T v + b`, where the contacts have the forces `r` and the velocities `u`.
+//! `M v = q + H r`, `u = H^T v + b`, with the forces `r` and the velocities `u` of the contacts.
 
 use super::matrix;
 use crate::io::problem::posed;
@@ -8,7 +8,7 @@ use crate::io::{Problem, ReadError};
 use crate::sparse;
 use lcp::{Contact2d, Friction2d, Matrix};
 
-/// `2`, `nc`, matrix `W`, `q`, `mu`; some files end with a flag, which says that they are complete.
+/// `2`, `nc`, matrix `W`, `q`, `mu`; some files end with a flag that marks them as complete.
 pub(in crate::io) fn read_friction(text: &str) -> Result<Problem, ReadError> {
     let mut tokens = Tokens::new(text);
     tokens.fixed("the dimension", 2)?;
@@ -63,7 +63,7 @@ fn frictions(tokens: &mut Tokens<'_>, contacts: usize) -> Result<Vec<f64>, ReadE
     (0..contacts).map(coefficient).collect()
 }
 
-/// Every second column of `H` as a row, from the first (normal) or the second one (tangential) on.
+/// Every second column of `H` as a row, starting with the first (normal) or the second one (tangential).
 fn rows_of(h: &Matrix, part: usize) -> Matrix {
     let contacts = h.ncols() / 2;
     let row = |i: usize| h.column(2 * i + part).map(move |(j, v)| (i, j, v));

@@ -7,7 +7,7 @@ use crate::io::tokens::{SIZES, Token, Tokens};
 use crate::sparse;
 use lcp::Matrix;
 
-/// A matrix of that size, in any storage.
+/// A matrix of this size, in any storage.
 pub(super) fn read(tokens: &mut Tokens<'_>, rows: usize, cols: usize) -> Result<Matrix, ReadError> {
     let storage = storage(tokens)?;
     sizes(tokens, rows, cols)?;
@@ -75,7 +75,8 @@ fn read_blocks(tokens: &mut Tokens<'_>, rows: usize, cols: usize) -> Result<Matr
     Ok(sparse(rows, cols, triplets))
 }
 
-/// So many numbers, the next of which is larger by `step` at least, up to the last one.
+/// Reads `count` numbers, each of which exceeds the one before by at least `step`, up to the last
+/// one.
 fn ascending(
     tokens: &mut Tokens<'_>,
     count: usize,
@@ -142,7 +143,7 @@ fn skip_banner<'a>(tokens: &mut Tokens<'a>) -> Result<(Token<'a>, bool), ReadErr
     let (mut token, mut is_triplets) = (first, false);
     while !token.text.contains("-by-") {
         is_triplets = token.text == "triplet:";
-        // Without a size the file went wrong where the banner should begin, and not at its end.
+        // A file without a size has its error at the place of the banner, not at its end.
         let missing = || first.unexpected(what, "it follows a line about the library");
         token = tokens.next().ok_or_else(missing)?;
     }

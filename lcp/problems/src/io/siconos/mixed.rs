@@ -9,8 +9,8 @@ use crate::io::tokens::Tokens;
 use crate::io::{Position, Problem, ReadError};
 use lcp::{Matrix, MixedLcp};
 
-/// Two flags, which of two representations follow; `n` equalities and `m` complementarities; then
-/// the representations.
+/// Two flags, one for each of two representations that may follow; `n` equalities and `m`
+/// complementarities; then the representations.
 pub(in crate::io) fn read_mlcp(text: &str) -> Result<Problem, ReadError> {
     let mut tokens = Tokens::new(text);
     let in_one = flag(&mut tokens, "storage type 1: 0 or 1")?;
@@ -45,7 +45,7 @@ fn flag(tokens: &mut Tokens<'_>, what: &'static str) -> Result<bool, ReadError> 
     Ok(tokens.one_of(&["0", "1"], what)? == 1)
 }
 
-/// `w = M z + q`, where `free[i]`: `z_i` free and `w_i = 0`.
+/// `w = M z + q`; `z_i` is free and `w_i = 0` if `free[i]`.
 struct Mixed {
     m: Matrix,
     q: Vec<f64>,
@@ -53,7 +53,7 @@ struct Mixed {
 }
 
 impl Mixed {
-    /// Where the blocks end, which of them are equalities, `M` and `q`.
+    /// The ends of the blocks, which of them are equalities, `M` and `q`.
     fn one_matrix(tokens: &mut Tokens<'_>, n: usize, m: usize) -> Result<Self, ReadError> {
         let order = n + m;
         tokens.fixed("the begin of the first block", 0)?;
@@ -111,7 +111,7 @@ impl Mixed {
         let mut place: Vec<usize> = (0..self.q.len()).collect();
         place.sort_by_key(|&row| !self.free[row]);
         let agree = |name: std::fmt::Arguments<'_>, first: f64, second: f64| {
-            // Up to the six digits with which some files are written.
+            // The numbers agree up to the six digits that some files have.
             if (first - second).abs() <= 1e-5 * first.abs().max(second.abs()) {
                 return Ok(());
             }
