@@ -23,9 +23,9 @@ use crate::{Error, Method, Observer, Solution, Solver};
 /// Chooses the methods for a problem by its class and size, and runs one after the other until one finds a solution.
 /// Every method checks the residuals in the given data.
 ///
-/// The choice needs no factorisation. It depends on the order, whether matrices are stored sparse, signs, and the number
-/// of contact points, not on units. [`plan`](Self::plan) gives the choice and the reasons, and
-/// [`Info::runs`](crate::Info::runs) the methods that were tried and how they ended.
+/// The choice needs no factorisation. It depends on the order, whether matrices are stored sparse, signs, and the
+/// number of contact points, not on units. [`plan`](Self::plan) returns the choice and the reasons, and
+/// [`Info::runs`](crate::Info::runs) lists the methods that were tried and their endings.
 ///
 /// | problem | chain |
 /// |---|---|
@@ -37,13 +37,14 @@ use crate::{Error, Method, Observer, Solution, Solver};
 /// | other [`Contact2d`](crate::Contact2d) | interior point, Lemke |
 ///
 /// † if the diagonal is positive; ‡ if sparse, or dense up to order 500. The lines without a class are for
-/// [`MixedLcp`](crate::MixedLcp), [`BoxedLcp`](crate::BoxedLcp) and [`Friction2d`](crate::Friction2d) too. Quadratic programs
-/// and sweeps are in no chain: they alone decide no case of the bench `corpus`.
+/// [`MixedLcp`](crate::MixedLcp), [`BoxedLcp`](crate::BoxedLcp) and [`Friction2d`](crate::Friction2d) too. Quadratic
+/// programs and sweeps are in no chain: no case of the bench `corpus` is decided by them alone.
 ///
-/// Problems of up to 100 pairs have enumeration as well: branching over the sides of pairs, with a solution or a proof for
-/// each choice. It comes last, with the work of one or two seconds, except if at most 18 pairs depend on each other in turn:
-/// of a triangular matrix each variable depends on those before it, and the sides follow one from another. Then it follows
-/// 40 attempts of Lemke's method, and more of these come at the end if there are more than 18 pairs in all.
+/// Problems of up to 100 pairs have enumeration as well: branching over the sides of pairs, with a solution or a proof
+/// for each choice. It comes last, with the work of one or two seconds, except if the largest block of mutually
+/// dependent pairs has at most 18 (each pair of a triangular matrix is a block by itself, since its sides follow one
+/// from another). In that case enumeration follows 40 attempts of Lemke's method, and more attempts come at the end if
+/// there are more than 18 pairs in all.
 ///
 /// # Independent parts
 /// Rows and variables that no entry connects are independent problems. Each has its own chain, so a body that touches
@@ -53,21 +54,21 @@ use crate::{Error, Method, Observer, Solution, Solver};
 /// time that is left.
 ///
 /// # When it ends
-/// An answer is [`Solved`](crate::Status::Solved); [`Infeasible`](crate::Status::Infeasible) or
-/// [`NoSolution`](crate::Status::NoSolution) and a checked proof; or at the time limit. A method that does not treat
-/// the problem, or needs more memory than there is, is skipped. Each method gets three quarters of the time that is left,
-/// the last one all of it.
+/// The chain ends with an answer, which is [`Solved`](crate::Status::Solved), or
+/// [`Infeasible`](crate::Status::Infeasible) or [`NoSolution`](crate::Status::NoSolution) with a checked proof; or at
+/// the time limit. A method that does not treat the problem, or needs more memory than there is, is skipped. Each
+/// method gets three quarters of the time that is left, the last one all of it.
 ///
 /// Otherwise the result is, in this order: a point with residuals below the square root of the tolerance; a ray
 /// ([`RayTermination`](crate::Status::RayTermination)); the point with the smallest residual.
 ///
 /// # Observer
-/// It is passed to each method in turn, which counts its iterations from 0. `Break` ends the chain like the time
-/// limit: with [`Cancelled`](crate::Status::Cancelled), unless a previous method found a ray.
+/// The observer is passed to each method in turn, which counts its iterations from 0. `Break` ends the chain like the
+/// time limit: with [`Cancelled`](crate::Status::Cancelled), unless a previous method found a ray.
 ///
 /// # Cost
-/// The cost is that of the methods that were tried. If all fail, that is some seconds for problems of up to 100 pairs. For
-/// larger ones a method that fails may take long: set [`AutoSettings::time_limit`] if that matters.
+/// The cost is that of the methods that were tried: some seconds if all fail on a problem of up to 100 pairs. A method
+/// that fails on a larger problem may take long: set [`AutoSettings::time_limit`] if that matters.
 ///
 /// ```
 /// use lcp::{Auto, Method, Solver};

@@ -71,7 +71,7 @@ impl Basis {
         Self(pairs.map(side).collect())
     }
 
-    /// Takes other sides, of as many pairs.
+    /// Replaces the sides by others of the same number.
     pub(crate) fn set(&mut self, sides: impl Iterator<Item = Side>) {
         self.0.iter_mut().zip(sides).for_each(|(side, other)| *side = other);
     }
@@ -86,7 +86,7 @@ impl Basis {
         self.0.len()
     }
 
-    /// Whether there is no pair at all.
+    /// Whether the basis has no pairs.
     pub fn is_empty(&self) -> bool {
         self.0.is_empty()
     }

@@ -1,16 +1,17 @@
-//! How good the point of a solution is, and whether a proof is valid.
+//! Residuals of the point of a solution, and the validity of proofs.
 //!
-//! Two answers have a measure of their own, since they are no points of one of the problems: sweeps over rows without a
-//! matrix, and least forces. [`verdict`] alone says `Solved`, of these too.
+//! Two answers have a measure of their own, since they are not points of one of the problems: sweeps over rows without
+//! a matrix, and least forces. The status `Solved` is given by [`verdict`] alone, to these answers too.
 //!
-//! A point is measured by the rows and pairs of the problem as stated, so that a conversion does not affect the result, each
-//! row relative to its own terms: that is the smallest relative change of its data for which it holds (Oettli and Prager
-//! 1964), whatever the scaling of rows and variables. Changes that would make the point feasible and complementary count by
-//! the largest part of the terms of a row that they are. For a distant point, with large terms, a row may hold relative
-//! to its terms and not at all relative to the loads: so what is left is compared with these, too, part by connected part.
+//! A point is measured by the rows and pairs of the problem as stated, so that a conversion does not affect the result.
+//! Each row is measured relative to its own terms: the result is the smallest relative change of its data for which the
+//! row holds (Oettli and Prager 1964), whatever the scaling of rows and variables. Changes that would make the point
+//! feasible and complementary count by the largest share that they have in the terms of a row. A row of a distant
+//! point, with large terms, may hold relative to its terms and not at all relative to the loads: so the residual is
+//! compared with the loads, too, part by connected part.
 //!
 //! A row without effect on the rows that carry loads does not count, see [`significance`]. Residuals are computed in
-//! `f64`, and in double-double arithmetic where rounding errors of the terms are not small compared with the loads.
+//! `f64`, and in double-double arithmetic if rounding errors of the terms are not small compared with the loads.
 
 mod certificate;
 mod constants;
@@ -62,15 +63,15 @@ impl Residuals {
         self.equation.max(self.natural).max(self.loads)
     }
 
-    /// A measure of progress: the geometric mean of the deciding residual and of that of the loads. If a contact
-    /// comes to rest, the first decreases only at the end, long after the second.
+    /// A measure of progress: the geometric mean of [`worst`](Self::worst) and [`loads`](Self::loads). If a contact
+    /// comes to rest, the former decreases only at the end, long after the latter.
     pub fn merit(&self) -> f64 {
         let worst = self.worst();
         (worst * self.loads.max(f64::EPSILON * worst)).sqrt()
     }
 
-    /// Whether a method that goes on to the tolerance keeps this point: one within it before all others, else the one
-    /// that is further on the way.
+    /// Whether a method that iterates to the tolerance prefers this point: a point within the tolerance comes before
+    /// all others, else the one with the smaller merit.
     pub(crate) fn is_better_than(&self, other: &Self, tolerance: f64) -> bool {
         match (self.worst() <= tolerance, other.worst() <= tolerance) {
             (false, false) => self.merit() < other.merit(),
@@ -91,8 +92,9 @@ impl Residuals {
     }
 }
 
-/// The status of a point with this residual: `Solved` within the tolerance, else what the method says of other points.
-/// `AlmostSolved` becomes `NumericalTrouble` above the root of the tolerance, and `Solved` becomes `Stalled`.
+/// The status of a point with this residual: `Solved` within the tolerance, else the status that the method gives to
+/// other points; of these, `AlmostSolved` becomes `NumericalTrouble` above the root of the tolerance, and `Solved`
+/// becomes `Stalled`.
 pub(crate) fn verdict(residual: f64, tolerance: f64, otherwise: Status) -> Status {
     if residual <= tolerance {
         Status::Solved

@@ -1,4 +1,4 @@
-//! Problems that methods treat in another form, and the way back: a conversion never decides.
+//! Problems that methods treat in another form, and the way back: a conversion never decides the status.
 
 use std::borrow::Cow;
 
@@ -9,7 +9,7 @@ use crate::{
     MixedLcp, Solution, StandardForm, Status, WarmStart,
 };
 
-/// A problem with a general form. Only the problems of the library are.
+/// A problem with a general form, implemented by the problems of the library only.
 pub trait General {
     /// The general form, whose pairs a [`Solution`] of the problem has.
     fn general(&self) -> Cow<'_, HorizontalLcp>;
@@ -17,12 +17,12 @@ pub trait General {
     /// Residuals of a point of the general form in the variables of the problem itself.
     fn residuals_of_pairs(&self, t: &[f64], y: &[f64]) -> Residuals;
 
-    /// The state that a point of the general form is, of contact.
+    /// The state of contact at a point of the general form.
     fn state_of_pairs(&self, _: &[f64], _: &[f64]) -> Option<ContactState> {
         None
     }
 
-    /// The problem itself if it is one with bounds, whose general form has distances from these.
+    /// The problem itself if it is a problem with bounds, whose general form has distances from the bounds.
     fn with_bounds(&self) -> Option<&BoxedLcp> {
         None
     }
@@ -106,9 +106,10 @@ impl General for Contact2d {
     }
 }
 
-/// Solves a problem by its general form; the second argument says that it is another one, of its parts.
+/// Solves a problem by its general form with `solve`, whose second argument is `false`. A second call, with `true`,
+/// may follow for the equations of a problem with bounds.
 ///
-/// # Errors
+/// The errors of the method.
 /// Those of the method.
 pub(crate) fn solve_in_general_form<P: Converted>(
     problem: &P,
@@ -123,7 +124,7 @@ pub(crate) fn solve_in_general_form<P: Converted>(
 /// Solves a problem with bounds in its mixed form, with the start converted. The last argument solves equations.
 ///
 /// # Errors
-/// Those of the method, and [`Error::Overflow`].
+/// The errors of the method, and [`Error::Overflow`].
 pub(crate) fn solve_in_mixed_form(
     problem: &BoxedLcp,
     start: &WarmStart,
@@ -142,8 +143,8 @@ pub(crate) fn solve_in_mixed_form(
     with_all_digits(problem, solution, tolerance, |equations| solve(equations, WarmStart::None))
 }
 
-/// A solution with the digits of what is between its bounds: a distance from a bound has lost those of a value that is
-/// small against the bound.
+/// A solution with all digits of values between their bounds: a distance from a bound has lost the digits of a value
+/// that is small against the bound.
 fn with_all_digits(
     problem: &BoxedLcp,
     mut solution: Solution,
@@ -187,7 +188,7 @@ pub(crate) fn standard_form(
 /// Solves a problem in its standard form, with the start converted.
 ///
 /// # Errors
-/// Those of the method, and [`Error::NotTreated`] by it for a problem without one.
+/// The errors of the method, and [`Error::NotTreated`] for a problem without a standard form.
 pub(crate) fn solve_in_standard_form(
     method: Method,
     problem: &HorizontalLcp,

@@ -1,4 +1,4 @@
-//! Whether a symmetric matrix is positive semidefinite.
+//! Tests whether a symmetric matrix is positive semidefinite.
 
 use faer::Side;
 use faer::sparse::SparseColMat;
@@ -8,15 +8,17 @@ use crate::Matrix;
 use crate::matrix::{column_of, diagonal};
 use crate::vector::{HALF_DIGITS, max_abs};
 
-/// Eigenvalues down to minus this, of the matrix with a diagonal of ones, are taken for zero. Chosen.
+/// Eigenvalues, of the matrix with a diagonal of ones, that are at least minus this number count as nonnegative.
+/// Chosen.
 const ROUNDING: f64 = 1e-10;
-/// Above this order the matrix is not looked at as a dense one to say how far it is from semidefinite. Chosen: up to
-/// it that takes no time.
+/// Largest order for which the least eigenvalue is computed from a dense matrix for the message. Chosen: the time is
+/// negligible up to this order.
 const DENSE: usize = 300;
 
-/// Why a symmetric matrix is not positive semidefinite; `None` if it is. A Cholesky factorisation tells, of the matrix scaled to a diagonal
-/// of ones, so that units do not matter, plus a small multiple of the identity: that of a semidefinite matrix goes through,
-/// whatever its kernel; that of a matrix with an eigenvalue below `-1e-10` does not.
+/// The reason for which a symmetric matrix is not positive semidefinite; `None` if it is. The test is a Cholesky
+/// factorisation of the matrix scaled to a diagonal of ones, so that units do not matter, plus a small multiple of the
+/// identity. The factorisation succeeds for a semidefinite matrix, whatever its kernel, and fails for an eigenvalue
+/// below `-1e-10`.
 pub(crate) fn indefiniteness(what: &str, matrix: &SparseColMat<usize, f64>) -> Option<String> {
     let n = matrix.ncols();
     let diagonal = diagonal(matrix);
@@ -28,7 +30,7 @@ pub(crate) fn indefiniteness(what: &str, matrix: &SparseColMat<usize, f64>) -> O
     }
     let scaled = unit_diagonal(matrix, &diagonal, ROUNDING);
     match scaled.sp_cholesky(Side::Lower) {
-        // Without the memory nothing is known.
+        // The result is unknown if memory does not suffice.
         Ok(_) | Err(LltError::Generic(_)) => None,
         Err(LltError::Numeric(_)) if n <= DENSE => {
             let least = least_eigenvalue(&scaled) - ROUNDING;
@@ -52,7 +54,8 @@ pub(crate) fn is_definite(matrix: &SparseColMat<usize, f64>) -> bool {
         && unit_diagonal(matrix, &diagonal, -HALF_DIGITS).sp_cholesky(Side::Lower).is_ok()
 }
 
-/// The matrix with rows and columns divided by the roots of its diagonal, plus `shift` on the diagonal. Entries at the rounding level of the whole diagonal give no unit of their row.
+/// The matrix with rows and columns divided by the roots of its diagonal, plus `shift` on the diagonal. Diagonal
+/// entries at the rounding level of the largest one do not serve as units.
 fn unit_diagonal(
     matrix: &SparseColMat<usize, f64>,
     diagonal: &[f64],

@@ -1,8 +1,8 @@
-//! The independent parts of a problem: those of its rows and variables that no entry connects.
+//! The independent parts of a problem: sets of rows and variables that no entry connects.
 //!
-//! Each can be solved by itself, with units and limits of its own, and one without a solution proves that the
-//! whole has none. Answers and starts have the pairs of the general form, so that a part needs to know no
-//! more than its pairs and rows among those of the whole.
+//! Each part can be solved by itself, with units and limits of its own, and a part without a solution proves that the
+//! whole has none. Answers and starts have the pairs of the general form, so that a part needs only its pairs and rows
+//! among those of the whole.
 
 use faer::Mat;
 use faer::sparse::SparseColMat;
@@ -21,26 +21,26 @@ use crate::{
 #[derive(Debug, Clone)]
 pub struct Part<P> {
     pub(crate) problem: P,
-    /// Where the pairs of its general form are in that of the whole.
+    /// The places of the pairs of its general form in that of the whole.
     pub(crate) pairs: Vec<usize>,
-    /// Where its rows are.
+    /// The places of its rows.
     pub(crate) rows: Vec<usize>,
 }
 
-/// A problem that may have independent parts. Only the problems of the library are.
+/// A problem that may have independent parts, implemented by the problems of the library only.
 pub trait Divide: General + Sized {
-    /// The parts; `None` where there is but one. The entries of a connected problem are looked at only until
-    /// they connect all of it.
+    /// The parts; `None` if there is only one. The entries of a connected problem are visited only until they connect
+    /// all of it.
     fn parts(&self) -> Option<Vec<Part<Self>>>;
 
-    /// The point of the whole with these pairs, which are those of its parts.
+    /// The point of the whole with these pairs, joined from those of its parts.
     fn join(&self, t: &[f64], y: &[f64], _answers: &[(Part<Self>, Solution)]) -> Joined {
         let residuals = self.residuals_of_pairs(t, y);
         Joined { residuals, contact: None, boxed: None }
     }
 }
 
-/// A point of the whole: its variables with all their digits, as a [`Solution`] has them.
+/// A point of the whole: its variables with all their digits, as in a [`Solution`].
 pub struct Joined {
     pub(crate) residuals: Residuals,
     pub(crate) contact: Option<ContactState>,
@@ -48,7 +48,7 @@ pub struct Joined {
 }
 
 impl<P> Part<P> {
-    /// A part whose rows are numbered as its pairs.
+    /// A part with the same numbers of rows and pairs.
     fn new(problem: P, pairs: Vec<usize>) -> Self {
         Self { problem, rows: pairs.clone(), pairs }
     }
@@ -58,8 +58,8 @@ impl<P> Part<P> {
         start.of_pairs(self.pairs.iter().map(|&pair| (pair, false)))
     }
 
-    /// The certificate of a whole of so many pairs from that of this part: a proof with zeros in all other rows is one
-    /// of the whole, and other parts stay at rest in a ray.
+    /// The certificate of a whole of `pairs` pairs from the certificate of this part: a proof is extended by zeros in
+    /// all other rows, and other parts stay at rest in a ray.
     pub(crate) fn certificate(&self, certificate: &Certificate, pairs: usize) -> Certificate {
         let rows = |part: &[f64]| spread(&self.rows, part, pairs, 0.0);
         match certificate {
@@ -80,8 +80,8 @@ impl<P> Part<P> {
 }
 
 impl Divide for HorizontalLcp {
-    /// Rows and pairs that do not come out even, as a row of zeros and a pair of zeros, make one part
-    /// together.
+    /// The parts. Parts with unequal numbers of rows and pairs, such as a row of zeros and a pair of zeros, are joined
+    /// to one part.
     fn parts(&self) -> Option<Vec<Part<Self>>> {
         let n = self.order();
         let mut parts = Parts::new(2 * n);
@@ -218,7 +218,7 @@ impl Divide for Contact2d {
 }
 
 impl Part<Contact2d> {
-    /// Writes a state of the part to where its displacements and points are in the `whole`.
+    /// Writes a state of the part to the places of its displacements and points in the `whole`.
     fn put_state(&self, part: &ContactState, whole: &mut ContactState) {
         let n = whole.u.len();
         let count = self.problem.displacements() + self.problem.points();
@@ -249,7 +249,7 @@ fn groups_of_parts(mut parts: Parts) -> Option<Vec<Vec<usize>>> {
     (!parts.is_one()).then(|| parts.groups())
 }
 
-/// Joins the rows in which a column is not zero, as `element` numbers them, with one more element.
+/// Joins the rows in which a column is not zero, numbered by `element`, with one more element.
 fn connect(parts: &mut Parts, column: Column<'_>, element: impl Fn(usize) -> usize, with: usize) {
     if !parts.is_one() {
         column.for_each(|i, v| {
@@ -266,7 +266,7 @@ fn split(group: &[usize], n: usize) -> (Vec<usize>, Vec<usize>) {
     (first, others.into_iter().map(|it| it - n).collect())
 }
 
-/// Rows and columns of a matrix, ascending, where those columns have no entries in other rows.
+/// Rows and columns of a matrix, ascending, if these columns have no entries in other rows.
 pub(crate) fn block(m: &Matrix, rows: &[usize], cols: &[usize]) -> Matrix {
     match m.storage() {
         Storage::Dense(m) => {
@@ -294,7 +294,7 @@ fn spread<T: Copy>(places: &[usize], part: &[T], count: usize, elsewhere: T) -> 
     whole
 }
 
-/// Writes values of a part, as those of `t`, of `y` or the sides of a basis, to their places in the whole.
+/// Writes values of a part, such as those of `t`, of `y` or the sides of a basis, to their places in the whole.
 pub(crate) fn put<T: Copy>(places: &[usize], part: &[T], whole: &mut [T]) {
     places.iter().zip(part).for_each(|(&at, &value)| whole[at] = value);
 }

@@ -1,18 +1,19 @@
 //! A complete method for small problems: branch over the pairs, with a proof for every leaf.
 //!
-//! A node sets one variable to zero in some pairs and leaves the others without complementarity: what
-//! remains are linear conditions, whose nonnegative least squares problem either meets them or proves
-//! that they cannot be met. If they are met, and one variable of every pair is zero, the problem is
-//! solved. If some pair has both positive, one of its variables has to be zero: two nodes more.
-//! So there is a solution, or the leaves prove together that there is none.
+//! A node sets one variable to zero in some pairs and drops complementarity in the others: the remaining linear
+//! conditions are a nonnegative least squares problem, whose solution either meets the conditions or proves that they
+//! cannot be met. If the conditions are met and one variable of every pair is zero, the problem is solved. If some pair
+//! has both positive, one of its variables has to be zero: two nodes more. So the search finds a solution, or the
+//! leaves together prove that none exists.
 //!
-//! A proof may hold with fewer choices than its node has made: it needs those whose excluded columns it does not
-//! separate. If it does not need the last one, it proves the parent, and the other node is not visited
-//! (backjumping). It is kept, and proves every node that has made the choices it needs. A node that lacks a single one of
-//! them has one side left in that pair (unit propagation, as in the search of Davis, Logemann and Loveland 1962).
+//! A proof may hold with fewer choices than its node has made: it needs only the choices whose excluded columns it does
+//! not separate. If a proof does not need the last choice, it proves the parent, and the other node is not visited
+//! (backjumping). Proofs are kept, and each proves every node that has made the choices it needs. A node that lacks a
+//! single one of these choices has one side left in that pair (unit propagation, as in the search of Davis, Logemann
+//! and Loveland 1962).
 //!
-//! There are at most `2^(k+1)` nodes for `k` pairs that are not free, mostly far fewer. The arithmetic
-//! has twice the digits; what it cannot decide stays open.
+//! There are at most `2^(k+1)` nodes for `k` pairs that are not free, mostly far fewer. The arithmetic has twice the
+//! digits; questions beyond these digits stay open.
 
 use web_time::Instant;
 
@@ -24,26 +25,27 @@ use crate::solve::is_over;
 use crate::vector::max_abs;
 use crate::{Basis, HorizontalLcp, Side};
 
-/// Pairs at most, free variables included, whose tree is gone through. Measured: a node of 100 takes 10 ms.
+/// Largest number of pairs, including free variables, of a problem that is enumerated. Measured: a node of 100 takes 10
+/// ms.
 pub(crate) const MOST_PAIRS: usize = 100;
 
-/// What was found.
+/// The result of an enumeration.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Enumerated {
     /// A solution, up to rounding.
     Found { t: Vec<f64>, y: Vec<f64>, basis: Basis },
     /// The linear conditions cannot be met, by this Farkas vector.
     Infeasible(Vec<f64>),
-    /// They can, but not with complementarity: the leaves cover all choices.
+    /// The linear conditions can be met, but not with complementarity: the leaves cover all choices.
     NoSolution(Vec<Leaf>),
     /// A limit was reached.
     Limit,
-    /// Rounding leaves it undecided.
+    /// Undecided because of rounding errors.
     Open,
 }
 
-/// A solution, or a proof that there is none, unless so many exchanges of columns in the least squares of all nodes or the
-/// time end it before; and how many exchanges it took.
+/// A solution, or a proof that there is none, unless the limit on exchanges of columns in the least squares of all
+/// nodes or the time limit is reached first; and the number of exchanges.
 pub(crate) fn enumerate(
     problem: &HorizontalLcp,
     most: usize,
@@ -74,7 +76,7 @@ pub(crate) fn farkas_vector(problem: &HorizontalLcp) -> Option<Vec<f64>> {
 /// The sides chosen.
 type Sides = [Option<Side>];
 
-/// The leaves that share all choices with a node, as far as they need them; `None` if something stays undecided.
+/// The leaves that share all choices with a node, as far as they need them; `None` if a leaf stays undecided.
 type Closed = Option<Vec<Leaf>>;
 
 /// A Farkas vector with the columns that it does not separate, first those of `t`.
@@ -96,15 +98,15 @@ impl Proof {
 /// A depth-first search with the proofs found so far.
 struct Branching<'a> {
     tree: Tree<'a>,
-    /// Exchanges at most.
+    /// Largest number of exchanges.
     most: usize,
     deadline: Option<Instant>,
     proofs: Vec<Proof>,
 }
 
 impl Branching<'_> {
-    /// Closes a node, from nonnegative values that are zero for what its sides exclude. A solution or a limit
-    /// ends all.
+    /// Closes a node, from nonnegative values that are zero for variables excluded by its sides. A solution or a limit
+    /// ends the search.
     fn visit(&mut self, sides: &Sides, start: &[Extended]) -> Result<Closed, Enumerated> {
         match self.known(sides) {
             None => {}
@@ -138,7 +140,7 @@ impl Branching<'_> {
         Ok(first.zip(second).map(|(first, second)| joined(sides, pair, first, second)))
     }
 
-    /// Closes the node with one more side.
+    /// Closes the child of the node with one more side.
     fn child(
         &mut self,
         sides: &Sides,
@@ -180,9 +182,9 @@ impl Branching<'_> {
 
 /// The consequence of the proof of another node.
 enum Known {
-    /// It proves it.
+    /// The other proof proves the node.
     Leaf(Leaf),
-    /// It proves it with the other side of this pair.
+    /// The other proof proves the node with the other side of this pair.
     Left { pair: usize, side: Side, other: Leaf },
 }
 
@@ -191,8 +193,8 @@ fn need(leaves: &[Leaf], pair: usize) -> bool {
     leaves.iter().any(|leaf| leaf.sides[pair].is_some())
 }
 
-/// The leaves of a node from those of its two sides of a pair: the second ones alone if they do not need their
-/// side, else all of them, each with all sides of the node that any of them needs.
+/// The leaves of a node from those of its two sides of a pair: the second ones alone if they do not need their side,
+/// else all of them, each with all sides of the node that any of them needs.
 fn joined(sides: &Sides, pair: usize, first: Vec<Leaf>, second: Vec<Leaf>) -> Vec<Leaf> {
     if !need(&second, pair) {
         return second;
@@ -234,7 +236,7 @@ impl<'a> Tree<'a> {
         let mut columns: Vec<Vec<f64>> = scaled.collect();
         let ratios: Vec<Option<f64>> = (0..n).map(|pair| problem.opposite(pair)).collect();
         for (pair, ratio) in ratios.iter().enumerate() {
-            // Opposite up to rounding, so that in twice the digits they would be independent.
+            // The columns are opposite up to rounding, and would be independent in twice the digits.
             if let Some(ratio) = ratio {
                 columns[n + pair] = columns[pair].iter().map(|v| -v).collect();
                 factors[n + pair] = factors[pair] / ratio;
@@ -258,7 +260,7 @@ impl<'a> Tree<'a> {
         }
     }
 
-    /// The least squares of the linear conditions of a node; `None` if rounding is in the way.
+    /// The least squares of the linear conditions of a node; `None` if rounding errors prevent a decision.
     fn minimum(&self, sides: &Sides, start: &[Extended]) -> Option<Minimum> {
         let both = [Side::T, Side::Y].into_iter();
         let is_allowed: Vec<bool> = both
@@ -269,8 +271,8 @@ impl<'a> Tree<'a> {
         Some(minimum)
     }
 
-    /// The pair without a side whose smaller variable is the largest. Where no pair has both positive, rounding is in
-    /// the way, of which a narrower node may be free.
+    /// The pair without a side whose smaller variable is the largest. If no pair has both positive, rounding errors
+    /// have prevented a decision, which a node with more sides may allow.
     fn most_violated(&self, sides: &Sides, x: &[Extended]) -> Option<usize> {
         let n = sides.len();
         let least = |pair: usize| x[pair].rounded().min(x[n + pair].rounded());
@@ -314,7 +316,7 @@ impl<'a> Tree<'a> {
             side.of(&mut t, &mut y)[pair] = value;
             basis.push(side);
         }
-        // Far enough out all rows hold compared with their terms.
+        // All rows of a point far enough out hold compared with their terms.
         let residuals = self.judge.residuals_of(&[&extended(&t), &extended(&y)]);
         let holds = residuals.equation <= ROUNDING && residuals.loads <= MILLIONTH;
         holds.then(|| Enumerated::Found { t, y, basis: Basis::new(basis) })

@@ -5,14 +5,14 @@ use std::str::FromStr;
 
 use crate::Method;
 
-/// Why a problem or a setting was refused.
+/// The reason for which a problem or a setting was refused.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
-    /// Matrices and vectors do not fit together.
+    /// Matrices and vectors with sizes that do not agree.
     #[error("{what} is {rows} x {cols}, but must be {expected_rows} x {expected_cols}")]
     Shape {
-        /// Which datum.
+        /// The datum.
         what: &'static str,
         /// Rows that it has.
         rows: usize,
@@ -26,7 +26,7 @@ pub enum Error {
     /// A NaN or an infinity in the data.
     #[error("{what}[{row}, {col}] is {value}: every entry must be finite")]
     NotFinite {
-        /// Which datum.
+        /// The datum.
         what: &'static str,
         /// Row of the entry, from 0.
         row: usize,
@@ -76,7 +76,7 @@ pub enum Error {
     PointEntry {
         /// The point, from 0.
         point: usize,
-        /// Which row.
+        /// The name of the row.
         row: &'static str,
         /// The displacement that the entry names, from 0.
         index: usize,
@@ -90,7 +90,7 @@ pub enum Error {
     PointValue {
         /// The point, from 0.
         point: usize,
-        /// Which number.
+        /// The name of the number.
         name: &'static str,
         /// Its value.
         value: f64,
@@ -102,7 +102,7 @@ pub enum Error {
         "{what} must be symmetric, but {what}[{row}, {col}] is {value} and {what}[{col}, {row}] is {mirrored}"
     )]
     NotSymmetric {
-        /// Which matrix.
+        /// The name of the matrix.
         what: &'static str,
         /// Row of the entry, from 0.
         row: usize,
@@ -125,7 +125,7 @@ pub enum Error {
          one, their distance must be finite, and -inf or inf is for no bound"
     )]
     Bounds {
-        /// Whether it is a row or a variable.
+        /// The kind: a row or a variable.
         what: &'static str,
         /// Its number, from 0.
         index: usize,
@@ -147,7 +147,7 @@ pub enum Error {
         name: &'static str,
         /// Its value.
         value: f64,
-        /// What is allowed.
+        /// The values that are allowed.
         range: &'static str,
     },
     /// A vector of a setting has the wrong length.
@@ -160,7 +160,7 @@ pub enum Error {
         /// Entries that it must have.
         expected: usize,
     },
-    /// Something is larger than a limit in the settings.
+    /// A number above a limit in the settings.
     #[error(
         "the {what} is {value}, but `{name}` allows {limit}: raise it or take a smaller problem"
     )]
@@ -179,7 +179,7 @@ pub enum Error {
     NotTreated {
         /// The method.
         method: Method,
-        /// The reason, and which method to use instead.
+        /// The reason, and the method to use instead.
         reason: String,
     },
     /// A name that no method has.
@@ -198,7 +198,7 @@ pub enum Error {
     },
 }
 
-/// From the short name.
+/// Parses a method from its short name.
 impl FromStr for Method {
     type Err = Error;
 

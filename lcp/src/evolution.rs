@@ -1,4 +1,4 @@
-//! Bodies in contact that move: implicit steps in time, until they rest or flow.
+//! Motion of bodies in contact: implicit steps in time, until the bodies rest or flow.
 
 mod account;
 mod motion;
@@ -20,7 +20,7 @@ use crate::vector::{check_length, check_vector};
 use crate::{Contact2d, ContactState, Error, Iteration, Matrix, Method, Observer, Status};
 use target::{Course, Data, Rest, Taken, Target, close};
 
-/// Bodies with mass in contact, on their way through loads, gaps and supports that change.
+/// Bodies with mass in contact, which move under loads, gaps and supports that change.
 ///
 /// # Equations
 /// A step of the length `h` leads from displacements `u_k` and velocities `v_k` to
@@ -29,28 +29,30 @@ use target::{Course, Data, Rest, Taken, Target, close};
 /// (K + M/h^2 + c M/h) u = f + (M/h^2) (u_k + h v_k) + (c M/h) u_k + C_n^T t_n + C_t^T t_t,    v = (u - u_k) / h,
 /// ```
 ///
-/// with the loads, gaps and supports of its end, and with Coulomb's law exactly on the increment: slips are measured from
-/// where the step before has ended. Gaps and slips go on from where they are: only the changes of the initial ones of a
-/// problem count, and its matrices `K`, `C_n` and `C_t` must be those of the step before. Without
-/// [`inertia`](EvolutionSettings::inertia) the terms with `M/h^2` are left out, and bodies only feel the drag `c M v`.
+/// with the loads, gaps and supports at its end, and with Coulomb's law exactly on the increment: slips are measured
+/// from the end of the step before. Gaps and slips continue from their present values: only the changes of the initial
+/// ones of a problem count, and its matrices `K`, `C_n` and `C_t` must be those of the step before. Without
+/// [`inertia`](EvolutionSettings::inertia) the terms with `M/h^2` are omitted, and the drag `c M v` is the only effect
+/// of the mass.
 ///
-/// A step is solved by the states of the contacts in the step before, if they still hold, else along the path of interior
-/// points, else by shorter steps. The page `docs/methods/evolution.md` has the whole.
+/// A step is solved by the states of the contacts in the step before, if they still hold, else along the path of
+/// interior points, else by shorter steps. The page `docs/methods/evolution.md` has the details.
 ///
 /// # Rest and flow
-/// [`settle`](Self::settle) leaves loads and gaps as they are, and doubles the steps of bodies without inertia until
+/// [`settle`](Self::settle) keeps loads and gaps constant, and doubles the steps of bodies without inertia until
 ///
 /// * bodies rest: displacements solve the problem without mass, with slips measured from the step before, and
 ///   judged like every other solution; or
 /// * bodies flow: the loads do work, the velocity changes by less than a hundredth in a step of twice the length, no gap
-///   closes before bodies are out of [reach](EvolutionSettings::reach), and up to there what they strain would take less
+///   closes before bodies are out of [reach](EvolutionSettings::reach), and the strains up to there would take less
 ///   than a hundredth of the work.
 ///
 /// # Guarantee
-/// For a fixed step every solution that is called solved obeys Coulomb's law on the increment: friction takes all that it
-/// can of every slip, and no energy is created ([`Account`]). As steps become shorter, solutions of such schemes converge
-/// to one of the differential inclusion of bodies with mass (Anitescu 2006, for the scheme with associated flow). It
-/// need not be unique: with friction, the way matters, and so may the drag.
+/// Every solution of a fixed step that is called solved obeys Coulomb's law on the increment: friction dissipates as
+/// much as it can in every slip, and no energy is created ([`Account`]). As steps become shorter, solutions of such
+/// schemes converge to one of the differential inclusion of bodies with mass (Anitescu 2006, for the scheme with
+/// associated flow). That solution need not be unique: it depends on the path of the loads if there is friction, and
+/// may depend on the drag.
 ///
 /// # References
 /// * Jean, Computer Methods in Applied Mechanics and Engineering 177 (1999), [doi:10.1016/S0045-7825(98)00383-1](https://doi.org/10.1016/S0045-7825(98)00383-1)
@@ -81,14 +83,14 @@ use target::{Course, Data, Rest, Taken, Target, close};
 pub struct Evolution {
     settings: EvolutionSettings,
     mass: SparseColMat<usize, f64>,
-    /// The loads, gaps and supports under which the bodies are.
+    /// The present loads, gaps and supports.
     data: Data,
-    /// Where they are; slips are those of the last step.
+    /// The present state; slips are those of the last step.
     state: ContactState,
     velocity: Vec<f64>,
     /// The slip of every point before the last step, and after it.
     slips: [Vec<f64>; 2],
-    /// What the contacts do; empty until a step has told.
+    /// The states of the contacts; empty before the first step.
     contacts: Vec<ContactStatus>,
     account: Account,
     steps: usize,
@@ -168,12 +170,12 @@ impl Evolution {
         &self.velocity
     }
 
-    /// The slip that every point has come to, without the deformation of its spring; at first it is that of the problem.
+    /// The slip of every point so far, without the deformation of its spring; at first it is that of the problem.
     pub fn slips(&self) -> &[f64] {
         &self.slips[1]
     }
 
-    /// The slips before the last step: the state solves the problem [with slips from there](Contact2d::slid).
+    /// The slips before the last step: the state solves the problem [with slips measured from them](Contact2d::slid).
     pub fn slips_before(&self) -> &[f64] {
         &self.slips[0]
     }
@@ -193,11 +195,12 @@ impl Evolution {
         self.factorisations
     }
 
-    /// One step of a length `h` to the loads, gaps and supports of `problem`: [`Status::Solved`], or why it was not taken.
+    /// Takes one step of the length `h` to the loads, gaps and supports of `problem`: [`Status::Solved`], or the reason
+    /// for which it was not taken.
     ///
     /// # Errors
     /// [`Error::Length`] for a problem of other bodies, [`Error::Setting`] for a step that is not positive, and
-    /// [`Error::NotTreated`] where memory does not suffice.
+    /// [`Error::NotTreated`] if memory does not suffice.
     pub fn step(&mut self, problem: &Contact2d, h: f64) -> Result<Status, Error> {
         self.check(problem, h)?;
         self.observed(&mut |_| ControlFlow::Continue(()), |this, course| {
@@ -209,8 +212,8 @@ impl Evolution {
         })
     }
 
-    /// Steps to the loads, gaps and supports of `problem`, which change evenly in a time `duration`: one, or more where one
-    /// is not solved. Bodies that arrive there may still move.
+    /// Steps to the loads, gaps and supports of `problem`, which change evenly in a time `duration`: one step, or more
+    /// if one is not solved. The bodies may still move at the end.
     ///
     /// # Errors
     /// As for [`step`](Self::step).
@@ -233,8 +236,8 @@ impl Evolution {
         self.observed(observer, |this, course| this.driven(problem, duration, Rest::Never, course))
     }
 
-    /// Takes bodies to the loads, gaps and supports of `problem`, evenly in a time `duration`, and leaves them there
-    /// until they rest or flow.
+    /// Takes bodies to the loads, gaps and supports of `problem`, evenly in a time `duration`, and then keeps these
+    /// constant until the bodies rest or flow.
     ///
     /// # Errors
     /// As for [`settle`](Self::settle).
@@ -259,8 +262,9 @@ impl Evolution {
     /// Steps under the loads and gaps of `problem` until the bodies rest or flow; the first one has the length `h`.
     ///
     /// # Errors
-    /// As for [`step`](Self::step), and [`Error::Setting`] for bodies with inertia: they swing through places where forces
-    /// are balanced, and steps that become longer would leave the swing out. Take [`steps`](Self::step) until they rest.
+    /// As for [`step`](Self::step), and [`Error::Setting`] for bodies with inertia: they swing through places at which
+    /// forces are balanced, and steps that become longer would leave the swing out. Take [`steps`](Self::step) until
+    /// they rest.
     pub fn settle(&mut self, problem: &Contact2d, h: f64) -> Result<Ending, Error> {
         self.settle_observed(problem, h, &mut |_| ControlFlow::Continue(()))
     }

@@ -5,9 +5,8 @@ use std::ops::{Add, AddAssign, Mul, Neg, Sub};
 /// The unevaluated sum of two numbers, the second at most half a unit in the last place of the first: about
 /// 31 decimal digits, in the range of `f64`.
 ///
-/// Sums are exact up to the last digits by Knuth's two-sum, products by a fused multiplication (Dekker
-/// 1971). Relative errors of an operation are a few times `2^-104`; where numbers cancel, relative to what was
-/// summed.
+/// Sums are exact up to the last digits by Knuth's two-sum, products by a fused multiplication (Dekker 1971).
+/// Errors of an operation are a few times `2^-104`, relative to the result, or to the terms if these cancel.
 ///
 /// ```
 /// use lcp::refine::Extended;
@@ -47,12 +46,12 @@ impl Extended {
         if self.high < 0.0 { -self } else { self }
     }
 
-    /// The product with a number whose product is exact, as a power of two.
+    /// The product with a number whose product is exact, such as a power of two.
     pub(crate) fn scaled(self, factor: f64) -> Self {
         Self { high: self.high * factor, low: self.low * factor }
     }
 
-    /// `high + low` where `high` is not the smaller one.
+    /// `high + low` for a `high` that is not the smaller one.
     fn normal(high: f64, low: f64) -> Self {
         let sum = high + low;
         Self { high: sum, low: low - (sum - high) }

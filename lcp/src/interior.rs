@@ -37,29 +37,29 @@ use crate::{Contact2d, Error, Method, Observer, Solution, Status};
 /// An interior-point method for large sparse problems: contact with Coulomb's friction
 /// ([`Contact2d`](crate::Contact2d)), and mixed and standard problems.
 ///
-/// Newton's method on `K u = f + C^T t`, the gaps and slips of `u`, and for every point
-/// `t_n g = (mu t_n + t_t) s+ = (mu t_n - t_t) s- = m` with the slip `s+ - s-`, where the mean product `m` is driven to zero by
-/// Mehrotra's predictor and corrector (1992) and Gondzio's correctors of centrality (1996). Everything but the displacements is
-/// eliminated point by point, so every step factorises one matrix with the pattern of `K + C^T C`. With friction the central
-/// path (the points with equal products) can turn back, where steps follow it (Allgower and Georg 1990). The page
-/// `docs/methods/interior_point.md` has the whole.
+/// Newton's method on `K u = f + C^T t`, the gaps and slips of `u`, and for every point `t_n g = (mu t_n + t_t) s+ =
+/// (mu t_n - t_t) s- = m` with the slip `s+ - s-`. The mean product `m` is driven to zero by Mehrotra's predictor and
+/// corrector (1992) and Gondzio's correctors of centrality (1996). All variables except the displacements are
+/// eliminated point by point, so every step factorises one matrix with the pattern of `K + C^T C`. The central path
+/// (the points with equal products) can turn back if there is friction, and steps then follow it (Allgower and Georg
+/// 1990). The page `docs/methods/interior_point.md` has the details.
 ///
-/// Near the solution follows the crossover: the state of every contact (open, sticking, sliding) is read off, the
+/// The crossover follows near the solution: the state of every contact (open, sticking, sliding) is read off, the
 /// equations of these states are solved to the last digit, and contacts with contradictions are exchanged. The result
 /// is a complementary basis with residuals at rounding level.
 ///
 /// If the iteration jams on bodies in contact, a convex program decides whether any forces inside the friction cones
-/// balance the loads. If none do, the status is [`Status::Infeasible`], with the motion that proves it in
+/// balance the loads. If no such forces exist, the status is [`Status::Infeasible`], with the motion that proves it in
 /// [`Solution::certificate`].
 ///
 /// # Guarantee
-/// None is proved. For monotone problems (no friction, positive semidefinite `M`) with a strictly feasible point the
-/// theory of interior-point methods gives convergence. With friction the path need not lead to a solution; walls of
-/// 6e4 contact points took 30 to 70 steps for `mu` from 1/2 to 1.
+/// Convergence is not proved in general. The theory of interior-point methods gives convergence for monotone problems
+/// (no friction, positive semidefinite `M`) with a strictly feasible point. The path need not lead to a solution if
+/// there is friction; walls of 6e4 contact points took 30 to 70 steps for `mu` from 1/2 to 1.
 ///
 /// # Failure
-/// [`Status::Stalled`] if the iteration jams, and also if bodies fall although some forces could hold them. Whether they
-/// do, an [`Evolution`](crate::Evolution) shows.
+/// [`Status::Stalled`] if the iteration jams, and also if bodies fall although some forces could hold them. An
+/// [`Evolution`](crate::Evolution) shows whether they fall.
 ///
 /// # Cost
 /// One sparse factorisation and two to six solves per step. A mixed problem with a dense `M` is treated, but not
@@ -113,9 +113,9 @@ impl InteriorPoint {
     }
 }
 
-/// The path from one start, opened by its largest gap, for a problem whose search others have begun. Measured on settlements
-/// of 105 and 410 bricks, elastic and rigid: of some 120 tries 19 fail; if it is opened by 0, 1e3 and 1e4 times that, it is 33
-/// of 148, 24 of 131 and 50 of 174.
+/// The path from one start, opened by its largest gap, for a problem whose search was begun by another method. Measured
+/// on settlements of 105 and 410 bricks, elastic and rigid: 19 of some 120 tries fail; with openings of 0, 1e3 and 1e4
+/// times that gap, 33 of 148, 24 of 131 and 50 of 174.
 pub(crate) fn follow_path(
     problem: &Contact2d,
     tolerance: f64,
@@ -161,7 +161,8 @@ impl Run<'_, '_, '_> {
         }
     }
 
-    /// Whether any forces inside the friction cones balance the loads; bodies that have not moved are tried with them.
+    /// Whether any forces inside the friction cones balance the loads; these forces are tried with bodies that have not
+    /// moved.
     fn balanced(&mut self, contact: &Contact2d) -> Ended {
         let Self { search, monitor, .. } = self;
         let found = balance(contact, &search.scaled, |residual| monitor.stop(residual));
@@ -182,7 +183,7 @@ impl Run<'_, '_, '_> {
         self.search.cross_over(PointRef { u: &at.u, forces: &forces }, at.contacts(), effort)
     }
 
-    /// The interior-point iteration from a point inside.
+    /// The interior-point iteration from an interior point.
     fn iterate(&mut self, mut at: Iterate) -> Status {
         let mut tried = TRIAL_RESIDUAL / TRIAL_REDUCTION;
         let (_, first) = at.sizes();
@@ -192,7 +193,7 @@ impl Run<'_, '_, '_> {
         loop {
             let worst = self.search.judge(&at.u, &at.forces());
             let is_solved = worst <= self.settings.tolerance;
-            // Lengths are measured by those of the start at least: where nothing moves they would be rounding errors.
+            // Lengths are measured by at least those of the start: they would be rounding errors if nothing moves.
             let (force, length) = at.sizes();
             let (force, length) = (force.max(1.0), length.max(first));
             let natural = at.natural(force, length);
@@ -227,7 +228,7 @@ impl Run<'_, '_, '_> {
             since = if merit < 0.9 * least { 0 } else { since + 1 };
             least = least.min(merit);
             if !next.is_finite() || step.length < HALF_DIGITS || since > PATIENCE {
-                // Residuals of a point inside stay large if all gaps, or all forces, are zero at the solution.
+                // Residuals of an interior point stay large if all gaps, or all forces, are zero at the solution.
                 let is_exact = self.settings.crossover && self.crosses_over(&at, &Effort::THOROUGH);
                 return if is_exact || solved_points > 0 {
                     Status::Solved

@@ -1,4 +1,4 @@
-//! The problems that the method treats, as contact problems, and back.
+//! Conversion of the problems that the method treats to contact problems, and back.
 
 use crate::certify::{BoxedJudge, ContactJudge, Precision};
 use crate::extended::Extended;
@@ -29,23 +29,23 @@ impl Judged {
 pub(crate) struct Answer {
     pub(crate) t: Vec<f64>,
     pub(crate) y: Vec<f64>,
-    /// The state that it is, of a contact problem.
+    /// The state of a contact problem at the point.
     pub(crate) contact: Option<ContactState>,
 }
 
 /// The judge of points of a scaled problem, in the data as given.
 pub(crate) trait Judge {
-    /// Residuals of the [`answer`](Self::answer) that a point is.
+    /// Residuals of the [`answer`](Self::answer) at a point.
     fn residuals(&self, scaled: &Scaled, at: PointRef<'_>, precision: Precision) -> Residuals;
 
     /// Residuals of displacements in units of the data and scaled forces, of twice the digits.
     fn residuals_of(&self, scaled: &Scaled, at: &Exact) -> Residuals;
 
-    /// The answer that a point is.
+    /// The answer at a point.
     fn answer(&self, scaled: &Scaled, at: PointRef<'_>) -> Answer;
 }
 
-/// A point as it stands, with its residuals.
+/// A point without changes, with its residuals.
 pub(crate) fn judged(
     judge: &dyn Judge,
     scaled: &Scaled,
@@ -85,7 +85,7 @@ impl Refiner<'_> {
                 && equation.max(natural) <= tolerance
                 && judge.residuals_of(scaled, &exact).worst() <= tolerance
             {
-                // The residual of the loads less the rounding of the exact point.
+                // The residual of the loads, less the rounding of the exact point.
                 near.residuals.loads =
                     judge.residuals(scaled, near.point(), Precision::Rounded).loads;
             }
@@ -124,7 +124,7 @@ fn rounded(judge: &dyn Judge, scaled: &Scaled, (u, forces): &Exact) -> Judged {
 
 /// A problem as it was given.
 pub(crate) trait Original {
-    /// The contact problem that it is.
+    /// The contact problem itself, if the problem is one.
     fn contact(&self) -> Option<&Contact2d>;
 
     fn scaled(&self) -> Scaled;
@@ -161,7 +161,7 @@ fn state(problem: &Contact2d, scaled: &Scaled, at: PointRef<'_>) -> ContactState
     problem.state(scaled.displacements(at.u), normal, tangential)
 }
 
-/// The normal force that friction needs, in the place of one that acts on nothing and may be as large as numbers are.
+/// The normal force that friction needs, instead of a normal force that acts on nothing and may be arbitrarily large.
 fn least_bound(t_n: f64, t_t: f64, mu: f64) -> f64 {
     if t_t == 0.0 { 0.0 } else { t_n.min((1.0 + f64::EPSILON) * t_t.abs() / mu) }
 }
@@ -184,7 +184,7 @@ impl Judge for (&Contact2d, ContactJudge<'_>) {
     }
 }
 
-/// The `(z, w)` of a scaled point. As for contact, what is judged is what is given back.
+/// The `(z, w)` of a scaled point, which are both judged and returned, as for contact.
 fn variables(scaled: &Scaled, at: PointRef<'_>) -> (Vec<f64>, Vec<f64>) {
     let (mut u, mut w) = (at.u.to_vec(), vec![0.0; at.u.len()]);
     for (point, (t_n, _)) in scaled.points.iter().zip(at.forces) {
@@ -218,8 +218,8 @@ impl Judge for (&MixedLcp, BoxedJudge<'_>) {
 }
 
 impl Contact2d {
-    /// A start with these states of the contacts. A simulation keeps [those of a solution](Self::statuses) by keys of its contacts,
-    /// which may come and go.
+    /// A start with these states of the contacts. A simulation keeps [those of a solution](Self::statuses) by keys of
+    /// its contacts, which may come and go.
     ///
     /// ```
     /// use std::collections::BTreeMap;
@@ -244,7 +244,7 @@ impl Contact2d {
     /// ```
     ///
     /// # Panics
-    /// If there is not one state for every point.
+    /// If the number of states is not that of the points.
     pub fn start_of(&self, statuses: &[ContactStatus]) -> WarmStart {
         assert_eq!(statuses.len(), self.points(), "one state for every point");
         let (forces, slips) = (vec![0.0; self.order()], vec![0.0; self.points()]);
@@ -315,8 +315,8 @@ impl Original for Contact2d {
     }
 }
 
-/// A mixed problem is one of contact without friction: `M z + q = w` has the stiffness `M`, the load `-q`
-/// and the contact forces `w`, and the gaps are the variables themselves.
+/// A mixed problem is a contact problem without friction: `M z + q = w` has the stiffness `M`, the load `-q` and the
+/// contact forces `w`, and the gaps are the variables themselves.
 impl Original for MixedLcp {
     fn contact(&self) -> Option<&Contact2d> {
         None

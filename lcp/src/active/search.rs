@@ -1,4 +1,4 @@
-//! The points that a method comes to, of which the best one is kept.
+//! The points of a method, of which the best one is kept.
 
 use faer::sparse::FaerError;
 
@@ -45,7 +45,7 @@ impl<'a> Search<'a> {
         Ok(Self { problem, judge, tolerance, scaled, condensed, best: None })
     }
 
-    /// Whether the states of the contacts of a given start, if there is one, are the answer.
+    /// Whether the states of the contacts of a given start, if there is one, solve the problem.
     pub(crate) fn try_start(&mut self, start: &WarmStart) -> bool {
         let (u, forces, contacts) = match start {
             WarmStart::None => return false,
@@ -62,8 +62,8 @@ impl<'a> Search<'a> {
         self.cross_over(PointRef { u: &u, forces: &forces }, contacts, &Effort::START)
     }
 
-    /// Whether nothing moves and no force acts, a point that iterations only come nearer to without end.
-    /// Whether its states are wanted too.
+    /// Whether the point without motion and forces is a solution, which iterations only approach without end.
+    /// `crossover`: whether its states are wanted too.
     pub(crate) fn try_rest(&mut self, crossover: bool) -> bool {
         let (u, forces) = self.rest();
         if self.judge(&u, &forces) > self.tolerance {
@@ -76,14 +76,14 @@ impl<'a> Search<'a> {
         true
     }
 
-    /// Whether a point is a solution, or what its contacts lead to with some effort.
+    /// Whether a point is a solution, or the states of its contacts lead to one with some effort.
     pub(crate) fn try_point(&mut self, at: PointRef<'_>, effort: Option<&Effort>) -> bool {
         let is_solved = self.judge(at.u, at.forces) <= self.tolerance;
         let contacts = nearest(&self.scaled, at.u, at.forces);
         effort.is_some_and(|effort| self.cross_over(at, contacts, effort)) || is_solved
     }
 
-    /// Nothing moves and no force acts.
+    /// The point without motion and forces.
     pub(crate) fn rest(&self) -> (Vec<f64>, Vec<(f64, f64)>) {
         (vec![0.0; self.scaled.order()], vec![(0.0, 0.0); self.scaled.points.len()])
     }
@@ -111,7 +111,8 @@ impl<'a> Search<'a> {
         cross_over(scaled, condensed, at, contacts, effort, is_solution)
     }
 
-    /// The best point without the rounding errors that forces have of large displacements, if that is a solution too.
+    /// Removes the rounding errors by large displacements from the forces of the best point, if the result is a
+    /// solution too.
     pub(crate) fn without_rounding(&mut self) {
         let Self { judge, tolerance, scaled, condensed, best, .. } = self;
         if let Some(Best { point, exact }) = best
@@ -159,7 +160,7 @@ impl<'a> Search<'a> {
             unreachable!("every solve judges a point");
         };
         let residuals = if best.worst() > tolerance {
-            // On the way rows that matter to no load counted too.
+            // Rows that matter to no load counted too on the way.
             judge.residuals(&scaled, best.point(), Precision::Exact)
         } else {
             best.residuals
@@ -178,12 +179,12 @@ impl<'a> Search<'a> {
     }
 }
 
-/// That memory does not suffice for the sparse factors.
+/// The error of sparse factors for which memory does not suffice.
 pub(crate) fn unplanned(method: Method, error: FaerError) -> Error {
     Error::NotTreated { method, reason: format!("its sparse factors cannot be planned: {error}") }
 }
 
-/// Quickly, and with all digits where the point may be a solution.
+/// Judges a point quickly, and with all digits if it may be a solution.
 fn judged(judge: &dyn Judge, scaled: &Scaled, at: PointRef<'_>, tolerance: f64) -> Judged {
     let quick = judged_by(judge, scaled, at, Precision::Quick);
     // The residual of the loads does not depend on the rows that matter.
@@ -193,7 +194,7 @@ fn judged(judge: &dyn Judge, scaled: &Scaled, at: PointRef<'_>, tolerance: f64) 
     judged_by(judge, scaled, at, Precision::Exact)
 }
 
-/// An exact solution is better than a point inside, whose residuals may be smaller.
+/// Keeps the better point. An exact solution is better than an interior point, whose residuals may be smaller.
 fn keep_better(
     best: &mut Option<Best>,
     point: Judged,

@@ -1,4 +1,4 @@
-//! One method after the other.
+//! Runs one method after the other.
 
 use web_time::{Duration, Instant};
 
@@ -7,10 +7,10 @@ use super::constants::{FEW_ATTEMPTS, KEPT};
 use super::method::{Budget, Planned, chain_of};
 use crate::{Certificate, Error, Method, MethodRun, Observer, RunEnd, Solution, Status};
 
-/// How much an answer says; what comes first says more.
+/// The rank of an answer; earlier variants are more decisive.
 #[derive(Debug, Clone, Copy, PartialEq, PartialOrd)]
 pub(super) enum Rank {
-    /// Solved, or with a proof that there is no solution.
+    /// Solved, or proved to have no solution.
     Decided,
     /// Residuals are below the root of the tolerance.
     Near,
@@ -88,12 +88,12 @@ pub(super) fn run<P: Planned>(
     Ok(solution)
 }
 
-/// Share of a method in the time left, if so many others follow.
+/// Share of a method in the time left, if `others` methods follow.
 pub(super) fn share(left: Duration, others: usize) -> Duration {
     if others > 0 { left.saturating_sub(left / KEPT) } else { left }
 }
 
-/// After these no other method is asked.
+/// Whether no other method is tried after this solution.
 pub(super) fn is_final(solution: &Solution) -> bool {
     match solution.status {
         Status::Solved | Status::Cancelled => true,
@@ -104,7 +104,7 @@ pub(super) fn is_final(solution: &Solution) -> bool {
     }
 }
 
-/// The one that says more; the earlier one where both say the same.
+/// The more decisive solution; the earlier one if both have the same rank.
 pub(super) fn better(best: Option<Solution>, other: Solution, tolerance: f64) -> Solution {
     match best {
         Some(best) if rank(&best, tolerance) <= rank(&other, tolerance) => best,

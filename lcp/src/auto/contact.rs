@@ -51,7 +51,8 @@ impl Planned for Contact2d {
                 "pivots take long at this number, but need no convergence"
             },
         );
-        // Bodies with mass, or held by springs, have a solution: there is no proof to be found.
+        // Bodies with mass, or held by springs, have a solution, so a search for a proof would be
+        // in vain.
         if self.order() <= MOST_PAIRS && !is_definite(self.stiffness()) {
             vec![pivots, inside]
         } else {

@@ -14,7 +14,7 @@ use crate::{
 /// A part and its answer.
 type PartAnswer<P> = (Part<P>, Solution);
 
-/// Solves a problem by its parts, where it has several.
+/// Solves a problem by its parts, if it has several.
 pub(super) fn run<P: Planned>(
     problem: &P,
     settings: &AutoSettings,
@@ -43,7 +43,7 @@ pub(super) fn run<P: Planned>(
     }
 }
 
-/// The plans of the parts; a method that stands at the same place of several plans stands there once.
+/// The plans of the parts; a method at the same place of several plans is listed there once.
 pub(super) fn plan<P: Planned>(problem: &P, max_attempts: Option<usize>) -> Vec<Choice> {
     let Some(parts) = problem.parts().filter(|parts| parts.len() <= MANY_PARTS) else {
         return told(problem, max_attempts);
@@ -64,7 +64,7 @@ fn named(reason: &str, count: usize, parts: usize) -> String {
     format!("{count} of {parts} independent parts, the first: {reason}")
 }
 
-/// Lists of several parts as one: entries at the same place that are the same are one entry, with their number.
+/// Merges the lists of several parts: equal entries at the same place become one entry, with their number.
 fn merged<T>(
     lists: impl Iterator<Item = Vec<T>>,
     is_same: impl Fn(&T, &T) -> bool,
@@ -96,7 +96,7 @@ fn is_same_end(a: &MethodRun, b: &MethodRun) -> bool {
     a.method == b.method && status(a) == status(b)
 }
 
-/// The work of both, and the larger residual.
+/// Adds the work of another run, and keeps the larger residual.
 fn add_run(first: &mut MethodRun, other: &MethodRun) {
     first.pivots += other.pivots;
     first.factorisations += other.factorisations;
@@ -109,7 +109,7 @@ fn add_run(first: &mut MethodRun, other: &MethodRun) {
 }
 
 /// Solves one part after the other, until one of them proves that the linear conditions have no solution. The time left
-/// is divided evenly among the remaining parts: the smallest come first and leave theirs to the others.
+/// is divided evenly among the remaining parts: the smallest come first and leave their unused time to the others.
 fn solve<P: Planned>(
     parts: Vec<Part<P>>,
     settings: &AutoSettings,
@@ -140,8 +140,8 @@ fn solve<P: Planned>(
     Ok(answers.into_iter().flatten().collect())
 }
 
-/// The answer of the whole: the part that says least decides what is said of it, unless one proves that there
-/// is no solution.
+/// The answer of the whole: its status is the least decisive one of the parts, unless one part proves that the whole
+/// has no solution.
 fn join<P: Planned>(problem: &P, mut answers: Vec<PartAnswer<P>>, tolerance: f64) -> Solution {
     let pairs = problem.pairs();
     let (mut t, mut y) = (vec![0.0; pairs], vec![0.0; pairs]);
@@ -158,7 +158,7 @@ fn join<P: Planned>(problem: &P, mut answers: Vec<PartAnswer<P>>, tolerance: f64
     // Blocks are equilibrated, so that their norms are alike.
     let mut conditions = answers.iter().map(|(_, answer)| answer.condition);
     whole.condition = conditions.try_fold(0.0_f64, |largest, it| Some(largest.max(it?)));
-    // The first of the largest parts stands for all.
+    // The first of the largest parts represents all.
     let largest = answers.iter().rev().max_by_key(|(part, _)| part.pairs.len());
     whole.info.method = largest.map_or(Method::Auto, |(_, answer)| answer.info.method);
     for (_, answer) in &mut answers {
@@ -195,7 +195,7 @@ fn outcome<P>(
     (answer.status, certificate.map(|it| part.certificate(it, pairs)))
 }
 
-/// The basis of the whole, where all parts have one.
+/// The basis of the whole, if all parts have one.
 fn joined_basis<P>(answers: &[PartAnswer<P>], pairs: usize) -> Option<Basis> {
     let mut sides = vec![Side::T; pairs];
     for (part, answer) in answers {

@@ -8,8 +8,8 @@ use crate::enumerate::{Enumerated, MOST_PAIRS, enumerate};
 use crate::solve::{Monitor, is_over};
 use crate::{Certificate, Error, Method, Named, Observer, Solution, Solver, Status};
 
-/// The last resort of [`Auto`](crate::Auto) for small problems, by itself: all choices of sides by branch and bound, with a proof
-/// where no choice has a solution. Problems of more than 100 pairs are [not treated](Error::NotTreated).
+/// The last resort of [`Auto`](crate::Auto) for small problems, by itself: all choices of sides by branch and bound,
+/// with a proof if no choice has a solution. Problems of more than 100 pairs are [not treated](Error::NotTreated).
 #[derive(Debug, Clone, Copy)]
 pub struct Enumeration {
     /// Largest residual of a solution, relative to the data.

@@ -4,15 +4,15 @@ use super::constants::FEW_PAIRS;
 use crate::Matrix;
 use crate::enumerate::MOST_PAIRS;
 
-/// The largest sum of `choices` over variables that depend on each other in turn: `i` depends on `j` if row `i` has an entry
-/// in column `j`. Those of a triangular matrix are single ones, those of an irreducible matrix are all.
+/// The largest sum of `choices` over a block of mutually dependent variables: `i` depends on `j` if row `i` has an
+/// entry in column `j`. The blocks of a triangular matrix are single variables; an irreducible matrix is one block.
 pub(super) fn largest_block(m: &Matrix, choices: impl Fn(usize) -> usize) -> usize {
     let n = m.ncols();
     let all = (0..n).map(&choices).sum();
     if all <= FEW_PAIRS || n > MOST_PAIRS {
         return all;
     }
-    // A bit for every variable that one depends on, directly and then over others (Warshall 1962).
+    // A bit for every variable on which one depends, directly and then through others (Warshall 1962).
     let mut reached = vec![0_u128; n];
     for j in 0..n {
         m.column(j).filter(|(_, v)| *v != 0.0).for_each(|(i, _)| reached[i] |= 1 << j);
@@ -32,7 +32,7 @@ mod tests {
 
     use super::*;
 
-    /// Blocks of 3 and 20 below the diagonal of each other; a cycle of all joins them.
+    /// Blocks of 3 and 20, each below the diagonal of the other; a cycle of all joins them.
     #[test]
     fn blocks_of_a_reducible_matrix() {
         let mut m = Mat::from_fn(23, 23, |i, j| f64::from(u8::from(i >= 3 && j < 3)));

@@ -1,4 +1,4 @@
-//! The methods with the settings that they get.
+//! The methods with their settings.
 
 use std::time::Duration;
 
@@ -27,7 +27,7 @@ pub struct Choice {
     pub is_brief: bool,
 }
 
-/// A method of a chain, whose reason is only put into words for a step that is taken or told.
+/// A method of a chain, whose reason is put into words only if the method runs or the plan is shown.
 #[derive(Debug, Clone, Copy)]
 pub struct Link {
     pub(super) method: Method,
@@ -35,11 +35,11 @@ pub struct Link {
     pub(super) is_brief: bool,
 }
 
-/// Why a method is at its place.
+/// The reason for the place of a method.
 #[derive(Debug, Clone, Copy)]
 enum Words {
     These(&'static str),
-    /// So few choices of sides depend on each other in turn.
+    /// This small number of choices of sides in a block of dependent variables.
     Few(usize),
 }
 
@@ -61,8 +61,8 @@ impl Link {
     }
 }
 
-/// The chain of a problem with all choices of sides: behind a few attempts of pivots if it takes no longer than these, else
-/// at the end.
+/// The chain of a problem with enumeration of all choices of sides: after a few attempts of pivots if enumeration takes
+/// no longer than these attempts, else at the end.
 pub(super) fn chain_of<P: Planned>(problem: &P, max_attempts: Option<usize>) -> Vec<Link> {
     let mut steps = problem.chain();
     let pairs = problem.pairs();
@@ -83,18 +83,18 @@ pub(super) fn chain_of<P: Planned>(problem: &P, max_attempts: Option<usize>) -> 
     steps
 }
 
-/// A problem with a chain of methods. Only the problems of the library are.
+/// A problem with a chain of methods, implemented by the problems of the library only.
 pub trait Planned: Divide {
-    /// Pairs of a start.
+    /// Number of pairs of a start.
     fn pairs(&self) -> usize;
 
-    /// Pairs of which either side may be zero, in the largest block of variables that depend on each other in turn. The
+    /// Number of pairs of which either side may be zero, in the largest block of mutually dependent variables. The
     /// blocks can be decided one after the other.
     fn choices(&self) -> usize {
         self.pairs()
     }
 
-    /// The class and the size that the chain follows from, with numbers.
+    /// The class and the size that determine the chain, with numbers.
     fn subject(&self) -> String;
 
     /// The chain.
@@ -115,7 +115,7 @@ pub struct Budget<'a> {
 }
 
 impl Budget<'_> {
-    /// A method that treats every problem. [`Planned::solver`] has the others.
+    /// A method that treats every problem. [`Planned::solver`] has the other methods.
     pub(super) fn common<P>(&self, method: Method) -> Box<dyn Solver<P>>
     where
         P: General,

@@ -13,15 +13,16 @@ use crate::{Error, WarmStart};
     serde(default, deny_unknown_fields)
 )]
 pub struct AutoSettings {
-    /// Largest residual, dimensionless, of an answer called `Solved`. In `(0, 1)`. Every method gets it.
+    /// Largest residual, dimensionless, of an answer called `Solved`. In `(0, 1)`. The same for every method.
     pub tolerance: f64,
-    /// Wall-clock time of all methods together: each gets three quarters of what those before it have left, the last one
-    /// all of it. `None` is no limit, and then a method of the chain may take long if those before it failed.
+    /// Wall-clock time of all methods together: each gets three quarters of the time that those before it have left,
+    /// the last one all of it. `None` sets no limit: a method of the chain may then take long if those before it
+    /// failed.
     pub time_limit: Option<Duration>,
     /// Attempts of Lemke's method, as in [`LemkeSettings::max_attempts`](crate::LemkeSettings::max_attempts).
     pub max_attempts: Option<usize>,
-    /// A point or a basis, of the pairs of the general form, that may be the solution of a similar
-    /// problem. It goes to the methods that can start from it.
+    /// A point or a basis, of the pairs of the general form, that may be the solution of a similar problem: a warm
+    /// start for the methods that can use one.
     pub start: WarmStart,
 }
 

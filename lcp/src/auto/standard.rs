@@ -6,7 +6,7 @@ use super::method::{Budget, Link, Planned};
 use crate::newton::is_z_matrix;
 use crate::{HorizontalLcp, Lcp, Matrix, Method, Solver};
 
-/// The class of the matrix decides whether the active set method is the first.
+/// The chain, which the active set method begins if the class of the matrix allows it.
 fn standard_chain(m: &Matrix) -> Vec<Link> {
     let mut steps = common_chain(m);
     if (0..m.ncols()).all(|i| m[(i, i)] > 0.0) {
@@ -37,7 +37,7 @@ pub(super) fn common_chain(m: &Matrix) -> Vec<Link> {
     std::iter::once(Link::new(Method::Lemke, words)).chain(inside).collect()
 }
 
-/// The order and how the matrix is stored, for the reason of a choice.
+/// The order and the storage of the matrix, for the reason of a choice.
 pub(super) fn size(m: &Matrix) -> String {
     let order = m.ncols();
     if !m.is_sparse() {

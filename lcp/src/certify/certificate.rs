@@ -6,7 +6,7 @@ use super::judge::Precision;
 use super::problems::GeneralJudge;
 use crate::{HorizontalLcp, Side};
 
-/// Shows that there is no solution, or what was found instead of one. See
+/// A proof that there is no solution, or the secondary ray found instead of a solution. See
 /// [`Solution::certificate`](crate::Solution::certificate).
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -33,7 +33,7 @@ pub enum Certificate {
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Leaf {
-    /// The side of every pair that may be positive; `None` where both may.
+    /// The side of every pair that may be positive; `None` if both may.
     pub sides: Vec<Option<Side>>,
     /// A Farkas vector for the columns of these sides.
     pub pi: Vec<f64>,
@@ -41,9 +41,9 @@ pub struct Leaf {
 
 /// The secondary ray on which an attempt ended.
 ///
-/// `A dt + B dy = covering dz0` with `dt, dy, dz0 >= 0` and `dt.dy = 0`: for every `s >= 0` the last
-/// point of the attempt plus `s (dt, dy, dz0)` satisfies `A t + B y = c + covering z0`, so that along
-/// the ray the artificial variable `z0` does not decrease.
+/// `A dt + B dy = covering dz0` with `dt, dy, dz0 >= 0` and `dt.dy = 0`: for every `s >= 0` the last point of the
+/// attempt plus `s (dt, dy, dz0)` satisfies `A t + B y = c + covering z0`, so that the artificial variable `z0` does
+/// not decrease along the ray.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
@@ -59,7 +59,7 @@ pub struct Ray {
 }
 
 impl Certificate {
-    /// Whether it proves that there is no solution, if it [holds](Self::holds).
+    /// Whether the certificate proves that there is no solution, if it [holds](Self::holds).
     pub fn is_proof(&self) -> bool {
         matches!(self, Self::Farkas { .. } | Self::Choices { .. })
     }
@@ -92,8 +92,8 @@ impl Certificate {
     }
 }
 
-/// Whether every choice of one side of every pair belongs to exactly one leaf: no two of them have one in common,
-/// and their shares of all choices add up to one.
+/// Whether every choice of one side of every pair belongs to exactly one leaf: no two leaves share a choice, and
+/// their shares of all choices add up to one.
 fn covers_all(leaves: &[Leaf], n: usize) -> bool {
     let are_apart = |a: &Leaf, b: &Leaf| {
         let mut pairs = a.sides.iter().zip(&b.sides);
@@ -108,7 +108,7 @@ fn covers_all(leaves: &[Leaf], n: usize) -> bool {
         && (leaves.iter().map(share).sum::<f64>() - 1.0).abs() < f64::EPSILON
 }
 
-/// `A dt + B dy = covering dz0`, nothing negative, and `dt.dy = 0`, to rounding errors.
+/// Whether `A dt + B dy = covering dz0`, nothing is negative, and `dt.dy = 0`, up to rounding errors.
 fn is_ray(problem: &HorizontalLcp, ray: &Ray) -> bool {
     let n = problem.order();
     let Ray { dt, dy, dz0, covering } = ray;
@@ -119,7 +119,7 @@ fn is_ray(problem: &HorizontalLcp, ray: &Ray) -> bool {
     let sizes = c.iter().map(|c| c.abs()).collect();
     let judge = GeneralJudge::with_right_hand_side(problem, c, sizes);
     let Residuals { equation, .. } = judge.residuals(&[dt, dy], Precision::Quick);
-    // It proves nothing: half of the digits are enough.
+    // A ray proves nothing: half of the digits are enough.
     let holds = equation <= f64::EPSILON.sqrt();
     let is_free = |pair: usize| problem.opposite(pair).is_some();
     let fits = |pair: usize| {

@@ -1,5 +1,5 @@
-//! The numbers that the judge goes by, each with where it comes from.
-//! A number that is "chosen" is so by judgement: no measurement is kept.
+//! The numbers that the judge uses, each with its origin. A number that is "chosen" is set by judgement: no
+//! measurement is kept.
 
 use crate::vector::WEAK;
 
@@ -7,5 +7,5 @@ use crate::vector::WEAK;
 pub(crate) const ROUNDING: f64 = 16.0 * f64::EPSILON;
 /// The smallest load beside others, and the largest rounding error beside loads, however large the terms are. Chosen.
 pub(crate) const MILLIONTH: f64 = WEAK * WEAK;
-/// The factor of numbers whose sums of products leave the range of numbers: one over more than any number of terms.
+/// The factor for points whose sums of products exceed the range of numbers: one over more than any number of terms.
 pub(super) const INTO_RANGE: f64 = 1.0 / (1_u64 << 60) as f64;

@@ -18,10 +18,10 @@ impl Contact2d {
     /// * rows are equilibrium, `K u - f - C_n^T t_n - C_t^T t_t`, gaps, `C_n u + x_0 + a_n t_n - g`, and slips,
     ///   `C_t u + s_0 + a_t t_t - s`, each measured by its own terms;
     /// * pairs are normal force and gap, and the two distances `mu t_n + t_t` and `mu t_n - t_t` to the borders of
-    ///   the friction cone with the slip forwards and backwards: a force counts by what it is of the terms
-    ///   of its rows of equilibrium and, with compliance, of gap or slip, a gap or slip by what it is of its own terms;
+    ///   the friction cone with the slip forwards and backwards: a force counts by its share in the terms of its
+    ///   rows of equilibrium and, with compliance, of gap or slip, a gap or slip by its share in its own terms;
     /// * loads compare equilibrium with the largest load on the connected part of the structure, gaps and slips with
-    ///   its largest initial one or what the loads would deform it by. Forces are not compared with
+    ///   its largest initial one or with its deformation by the loads. Forces are not compared with
     ///   displacements, nor one part with another.
     ///
     /// Units do not matter, not even those of single displacements: a moment is not compared with a force. See
@@ -38,7 +38,7 @@ impl Contact2d {
 }
 
 impl ContactState {
-    /// Displacements, normal and tangential forces, gaps and slips: the variables that the judge asks for.
+    /// Displacements, normal and tangential forces, gaps and slips: the variables of the judge.
     pub(crate) fn parts(&self) -> [&[f64]; 5] {
         [&self.u, &self.t_n, &self.t_t, &self.gap, &self.slip]
     }
@@ -47,13 +47,14 @@ impl ContactState {
 /// A contact problem with the rows equilibrium, gaps and slips.
 pub(crate) struct ContactRows<'a> {
     problem: &'a Contact2d,
-    /// The rows that the forces of every point act on: of displacements, and of its gap or slip if it is compliant.
+    /// The rows on which the forces of every point act: those of displacements, and of its gap or slip if it is
+    /// compliant.
     normal: Columns,
     tangent: Columns,
     longest: usize,
 }
 
-/// A judge of states: displacements, forces, gaps and slips, of which the last two may be missing.
+/// A judge of states: displacements, forces, gaps and slips; the last two may be missing.
 pub(crate) type ContactJudge<'a> = RowJudge<ContactRows<'a>>;
 
 impl<'a> ContactJudge<'a> {
@@ -74,9 +75,9 @@ impl<'a> ContactJudge<'a> {
         let c: Vec<f64> = problem.loads().iter().copied().chain(openings.map(|x| -x)).collect();
         let sizes: Vec<f64> = c.iter().map(|c| c.abs()).collect();
         let weights = weights(problem);
-        // Loads down to a millionth of those around them count in full, smaller ones by their size: of a body that
-        // comes to rest nothing is left but rounding errors. Gaps and slips are differences of positions and have
-        // their rounding errors: they count by what they are of the lengths around them.
+        // Loads down to a millionth of those around them count in full, smaller ones by their size: the terms of a body
+        // that comes to rest are only rounding errors. Gaps and slips are differences of positions and have their
+        // rounding errors: they count by their share in the lengths around them.
         let least = |i: usize| if i < n { MILLIONTH } else { 1.0 };
         let share = |(i, size): (usize, &f64)| (size / least(i) * weights[i]).min(1.0);
         let sources = sizes.iter().enumerate().map(share).collect();
@@ -183,7 +184,7 @@ fn weights(problem: &Contact2d) -> Vec<f64> {
     forces.chain(lengths[n..].iter().copied()).chain(slips).collect()
 }
 
-/// Displacements and, numbered behind them, points, with how strongly they are coupled, at most by one.
+/// Displacements and, numbered behind them, points, with the strength of their coupling, at most one.
 fn couplings(problem: &Contact2d, factors: &[f64], diagonal: &[f64]) -> Vec<(usize, usize, f64)> {
     let (n, m) = (problem.displacements(), problem.points());
     let of_points = |j: usize| {

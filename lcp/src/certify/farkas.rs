@@ -25,7 +25,7 @@ pub(crate) fn is_proof_of<'a>(
 
 /// Whether a vector is a proof for a mixed problem, whose general form is not assembled.
 pub(crate) fn is_proof_of_mixed(problem: &MixedLcp, pi: &[f64]) -> bool {
-    // `w - M z = q`, and the positive and the negative part of a free `z` take the place of `z` and `w`.
+    // `w - M z = q`; the positive and the negative part of a free `z` take the place of `z` and `w`.
     let products = problem.free().iter().enumerate().flat_map(|(j, is_free)| {
         let of_z = Product::of(problem.m().slice(j), pi);
         let of_w = Product { sum: pi[j], size: pi[j].abs(), terms: 1.0 };
@@ -34,8 +34,8 @@ pub(crate) fn is_proof_of_mixed(problem: &MixedLcp, pi: &[f64]) -> bool {
     separates(products, problem.q(), pi)
 }
 
-/// Whether the products of `pi` with the columns are a proof. These may be positive by rounding errors of `pi`,
-/// relative to their terms, if `pi . c` is far above that.
+/// Whether the products of `pi` with the columns are a proof. The products may be positive by rounding errors of `pi`,
+/// relative to their terms, if `pi . c` is far above these errors.
 fn separates(products: impl Iterator<Item = Product>, c: &[f64], pi: &[f64]) -> bool {
     if pi.len() != c.len() || pi.iter().any(|pi| !pi.is_finite()) {
         return false;
@@ -99,7 +99,7 @@ mod tests {
         assert!(!says(&columns, [1.0, 1.0], [f64::NAN, 1.0]));
     }
 
-    /// A gap of 1e-9 is a proof where the products with the columns vanish, and none where they do not.
+    /// A gap of 1e-9 is a proof if the products with the columns vanish, and not otherwise.
     #[test]
     fn a_small_gap_asks_for_exact_products() {
         let c = [-1.0, 1.0 + 1e-9];

@@ -1,4 +1,4 @@
-//! The judge of points: sums of rows, the conditions on variables, and the residuals that they come to.
+//! The judge of points: sums of rows, the conditions on variables, and the resulting residuals.
 
 use std::ops::{AddAssign, Mul};
 
@@ -13,41 +13,41 @@ pub(crate) trait JudgedRows {
     /// Number of variables.
     fn variables(&self) -> usize;
 
-    /// Terms of a row at most.
+    /// Largest number of terms of a row.
     fn longest(&self) -> usize;
 
-    /// Shows row and coefficient of every entry of a variable.
+    /// Calls `visit` with row and coefficient of every entry of a variable.
     fn for_each_entry(&self, variable: usize, visit: impl FnMut(usize, f64));
 
-    /// Shows the conditions at a point that is multiplied by `unit`.
+    /// Passes the conditions at a point that is multiplied by `unit` to `out`.
     fn conditions(&self, x: &[f64], unit: f64, out: &mut Conditions<'_, Self>)
     where
         Self: Sized;
 }
 
-/// A problem with what its rows are measured by.
+/// A problem with the measures of its rows.
 pub(crate) struct RowJudge<R> {
     pub(super) rows: R,
     /// The right-hand sides.
     pub(super) c: Vec<f64>,
-    /// The sizes of their terms.
+    /// The sizes of the terms of the right-hand sides.
     pub(super) sizes: Vec<f64>,
-    /// The weight that its right-hand side gives a row, between zero and one.
+    /// The weight of every row by its right-hand side, between zero and one.
     pub(super) sources: Vec<f64>,
-    /// One over the loads that every row feels.
+    /// One over the loads that act on every row.
     pub(super) weights: Vec<f64>,
 }
 
-/// How exactly the rows of a point are computed, and what of the loads rounding may excuse.
+/// The arithmetic in which the rows of a point are computed, and the part of the loads that rounding may excuse.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Precision {
-    /// In `f64`, less the rounding errors that the sums may have; rows that matter to no load count like all others: of
-    /// points on the way.
+    /// For points on the way: `f64`, less the possible rounding errors of the sums; rows that matter to no load count
+    /// like all others.
     Quick,
-    /// Twice the digits where that may matter, less the rounding error of a point that is exact except for the last digit of
-    /// its numbers: for answers.
+    /// For answers: twice the digits if that may matter, less the rounding error of a point that is exact except for
+    /// the last digit of its numbers.
     Rounded,
-    /// Twice the digits where that may matter: for points about to be called solved, and for those that have these digits.
+    /// For points about to be called solved, and for points with twice the digits: twice the digits if that may matter.
     Exact,
 }
 
@@ -70,8 +70,8 @@ struct RowSums {
 }
 
 impl<R: JudgedRows> RowJudge<R> {
-    /// Residuals of a point, given by all its variables part by part. If the last ones are missing, they are what the
-    /// others leave of the last rows, in which each has the coefficient minus one.
+    /// Residuals of a point, given by all its variables part by part. If the last parts are missing, their variables
+    /// follow from the last rows, in which each has the coefficient minus one.
     pub(crate) fn residuals(&self, parts: &[&[f64]], precision: Precision) -> Residuals {
         in_range(parts, |x, unit| {
             let mut point = self.at(x, unit);
@@ -110,12 +110,12 @@ impl<R: JudgedRows> RowJudge<R> {
         self.rows.longest() as f64 * f64::EPSILON
     }
 
-    /// One over the loads that a row feels, in units of a point.
+    /// One over the loads that act on a row, in units of a point.
     fn weight(&self, unit: f64, i: usize) -> f64 {
         (self.weights[i] / unit).min(f64::MAX)
     }
 
-    /// The terms of a row in units of the loads that it feels.
+    /// The terms of a row in units of the loads that act on it.
     fn share_of_loads(&self, point: &RowSums, i: usize) -> f64 {
         point.terms[i] * self.weight(point.unit, i)
     }
@@ -133,7 +133,8 @@ impl<R: JudgedRows> RowJudge<R> {
         terms
     }
 
-    /// Rows that do not matter to the loads are told only if something in them seems to be wrong.
+    /// The residuals of a point. Rows that do not matter to the loads are identified only if the point seems to be
+    /// wrong in them.
     fn judged(&self, point: &RowSums, precision: Precision) -> Residuals {
         let strict = Conditions::residuals(self, point, Vec::new(), precision);
         let apparent = strict.equation.max(strict.natural);
@@ -166,7 +167,7 @@ fn in_range<X: Digits>(parts: &[&[X]], residuals: impl Fn(&[X], f64) -> Residual
     residuals(&x, INTO_RANGE)
 }
 
-/// A variable of a pair, with a value that need not be its own.
+/// A variable of a pair, with a value that may differ from its own.
 #[derive(Clone, Copy)]
 pub(crate) struct Entry {
     variable: usize,
@@ -179,13 +180,14 @@ impl Entry {
     }
 }
 
-/// The residuals of a point while its conditions are gone through.
+/// The residuals of a point while its conditions are visited.
 pub(crate) struct Conditions<'a, R> {
     judge: &'a RowJudge<R>,
     point: &'a RowSums,
-    /// The weight of every row; all of them one if it is empty.
+    /// The weight of every row; empty if all weights are one.
     significance: Vec<f64>,
-    /// The sizes that changes which make the point feasible and complementary add to a row; empty if there are none.
+    /// The sizes that are added to a row by the changes that make the point feasible and complementary; empty without
+    /// such changes.
     changes: Vec<f64>,
     residuals: Residuals,
 }
@@ -218,7 +220,7 @@ impl<'a, R: JudgedRows> Conditions<'a, R> {
             }
         }
         if t.value > 0.0 && y.value > 0.0 {
-            // The loads say which one is the smaller, and the terms if there are none.
+            // The smaller variable is determined by the loads, or by the terms if there are no loads.
             let by_loads = self.burden(t).total_cmp(&self.burden(y));
             let smaller = by_loads.then_with(|| self.effect(t).total_cmp(&self.effect(y)));
             let effect = self.removed(if smaller.is_le() { t } else { y });
@@ -244,7 +246,7 @@ impl<'a, R: JudgedRows> Conditions<'a, R> {
         }
     }
 
-    /// The effect of a change to zero, which is noted.
+    /// The effect of a change to zero, which is added to the changes of the rows.
     fn removed(&mut self, Entry { variable, value }: Entry) -> f64 {
         self.changes.resize(self.point.rest.len(), 0.0);
         let changes = &mut self.changes;
@@ -252,18 +254,18 @@ impl<'a, R: JudgedRows> Conditions<'a, R> {
         self.effect(Entry { variable, value })
     }
 
-    /// The largest share of a variable in the terms of a row; one without any row.
+    /// The largest share of a variable in the terms of a row; one for a variable without rows.
     fn effect(&self, entry: Entry) -> f64 {
         self.largest(entry, |i, v| self.share(i, v)).unwrap_or(1.0)
     }
 
-    /// The largest term of a variable in units of the loads; infinite without any row.
+    /// The largest term of a variable in units of the loads; infinite for a variable without rows.
     fn burden(&self, entry: Entry) -> f64 {
         let burden = |i, v: f64| v.abs() * self.judge.weight(self.point.unit, i);
         self.largest(entry, burden).unwrap_or(f64::INFINITY)
     }
 
-    /// The largest of what the terms of a variable are in its rows.
+    /// The largest share of the terms of a variable in its rows.
     fn largest(
         &self,
         Entry { variable, value }: Entry,
@@ -291,7 +293,7 @@ impl<'a, R: JudgedRows> Conditions<'a, R> {
             let rounding = (noise * point.terms[i] * weight).min(most);
             let left = (rest.abs() * weight - rounding).max(0.0);
             let left = left + changes.get(i).unwrap_or(&0.0) * weight;
-            // A NaN is no small residual.
+            // A NaN counts as an infinite residual.
             residuals.loads = if left.is_nan() { f64::INFINITY } else { residuals.loads.max(left) };
         }
         residuals.natural = residuals.feasibility.max(residuals.complementarity);
@@ -299,7 +301,8 @@ impl<'a, R: JudgedRows> Conditions<'a, R> {
     }
 }
 
-/// A part of the terms of a row. Terms beyond the range of numbers say nothing, which is no small part.
+/// A value relative to the terms of a row. Terms beyond the range of numbers give no information, so that the ratio
+/// must not become small.
 pub(crate) fn ratio(v: f64, terms: f64) -> f64 {
     if !(v.is_finite() && terms.is_finite()) {
         f64::INFINITY

@@ -63,9 +63,9 @@ impl MixedLcp {
 }
 
 impl BoxedLcp {
-    /// Residuals of `(z, w)`, dimensionless, from the data as given: rows are `w - M z - q`, and the pairs are
-    /// the distance of `z` to its lower bound with the positive part of `w`, and that to its upper bound with
-    /// the negative part. See [`HorizontalLcp::residuals`](crate::HorizontalLcp::residuals).
+    /// Residuals of `(z, w)`, dimensionless, from the data as given: rows are `w - M z - q`, and the pairs are the
+    /// distance of `z` to its lower bound with the positive part of `w`, and the distance to its upper bound with the
+    /// negative part. See [`HorizontalLcp::residuals`](crate::HorizontalLcp::residuals).
     ///
     /// # Panics
     /// If `z` or `w` does not have `n` entries.
@@ -76,10 +76,10 @@ impl BoxedLcp {
 }
 
 impl Friction2d {
-    /// Residuals of forces, dimensionless, from the data as given. The velocities `v = W r + q` follow from the
-    /// forces, so that no equation is left; pairs are the normal force with the normal velocity, and the two
-    /// distances `mu r_N + r_T` and `mu r_N - r_T` to the borders of the friction cone with the sliding
-    /// forwards and backwards. See [`HorizontalLcp::residuals`](crate::HorizontalLcp::residuals).
+    /// Residuals of forces, dimensionless, from the data as given. The velocities `v = W r + q` follow from the forces,
+    /// so that no equation is left; pairs are the normal force with the normal velocity, and the two distances `mu r_N
+    /// + r_T` and `mu r_N - r_T` to the borders of the friction cone with the sliding forwards and backwards. See
+    /// [`HorizontalLcp::residuals`](crate::HorizontalLcp::residuals).
     ///
     /// ```
     /// use faer::mat;
@@ -116,7 +116,7 @@ impl<R: JudgedRows> RowJudge<R> {
         Self::of_couplings(rows, c, loads, &Couplings::of(columns, &row, &col))
     }
 
-    /// A row with any load counts in full.
+    /// A judge with the given couplings of rows; a row with any load counts in full.
     fn of_couplings(rows: R, c: Vec<f64>, mut loads: Vec<f64>, couplings: &Couplings) -> Self {
         let mut weights = Vec::new();
         couplings.weigh(loads.iter().copied(), &mut Vec::new(), |_, weight| weights.push(weight));
@@ -184,11 +184,11 @@ pub(crate) struct AffineRows<'a> {
 
 /// The conditions on `z` and `w`.
 enum Law<'a> {
-    /// Both are nonnegative.
+    /// The condition that `z` and `w` are nonnegative.
     Signs,
-    /// Those of the bounds of a problem.
+    /// The conditions of the bounds of a problem.
     Bounds(&'a BoxedLcp),
-    /// Those of a normal and a tangential component for every coefficient of friction.
+    /// The conditions of a normal and a tangential component for every coefficient of friction.
     Friction(&'a [f64]),
 }
 

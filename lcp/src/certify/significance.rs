@@ -1,9 +1,10 @@
-//! Which rows of a point matter to those that carry the loads.
+//! The rows of a point that matter to those that carry the loads.
 //!
 //! If all terms of a row are zero at the solution, a near point has only errors in that row, and the row never holds
-//! compared with these. The row would hold with its variables set to zero. A row matters by the shares of its variables
-//! in the largest terms of other rows, times the weights of these. A row with a load has the weight one, and any other
-//! the largest product of such shares along a chain from it to a row with a load. The weights do not depend on units.
+//! compared with its terms. The row would hold with its variables set to zero. A row matters by the shares of its
+//! variables in the largest terms of other rows, times the weights of those rows. A row with a load has the weight one,
+//! and any other the largest product of such shares along a chain from it to a row with a load. The weights do not
+//! depend on units.
 
 use std::collections::BinaryHeap;
 
@@ -18,8 +19,9 @@ pub(super) struct Term {
     pub size: f64,
 }
 
-/// The factor of every row, between zero and one. `sources` are what rows count by their right-hand sides, and `burden` is
-/// what the terms of a row are of the loads that it feels, at most one, and zero if it has no terms.
+/// The factor of every row, between zero and one. `sources` are the weights of rows by their right-hand sides. `burden`
+/// is the size of the terms of a row relative to the loads that act on it, at most one, and zero for a row without
+/// terms.
 pub(super) fn significance(
     terms: &[Term],
     variables: usize,
@@ -31,7 +33,8 @@ pub(super) fn significance(
     for term in terms {
         largest[term.row] = largest[term.row].max(term.size);
     }
-    // Rows and, numbered behind them, variables. Rows that are worth one, most in a structure with weight, have no links.
+    // Rows and, numbered behind them, variables. Rows with the weight one, most rows in a structure with weight, have
+    // no links.
     let mut worth = sources.to_vec();
     worth.resize(rows + variables, 0.0);
     let mut links = Vec::new();
@@ -40,7 +43,7 @@ pub(super) fn significance(
         if sources[row] >= 1.0 {
             worth[variable] = share.max(worth[variable]);
         } else {
-            // Every variable that is not weak speaks for its row.
+            // Every variable that is not weak gives its row its weight.
             links.extend([(row, variable, share), (variable, row, (share / WEAK).min(1.0))]);
         }
     }
@@ -52,12 +55,12 @@ pub(super) fn significance(
     }
     spread(&links, &mut worth);
     worth.truncate(rows);
-    // Chains are not the only way to the loads: what is far from weak counts in full.
+    // Loads are reached on other ways than chains, too: a row with a weight far above weak counts in full.
     worth.into_iter().map(|worth| (worth / WEAK.sqrt()).min(1.0)).collect()
 }
 
-/// Raises values to the largest products of another one and the shares on the links of a chain from it, none of which
-/// is above one (Dijkstra 1959).
+/// Raises each value to the largest product of another value and the shares on the links of a chain from that value;
+/// shares are at most one (Dijkstra 1959).
 pub(super) fn spread(links: &Columns, values: &mut [f64]) {
     // Positive numbers are in the order of their bits.
     let begun = values.iter().enumerate().filter(|(_, value)| **value > 0.0);

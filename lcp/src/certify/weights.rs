@@ -7,17 +7,18 @@ use crate::matrix::Column;
 use crate::parts::Parts;
 use crate::vector::WEAK;
 
-/// How rows feel loads: those of their connected part, and others by how weakly the part is coupled to them.
+/// The effect of loads on rows: in full on the rows of their connected part, and on others by the coupling of the
+/// parts.
 pub(crate) struct Couplings {
     row: Vec<f64>,
     /// The part of every row.
     part: Vec<usize>,
-    /// Parts and, numbered behind them, columns, with how weakly they are coupled; nothing if there is one part.
+    /// Parts and, numbered behind them, columns, with the strength of their coupling; empty if there is one part.
     links: Columns,
 }
 
 impl Couplings {
-    /// From the columns of a matrix and the factors of rows and columns that bring its entries near one.
+    /// The couplings from the columns of a matrix and the factors of rows and columns that bring its entries near one.
     pub(crate) fn of(columns: &[Column<'_>], row: &[f64], col: &[f64]) -> Self {
         let rows = row.len();
         let coupling = |i: usize, v: f64, col: f64| (row[i] * v.abs() * col).min(1.0);
@@ -36,7 +37,7 @@ impl Couplings {
         let mut links = Vec::new();
         if !parts.is_one() {
             for (j, (column, col)) in columns.iter().zip(col).enumerate() {
-                // A column within one part brings no load to another.
+                // A column within one part transfers no load to another.
                 let from = links.len();
                 let mut is_within_one = true;
                 column.for_each(|i, v| {
@@ -57,10 +58,10 @@ impl Couplings {
         Self { row: row.to_vec(), part, links }
     }
 
-    /// One over the loads that every row feels, in units of the row: the largest right-hand side of its connected part, and of
-    /// others by how weakly they are coupled to it. A part without any load takes the largest of the others; without any at all
-    /// the weights are zero, and only the terms measure. Shows every row with its weight; `felt` is memory, and nothing else is
-    /// allocated if there is one part.
+    /// Calls `show` with every row and one over the loads that act on it, in units of the row: the largest right-hand
+    /// side of its connected part, and of other parts times their coupling to it. A part without any load takes the
+    /// largest of the others; without any load at all the weights are zero, and only the terms measure. `felt` is
+    /// memory; nothing else is allocated if there is one part.
     pub(crate) fn weigh(
         &self,
         loads: impl Iterator<Item = f64>,
@@ -83,8 +84,8 @@ impl Couplings {
     }
 }
 
-/// One over the loads that a row feels, or over the largest if it feels none; zero if there are none at all. Beyond the
-/// range of numbers it is the largest.
+/// One over the loads that act on a row, or over the largest load if none acts on it; zero if there are no loads at
+/// all. A result beyond the range of numbers is replaced by the largest number.
 pub(super) fn per_load(row: f64, felt: f64, largest: f64) -> f64 {
     let felt = if felt > 0.0 { felt } else { largest };
     if felt > 0.0 { (row / felt).min(f64::MAX) } else { 0.0 }

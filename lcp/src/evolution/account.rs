@@ -1,8 +1,8 @@
 //! Works and energies of the steps.
 
-/// Works and energies of a [`Evolution`](crate::Evolution), summed over its steps.
+/// Works and energies of an [`Evolution`](crate::Evolution), summed over its steps.
 ///
-/// Both sides are equal in every step, up to rounding:
+/// The two sides are equal in every step, up to rounding:
 ///
 /// ```text
 /// work = stored + kinetic + dissipation + dragged + lost
@@ -17,20 +17,21 @@ pub struct Account {
     pub stored: f64,
     /// Change of the kinetic energy; zero without inertia.
     pub kinetic: f64,
-    /// Energy that friction takes: the sum of `-t_t ds` over all slips.
+    /// Energy dissipated by friction: the sum of `-t_t ds` over all slips.
     pub dissipation: f64,
-    /// Energy that friction can take of these slips at most, the sum of `mu t_n |ds|`: Coulomb's law makes both equal.
+    /// Largest energy that friction can dissipate in these slips, the sum of `mu t_n |ds|`: equal to the dissipation by
+    /// Coulomb's law.
     pub capacity: f64,
-    /// Energy that friction gave back, the negative part of the dissipation: none, by Coulomb's law.
+    /// Energy that friction gave back, the negative part of the dissipation: zero by Coulomb's law.
     pub created: f64,
-    /// Energy that the drag takes.
+    /// Energy dissipated by the drag.
     pub dragged: f64,
-    /// Energy that implicit steps take by themselves: never negative, and small if steps are short.
+    /// Energy dissipated by the implicit scheme itself: never negative, and small if steps are short.
     pub lost: f64,
 }
 
 impl Account {
-    /// The dissipation by the capacity: one, if friction has done what Coulomb's law says in every slip. `None` without any
+    /// The dissipation divided by the capacity: one if friction obeyed Coulomb's law in every slip. `None` without any
     /// slip.
     pub fn friction_power(&self) -> Option<f64> {
         (self.capacity > 0.0).then(|| self.dissipation / self.capacity)

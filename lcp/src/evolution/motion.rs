@@ -1,4 +1,4 @@
-//! Steps one after the other: to other loads and supports, and to rest or flow.
+//! Sequences of steps: to other loads and supports, and to rest or flow.
 
 use super::target::{Course, Data, Rest, Taken, Target};
 use super::{Account, Evolution};
@@ -7,20 +7,20 @@ use crate::problem::column_of;
 use crate::vector::{HALF_DIGITS, ROUNDING, max_abs};
 use crate::{Contact2d, Error, Status};
 
-/// How steps of a [`Evolution`](crate::Evolution) have ended.
+/// The ending of the steps of an [`Evolution`](crate::Evolution).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub enum Ending {
-    /// The bodies are under the loads and gaps that they were taken to, and may move.
+    /// The bodies have reached the given loads and gaps, and may move.
     Arrived,
-    /// They rest: their state solves the problem without mass.
+    /// The bodies rest: their state solves the problem without mass.
     Rests,
-    /// They move on for ever with the [velocity](crate::Evolution::velocity) that they have.
+    /// The bodies move on for ever with their present [velocity](crate::Evolution::velocity).
     Flows,
-    /// They have moved beyond the reach of the settings.
+    /// The bodies have moved beyond the reach of the settings.
     Left,
-    /// A limit was reached, or no step however short was solved ([`Status::Stalled`]).
+    /// A limit was reached, or no step was solved, however short ([`Status::Stalled`]).
     Open(Status),
 }
 
@@ -30,7 +30,7 @@ impl Ending {
         self == Self::Rests
     }
 
-    /// The status of an ending: solved, no equilibrium, or the reason why neither is known.
+    /// The status of an ending: solved, no equilibrium, or the reason for which the outcome is unknown.
     pub fn status(self) -> Status {
         match self {
             Self::Rests => Status::Solved,
@@ -41,13 +41,13 @@ impl Ending {
     }
 }
 
-/// A velocity is constant if it changes by a smaller part in a step of twice the length; its strains are no resistance
-/// if they would take a smaller part of the work of the loads within the reach; gaps that it closes by a smaller part
-/// of the motion do not close. Chosen: far below the accuracy of limit loads.
+/// A velocity is constant if it changes by a smaller part in a step of twice the length; its strains do not resist if
+/// they would take a smaller part of the work of the loads within the reach; gaps that it closes by a smaller part of
+/// the motion do not close. Chosen: far below the accuracy of limit loads.
 const SETTLED: f64 = 1e-2;
 
 impl Evolution {
-    /// To the data of `problem`, which change evenly in a time; and to rest there, if they are to rest and do.
+    /// Moves to the data of `problem`, which change evenly in a time; and to rest there, if bodies may rest and do.
     pub(super) fn driven(
         &mut self,
         problem: &Contact2d,
@@ -74,7 +74,7 @@ impl Evolution {
             if self.is_beyond(&self.state.u) {
                 return Ok(Ending::Left);
             }
-            // So many halvings in sequence have another cause.
+            // A step that needs this number of halvings fails for another reason than its length.
             if part < HALF_DIGITS {
                 return Ok(Ending::Open(Status::Stalled));
             }
@@ -82,7 +82,7 @@ impl Evolution {
         Ok(Ending::Arrived)
     }
 
-    /// To the data of `problem`, and on until the bodies rest or flow.
+    /// Moves to the data of `problem`, and on until the bodies rest or flow.
     pub(super) fn led(
         &mut self,
         problem: &Contact2d,
@@ -95,7 +95,7 @@ impl Evolution {
         }
     }
 
-    /// Under data that stay, until the bodies rest or flow.
+    /// Moves under constant data until the bodies rest or flow.
     pub(super) fn settled(
         &mut self,
         problem: &Contact2d,
@@ -129,7 +129,7 @@ impl Evolution {
         course.monitor.stop(0.0).or_else(|| is_spent.then_some(Status::IterationLimit))
     }
 
-    /// Whether bodies there are further away than the problem means anything.
+    /// Whether these displacements are larger than those for which the problem is valid.
     pub(super) fn is_beyond(&self, u: &[f64]) -> bool {
         max_abs(u) > self.settings.reach
     }
@@ -140,8 +140,8 @@ impl Evolution {
         Before { velocity: self.velocity.clone(), forces }
     }
 
-    /// Whether the velocity goes on until bodies are out of reach, or for ever: it is that of the step before, strains
-    /// neither bodies nor joints so that they could stop it, and closes no gap, while the loads do work.
+    /// Whether the velocity goes on until bodies are out of reach, or for ever: it equals that of the step before,
+    /// strains neither bodies nor joints enough to stop the motion, and closes no gap, while the loads do work.
     fn flows(&self, problem: &Contact2d, before: &Before, step: &Account, h: f64) -> bool {
         let size = max_abs(&self.velocity);
         let is_moved = step.work > 0.0 && size > 0.0;
@@ -154,7 +154,7 @@ impl Evolution {
             && !self.approaches(problem, self.settings.reach / size)
     }
 
-    /// The work of the last step that bodies and joints take by the change of their strains alone, if that is more than rounding
+    /// The work of the last step that the change of strains of bodies and joints takes, if that is more than rounding
     /// errors: each by itself, since the resistance of a soft one would be lost in the errors of a stiff one.
     fn strain(&self, problem: &Contact2d, before: &Before, h: f64) -> f64 {
         let (v, k) = (&self.velocity, problem.stiffness());
@@ -197,10 +197,10 @@ impl Evolution {
     }
 }
 
-/// How bodies moved in the step before.
+/// The motion of bodies in the step before.
 struct Before {
     velocity: Vec<f64>,
-    /// Normal and tangential ones.
+    /// Normal and tangential forces.
     forces: [Vec<f64>; 2],
 }
 
@@ -216,7 +216,7 @@ mod tests {
     use super::*;
     use crate::{ContactPoint, EvolutionSettings, Matrix};
 
-    /// While a block is pushed against a soft spring its velocity hardly changes from one short step to the next.
+    /// The velocity of a block that is pushed against a soft spring hardly changes from one short step to the next.
     #[test]
     fn a_body_that_a_soft_spring_will_stop_does_not_flow() {
         for (spring, flows) in [(0.0, true), (1e-2, false), (1e-1, false)] {
@@ -232,7 +232,7 @@ mod tests {
             let problem = builder.build().unwrap();
             let mass = Matrix::from_triplets(3, 3, &[0, 1, 2].map(|j| (j, j, 1.0))).unwrap();
             let mut moving = Evolution::new(&problem, mass, EvolutionSettings::default()).unwrap();
-            // Until the body itself is not strained any more.
+            // Steps until the body itself is not strained any more.
             (0..5).for_each(|_| assert_eq!(moving.step(&problem, 1e-6).unwrap(), Status::Solved));
             let (before, account) = (moving.motion_now(), *moving.account());
             moving.step(&problem, 2e-6).unwrap();

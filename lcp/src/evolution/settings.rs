@@ -15,8 +15,8 @@ use crate::settings::check_tolerance;
 pub struct EvolutionSettings {
     /// Largest residual, dimensionless, of every step and of the state at rest. In `(0, 1)`.
     pub tolerance: f64,
-    /// The drag `c` [1/time]: a body of the mass `M` with the velocity `v` feels the force `-c M v`. At least zero, and
-    /// above zero without inertia.
+    /// The drag `c` [1/time]: the force `-c M v` acts on a body of the mass `M` with the velocity `v`. At least zero,
+    /// and above zero without inertia.
     pub drag: f64,
     /// Whether bodies have inertia. Without it they come to rest as soon as nothing moves them any more.
     pub inertia: bool,
@@ -25,9 +25,9 @@ pub struct EvolutionSettings {
     /// rest.
     #[cfg_attr(feature = "serde", serde(with = "crate::json_numbers::infinity"))]
     pub reach: f64,
-    /// Factorisations of one call; the step in which they are reached comes to its end.
+    /// Largest number of factorisations of one call; a step that reaches it is completed.
     pub max_iterations: usize,
-    /// Wall-clock time of one call, looked at before every step and every iteration of its path; `None` is no limit.
+    /// Wall-clock time of one call, checked before every step and every iteration of its path; `None` sets no limit.
     pub time_limit: Option<Duration>,
 }
 

@@ -13,8 +13,9 @@ use crate::vector::{ROUNDING, max_abs};
 use crate::{Contact2d, ContactState, Error, Iteration, Method, Solution, Status};
 
 impl Evolution {
-    /// A step, by whatever solves it. If bodies may rest, and a solution without drag is found next to its end, they go there
-    /// instead: friction is the same, with slips measured from the same place.
+    /// Takes a step by the first method that solves it. If bodies may rest, and a solution without drag is found next
+    /// to the end of the step, they move to that solution instead: friction is the same, with slips measured from the
+    /// same place.
     pub(super) fn taken(
         &mut self,
         target: Target<'_>,
@@ -57,8 +58,8 @@ impl Evolution {
         Ok(Taken::Yes(self.moved(target, end)))
     }
 
-    /// Whether the states of the contacts at the end of a step, or those that they lead to, are those of bodies that rest;
-    /// then they are there.
+    /// Whether the states of the contacts at the end of a step, or those that they lead to, are those of bodies at
+    /// rest; if so, moves the bodies there.
     fn rests(
         &mut self,
         at_rest: Target<'_>,
@@ -78,9 +79,9 @@ impl Evolution {
         Ok(rests)
     }
 
-    /// The problem of the displacements that a step adds. Contacts that are closed begin it without a gap, and none has slid,
-    /// to the last digit: redundant ones would contradict each other by the errors of earlier steps, and no forces, however
-    /// large, would close all of them.
+    /// The problem of the displacements that a step adds. Closed contacts begin the step with a gap and a slip of
+    /// exactly zero: redundant contacts would contradict each other by the errors of earlier steps, and no forces,
+    /// however large, would close all of them.
     fn stepped(&self, Target { problem, data, h }: Target<'_>) -> Contact2d {
         let EvolutionSettings { drag, inertia, .. } = self.settings;
         let (resistance, momentum) = h.map_or((0.0, 0.0), |h| {
@@ -102,7 +103,7 @@ impl Evolution {
         problem.resisted(&self.mass, resistance).under(f, x_0, s_0)
     }
 
-    /// A search for a solution, and whether the states of the contacts of some end lead to it.
+    /// A search for a solution, and whether the states of the contacts of a given end lead to one.
     fn searched<'a>(
         &self,
         problem: &'a Contact2d,
@@ -141,7 +142,7 @@ impl Evolution {
         self.state.u.iter().zip(added).map(|(u, du)| u + du).collect()
     }
 
-    /// Goes to the end of a step, and gives its account.
+    /// Moves to the end of a step and returns its account.
     fn moved(
         &mut self,
         target: Target<'_>,
@@ -174,7 +175,7 @@ impl Evolution {
         step
     }
 
-    /// The account of a step as far as bodies and loads are concerned.
+    /// The part of the account of a step due to bodies and loads.
     fn of_bodies(&self, problem: &Contact2d, data: &Data, du: &[f64], velocity: &[f64]) -> Account {
         let mut step = Account::default();
         let EvolutionSettings { drag, inertia, .. } = self.settings;
@@ -197,7 +198,7 @@ impl Evolution {
         step
     }
 
-    /// The account of contacts and supports, which slide by these lengths to the next state.
+    /// The part of the account due to contacts and supports, which slide by these lengths to the next state.
     fn of_contacts(
         &self,
         Target { problem, data, .. }: Target<'_>,
@@ -233,7 +234,7 @@ impl Evolution {
     }
 }
 
-/// Where a step ends: the displacements that it adds, and the state of the contacts.
+/// The end of a step: the displacements that it adds, and the state of the contacts.
 struct StepEnd {
     state: ContactState,
     /// States of the contacts; empty if not known.

@@ -48,23 +48,23 @@ pub(super) struct Target<'a> {
     pub(super) h: Option<f64>,
 }
 
-/// How a solution without drag is looked for at the end of a step.
+/// The search for a solution without drag at the end of a step.
 #[derive(Clone, Copy)]
 pub(super) enum Rest {
     Never,
     /// From the states of the contacts there.
     ByStates,
-    /// From these with more patience, and along the path of interior points.
+    /// From these states with more patience, and along the path of interior points.
     ByPath,
 }
 
 /// Whether a step was taken.
 pub(super) enum Taken {
-    /// It was taken, with this account.
+    /// The step was taken, with this account.
     Yes(Account),
-    /// It was taken, and the bodies rest at its end.
+    /// The step was taken, and the bodies rest at its end.
     Rests,
-    /// Not taken: [`Status::Stalled`] if a shorter step may be, or a limit.
+    /// The step was not taken: [`Status::Stalled`] if a shorter step may be, or a limit.
     No(Status),
 }
 

@@ -1,4 +1,4 @@
-//! Whether any contact forces balance the loads, wherever the bodies are.
+//! Test whether any contact forces balance the loads, wherever the bodies are.
 
 use super::homogeneous::Accuracy;
 use super::program::{Program, without_noise};
@@ -6,14 +6,14 @@ use crate::matrix::DATA_ROUNDING;
 use crate::states::Scaled;
 use crate::{Certificate, Contact2d, Matrix, Status};
 
-/// How a search for forces has ended that gives none: with a Farkas vector if it proved that none exist.
+/// The end of a search for forces that found none: with a Farkas vector if it proved that none exist.
 pub(super) type Ended = (Status, Option<Certificate>);
 
 /// Forces `t` inside their cones with displacements `u`, whatever their gaps, for which `K u = f + C^T t`.
 ///
 /// The forces are those of a convex program: of contacts whose springs open along the edges of their cones, as with
-/// associated friction. If it has no solution there is a motion `v` with `K v = 0`, `C_n v >= mu |C_t v|` and
-/// `f.v > 0`, which proves it (Farkas 1902). `stop` is asked before every step, with the residual.
+/// associated friction. If the program has no solution there is a motion `v` with `K v = 0`, `C_n v >= mu |C_t v|`
+/// and `f.v > 0`, a proof by Farkas' lemma (1902). `stop` is called before every step, with the residual.
 pub(super) fn balance(
     contact: &Contact2d,
     problem: &Scaled,

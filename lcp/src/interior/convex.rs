@@ -16,8 +16,8 @@ use crate::solve::Monitor;
 use crate::{Certificate, Error, Matrix, Method, MixedLcp, Observer, Solution, Status};
 
 impl InteriorPoint {
-    /// The solution of a convex program, or a proof that there is none; `None` where bounded variables act on each other,
-    /// or are not acted on as they act.
+    /// The solution of a convex program, or a proof that there is none; `None` if bounded variables act on each other,
+    /// or if `M` lacks the symmetry of a convex program.
     pub(super) fn solve_convex(
         &self,
         problem: &MixedLcp,
@@ -58,8 +58,8 @@ impl InteriorPoint {
     }
 }
 
-/// The program that a mixed problem is, whose steps factorise a matrix with the order of the free variables; and of every
-/// variable its place among the free or the bounded ones.
+/// The program of a mixed problem, whose steps factorise a matrix with the order of the free variables; and the place
+/// of every variable among the free or the bounded ones.
 fn program_of(problem: &MixedLcp) -> Option<(Program, Vec<usize>)> {
     let (q, free) = (problem.q(), problem.free());
     let dense;
@@ -102,7 +102,8 @@ fn program_of(problem: &MixedLcp) -> Option<(Program, Vec<usize>)> {
     Some((program, places))
 }
 
-/// How far a bounded variable of one opens its own gap; `None` if it acts on that of another one.
+/// The opening of the gap of a bounded variable by its own unit value; `None` if the variable acts on the gap of
+/// another one.
 fn own_compliance(m: &SparseColMat<usize, f64>, free: &[bool], j: usize) -> Option<f64> {
     let mut acting = column_of(m, j).filter(|(i, v)| !free[*i] && *v != 0.0);
     match (acting.next(), acting.next()) {

@@ -6,10 +6,10 @@
 //! phi(u) = u.K u / 2 - f.u + t.D t / 2,   with the forces   t = max(0, -(A^T u + x_0)) / D,
 //! ```
 //!
-//! which is convex, and quadratic as long as the same pairs carry forces. Newton's method with an exact line search converges to
-//! the minimum, if there is one (Mangasarian 2004): in 5 to 12 steps on walls of 100 to 10 000 bricks that stand, with a
-//! third of the solves of a step of the homogeneous problem. If there is no minimum, steps become short, and the homogeneous
-//! problem finds the proof.
+//! which is convex, and quadratic as long as the same pairs carry forces. Newton's method with an exact line search
+//! converges to the minimum, if there is one (Mangasarian 2004): in 5 to 12 steps on walls of 100 to 10 000 bricks that
+//! stand, with a third of the solves of a step of the homogeneous problem. If there is no minimum, steps become short,
+//! and the homogeneous problem finds the proof.
 //!
 //! Mangasarian, Journal of Optimization Theory and Applications 121 (2004), 1-18.
 
@@ -22,12 +22,12 @@ use crate::Status;
 use crate::states::PROXIMAL;
 use crate::vector::HALF_DIGITS;
 
-/// Lengths of a step, relative to Newton's, outside which the method is left. Measured on walls of 1000 bricks: steps near
-/// the limit are between 0.2 and 1.1, and the third of a wall that falls is shorter than 1e-4.
+/// Lengths of a step, relative to Newton's step, outside which the method ends. Measured on walls of 1000 bricks: steps
+/// near the limit are between 0.2 and 1.1, and the third of a wall that falls is shorter than 1e-4.
 const LENGTHS: Range<f64> = 0.1..10.0;
 
-/// Descends to the minimum of a program; `None` at a step of another length, at a pair without compliance, or if numbers
-/// overflow. `stop` is asked before every step, with the residual.
+/// Descends to the minimum of a program; `None` at a step of a length outside [`LENGTHS`], at a pair without
+/// compliance, or if numbers overflow. `stop` is called before every step, with the residual.
 pub(super) fn descend(
     program: &Program,
     factors: &mut ProgramFactors,
@@ -39,14 +39,14 @@ pub(super) fn descend(
         return None;
     }
     let mut u = vec![0.0; program.f.len()];
-    // At rest every pair is about to act.
+    // Every pair at rest is about to act.
     let mut acting = stiffness.clone();
     let mut before = f64::INFINITY;
     loop {
         let now = Homogeneous::new(program, point(program, u));
         let defect = now.defect();
         let residual = now.residual(&defect, accuracy);
-        // Rounding errors of the free variables are left.
+        // Only rounding errors of the free variables are left.
         let is_least = residual <= HALF_DIGITS && residual > 0.5 * before;
         if is_least || residual <= accuracy.tolerance() {
             return Some(End { at: now.at, status: Status::Solved });

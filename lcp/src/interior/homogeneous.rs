@@ -1,5 +1,5 @@
-//! Convex programs as part of a homogeneous problem, which always has a solution: that of the program, or a proof that
-//! there is none.
+//! Convex programs as part of a homogeneous problem, which always has a solution: the solution of the program, or a
+//! proof that there is none.
 
 use super::constants::{
     FRACTION_TO_BOUNDARY, LEAST_AIM, LOADS, PATIENCE, TRIAL_REDUCTION, TRIAL_RESIDUAL,
@@ -11,13 +11,13 @@ use crate::Status;
 use crate::states::PROXIMAL;
 use crate::vector::{HALF_DIGITS, ROUNDING, max_abs};
 
-/// How exact a solution has to be.
+/// The accuracy that a solution must have.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Accuracy {
     /// Equations and pairs to this tolerance, relative to the largest force and gap.
     OfAll(f64),
-    /// Equations to this tolerance, the balance relative to a multiple of the largest load at most; the smaller one of each
-    /// pair to a tenth of the root of the tolerance. What is left of the balance is distributed.
+    /// Equations to this tolerance, with the balance relative to at most a multiple of the largest load; the smaller
+    /// one of each pair to a tenth of the root of the tolerance. The residual of the balance is then distributed.
     OfForces(f64),
 }
 
@@ -28,7 +28,7 @@ impl Accuracy {
     }
 }
 
-/// The end of an iteration: a point, and why it is the last.
+/// The end of an iteration: a point, and the reason for which it is the last.
 pub(super) struct End {
     pub(super) at: Variables,
     pub(super) status: Status,
@@ -41,8 +41,8 @@ pub(super) struct End {
 /// t y = 0,   tau kappa = 0,   t, y, tau, kappa >= 0.
 /// ```
 ///
-/// Where `tau > 0`, `u / tau` and `t / tau` are a solution of the problem; where `kappa > 0`, `u` and `t` prove that there
-/// is none.
+/// `u / tau` and `t / tau` are a solution of the problem if `tau > 0`; `u` and `t` prove that there is none if `kappa >
+/// 0`.
 pub(super) struct Homogeneous<'a> {
     program: &'a Program,
     pub(super) at: Variables,
@@ -98,13 +98,13 @@ pub(super) fn iterate(
         if let Some(status) = stop(residual.min(error)) {
             return End { at: now.at.solution(), status };
         }
-        // Far from a proof its error may be as small as it will be for long, while the rest goes on.
+        // The error of a point far from a proof may stay at its minimum for long, while the other merits go on.
         let merits = [residual, error, now.at.mean_product()];
         let is_better = merits.iter().zip(&least).any(|(merit, least)| *merit < 0.9 * least);
         since = if is_better { 0 } else { since + 1 };
         least = [0, 1, 2].map(|k| least[k].min(merits[k]));
         let alpha = now.advance(factors, defect);
-        // Some are stuck for twenty steps and go on.
+        // Some iterations make no progress for twenty steps and then go on.
         if alpha < HALF_DIGITS || since > 2 * PATIENCE {
             return End { at: now.at.solution(), status: Status::Stalled };
         }
@@ -135,8 +135,8 @@ impl<'a> Homogeneous<'a> {
         natural.fold(defect, |max, v| max.max(part * v.abs()))
     }
 
-    /// How far the point is from a proof: what has to vanish, relative to the work of loads and gaps, which has to be
-    /// positive.
+    /// Distance of the point from a proof: the largest quantity that has to vanish, relative to the work of loads and
+    /// gaps, which has to be positive.
     fn error_of_proof(&self) -> f64 {
         let work = self.work();
         if work <= 0.0 {
@@ -159,9 +159,9 @@ impl<'a> Homogeneous<'a> {
         HomogeneousDefect { balance, gaps }
     }
 
-    /// The point with the nearest `u` to its own that strains nothing and leaves closed the pairs that the point opens by
-    /// no more than the root of its error: a proof whose products vanish has no rounding errors there to contradict it.
-    /// Each solve takes all but a part [`HALF_DIGITS`] of these products away.
+    /// The point with the nearest `u` that strains nothing and leaves closed the pairs that the point opens by no more
+    /// than the root of its error: a proof whose products vanish is not contradicted by rounding errors there. Each
+    /// solve reduces these products to a part [`HALF_DIGITS`].
     fn projected(&self, factors: &mut ProgramFactors, error: f64) -> Option<Variables> {
         let most = error.sqrt() * self.work();
         let closed = self.opened.iter().map(|opened| f64::from(u8::from(*opened <= most)));
@@ -179,7 +179,7 @@ impl<'a> Homogeneous<'a> {
         dot(&self.program.f, &self.at.u) - dot(&self.program.x_0, &self.at.t)
     }
 
-    /// One step of Mehrotra's method with Gondzio's correctors; gives its length.
+    /// Takes one step of Mehrotra's method with Gondzio's correctors; returns its length.
     fn advance(&mut self, factors: &mut ProgramFactors, defect: HomogeneousDefect) -> f64 {
         let Some((newton, affine)) = Newton::of(self, factors, defect) else { return 0.0 };
         let at = &self.at;
@@ -207,16 +207,16 @@ impl<'a> Homogeneous<'a> {
 struct Newton<'a> {
     program: &'a Program,
     at: &'a Variables,
-    /// Factors with the springs that Newton's method puts in the place of the pairs.
+    /// Factors with the springs by which Newton's method replaces the pairs.
     factors: &'a ProgramFactors,
     defect: HomogeneousDefect,
-    /// The step of `u` and `t` for a step of one of `tau`.
+    /// The step of `u` and `t` for a unit step of `tau`.
     of_tau: Variables,
     /// The derivatives of the equation of `kappa` by `u` and `t`.
     border: (Vec<f64>, Vec<f64>),
-    /// The residual of that equation.
+    /// The residual of the equation of `kappa`.
     rest: f64,
-    /// Its coefficient of the step of `tau`, when all others are eliminated.
+    /// The coefficient of the step of `tau` in the equation of `kappa`, when all other steps are eliminated.
     pivot: f64,
 }
 
@@ -224,7 +224,7 @@ struct Newton<'a> {
 struct Aim<'a> {
     balance: Vec<f64>,
     gaps: &'a [f64],
-    /// The part of the gaps that counts.
+    /// The part of the residuals of the gaps that the step removes.
     part: f64,
     targets: Vec<f64>,
 }
@@ -306,7 +306,7 @@ impl<'a> Newton<'a> {
         self.bordered(&held, 0.0, 0.0)
     }
 
-    /// Steps at `tau` and `kappa` as they are.
+    /// Steps at constant `tau` and `kappa`.
     fn held<const N: usize>(&self, aims: &[Aim<'_>; N]) -> [Variables; N] {
         let Self { program, at, .. } = self;
         let ProgramFactors { gram, stiffness, .. } = self.factors;
@@ -332,7 +332,7 @@ impl<'a> Newton<'a> {
             t.iter_mut().zip(&y).zip(stiffness).for_each(|((t, y), s)| *t -= s * y);
             let data = aim.gaps.iter().zip(&aim.targets).zip(&program.compliance);
             let pairs = at.t.iter().zip(&at.y).zip(&t).zip(data);
-            // The one of two equations for `dy` that keeps the digits: the second if `t` is the larger one.
+            // The equation for `dy`, one of two, that keeps the digits: the second if `t` is the larger one.
             for (y, (((t, gap), dt), ((lack, target), c))) in y.iter_mut().zip(pairs) {
                 *y = if t > gap { (target - gap * dt) / t } else { *y + c * dt + aim.part * lack };
             }
@@ -340,7 +340,7 @@ impl<'a> Newton<'a> {
         })
     }
 
-    /// A step at `tau` as it is, with what it takes to make good `rest` of the equation of `kappa` and to change
+    /// A step at constant `tau`, plus the step that removes the residual `rest` of the equation of `kappa` and changes
     /// `tau kappa` by `target`.
     fn bordered(&self, held: &Variables, rest: f64, target: f64) -> Variables {
         let Variables { tau, kappa, .. } = self.at;

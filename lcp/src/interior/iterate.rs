@@ -1,4 +1,4 @@
-//! Points inside the cone.
+//! Interior points of the cone.
 
 use super::step::longest;
 use crate::problem::ContactStatus;
@@ -13,14 +13,14 @@ pub(super) struct Iterate {
     pub(super) points: Vec<Pairs>,
 }
 
-/// A step, the most of it that stays inside, and how it was found.
+/// A step, the largest part of it that stays in the interior, and its kind.
 pub(super) struct Direction {
     pub(super) step: Iterate,
     pub(super) alpha: f64,
     pub(super) kind: StepKind,
 }
 
-/// The variables of a contact point. Those of friction are zero where there is none.
+/// The variables of a contact point. Those of friction are zero without friction.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Pairs {
     /// The coefficient of friction, which belongs to the point.
@@ -56,14 +56,14 @@ impl Pairs {
         (self.mu * self.t_n + self.t_t, self.mu * self.t_n - self.t_t)
     }
 
-    /// Slips to either side, each relative to what is left of the friction that resists it.
+    /// Slips to either side, each relative to the remaining reserve of the friction that resists it.
     fn ratios(&self) -> (f64, f64) {
         let (plus, minus) = self.reserves();
         (self.slip_plus / plus, self.slip_minus / minus)
     }
 
-    /// The springs that Newton's method puts in the place of the contact, with a proximal term of half the digits,
-    /// which does not change the limit of the iteration.
+    /// The springs by which Newton's method replaces the contact, with a proximal term of half the digits, which does
+    /// not change the limit of the iteration.
     pub(super) fn springs(&self, compliance: [f64; 2]) -> Springs {
         let nn = 1.0 / (self.gap / self.t_n + compliance[0] + HALF_DIGITS);
         if self.mu == 0.0 {
@@ -74,9 +74,9 @@ impl Pairs {
         Springs { nn, tn: -self.mu * (plus - minus) * tt * nn, tt }
     }
 
-    /// The step of all variables from that of the forces and those of gap and slip by the displacements.
-    /// Each pair uses the one of the two equations for `dy`, compatibility and `y dt + t dy = target`, that keeps the digits: the
-    /// second if `t` is the larger one.
+    /// The step of all variables from the step of the forces and the changes of gap and slip by the displacements. Each
+    /// pair uses the one of the two equations for `dy`, compatibility and `y dt + t dy = target`, that keeps the
+    /// digits: the second if `t` is the larger one.
     pub(super) fn change(&self, [t_n, t_t]: [f64; 2], opened: [f64; 2], target: &[f64; 3]) -> Self {
         let mu = self.mu;
         let gap =
@@ -102,7 +102,7 @@ impl Iterate {
         self.points.iter().map(|pairs| (pairs.t_n, pairs.t_t)).collect()
     }
 
-    /// The states that the contacts are nearest to.
+    /// The nearest states of the contacts.
     pub(super) fn contacts(&self) -> Vec<ContactStatus> {
         let contact = |at: &Pairs| {
             let Pairs { mu, t_n, t_t, gap, slip_plus, slip_minus } = *at;
@@ -164,7 +164,7 @@ impl Iterate {
         self.points.iter().map(|pairs| pairs.gap).sum::<f64>() / self.points.len().max(1) as f64
     }
 
-    /// All gaps and slips further inside.
+    /// Opens all gaps and slips further by this length.
     pub(super) fn opened(mut self, by: f64) -> Self {
         for pairs in &mut self.points {
             pairs.gap += by;

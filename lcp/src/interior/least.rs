@@ -13,17 +13,18 @@ use crate::solve::Monitor;
 use crate::vector::{check_length, check_vector};
 use crate::{Error, Info, Matrix, Method, Observer, Status};
 
-/// Forces that are the least of all that balance loads, or a proof that there are none.
+/// Forces of the least size that balance loads, or a proof that no forces do.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct LeastForces {
-    /// [`Status::Solved`], [`Status::Infeasible`] with a checked proof, or why there is neither.
+    /// [`Status::Solved`], [`Status::Infeasible`] with a checked proof, or the reason for which there is neither.
     pub status: Status,
     /// The forces `t`.
     pub t: Vec<f64>,
-    /// The multipliers `u` of the balance; a proof where the status says so, with a largest component of one.
+    /// The multipliers `u` of the balance; a proof if the status is `Infeasible`, with a largest component of one.
     pub u: Vec<f64>,
-    /// The residual of the forces and multipliers, measured as [`InteriorPoint::least_forces`] says, which decides the status unless it is a proof.
+    /// The residual of the forces and multipliers, measured as described in [`InteriorPoint::least_forces`], which
+    /// decides the status unless there is a proof.
     pub residual: f64,
     /// The cost.
     pub info: Info,
@@ -36,14 +37,17 @@ impl InteriorPoint {
     ///
     /// The iteration ends where the balance holds to the tolerance, relative to the largest force, and to a hundred times it
     /// relative to the largest load, or to rounding errors of the forces (64 eps of the largest) where forces are so much larger
-    /// than the loads. What is left then is distributed, so that every row is balanced to its last digits, as far as rounding
-    /// errors of the forces allow. Multipliers hold to the tolerance, relative to the largest `t + A^T u`, or to rounding
-    /// errors of the largest of them. A force and its multiplier `t + A^T u` may both be zero, and come near it together: the
-    /// smaller one, relative to the largest, has to be below a tenth of the root of the tolerance.
+    /// The iteration ends if the balance holds to the tolerance, relative to the largest force, and to a hundred times
+    /// the tolerance relative to the largest load, or to rounding errors of the forces (64 eps of the largest) if
+    /// forces are so much larger than the loads. The remaining residual is distributed, so that every row is balanced
+    /// to its last digits, as far as rounding errors of the forces allow. Multipliers hold to the tolerance, relative
+    /// to the largest `t + A^T u`, or to rounding errors of the largest of them. A force and its multiplier `t + A^T u`
+    /// may both be zero, and approach zero together: the smaller one, relative to the largest, has to be below a tenth
+    /// of the root of the tolerance.
     ///
     /// # Errors
-    /// [`Error::Length`] when `f` is not as long as a column of `A`, [`Error::NotFinite`] for a NaN or an infinity,
-    /// [`Error::Setting`] for a setting out of range, and [`Error::NotTreated`] when memory does not suffice.
+    /// [`Error::Length`] if `f` is not as long as a column of `A`, [`Error::NotFinite`] for a NaN or an infinity,
+    /// [`Error::Setting`] for a setting out of range, and [`Error::NotTreated`] if memory does not suffice.
     ///
     /// ```
     /// use faer::sparse::{SparseColMat, Triplet};

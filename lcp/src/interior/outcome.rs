@@ -13,7 +13,7 @@ use crate::vector::{ROUNDING, max_abs};
 
 /// The outcome of a program, in the units in which the program is given.
 pub(super) struct Outcome {
-    /// [`Status::Infeasible`] if `u` and `t` are a proof that there is no solution, as was confirmed.
+    /// [`Status::Infeasible`] if `u` and `t` are a confirmed proof that there is no solution.
     pub(super) status: Status,
     /// The residual of the point, from the data.
     pub(super) residual: f64,
@@ -24,11 +24,11 @@ pub(super) struct Outcome {
 }
 
 impl Program {
-    /// Solves the program, or ends as soon as `is_proof` says that `u` and `t` prove that it has no solution. `stop` is asked
-    /// before every step, with the residual.
+    /// Solves the program, or ends as soon as `is_proof` confirms that `u` and `t` prove that it has no solution.
+    /// `stop` is called before every step, with the residual.
     ///
     /// # Errors
-    /// That memory does not suffice.
+    /// If memory does not suffice.
     pub(super) fn solve(
         self,
         accuracy: Accuracy,
@@ -68,7 +68,7 @@ impl Program {
 }
 
 impl End {
-    /// A solution, with what is left of its balance distributed if accuracy is that of forces.
+    /// A solution, with the residual of its balance distributed if only the accuracy of forces is wanted.
     fn balanced(self, program: &Program, factors: &ProgramFactors, accuracy: Accuracy) -> Self {
         let (Status::Solved, Accuracy::OfForces(tolerance)) = (self.status, accuracy) else {
             return self;
@@ -78,8 +78,8 @@ impl End {
         if is_solution { Self { at: balanced.at, ..self } } else { self }
     }
 
-    /// Whether the point is a solution whose forces balance the loads to more than their own last digits: without a solution
-    /// forces grow until these do.
+    /// Whether the point is a solution whose forces balance the loads to more than their own last digits: forces of a
+    /// problem without a solution grow until only their last digits balance the loads.
     fn balances(&self, program: &Program, accuracy: Accuracy) -> bool {
         let now = Homogeneous::new(program, self.at.clone());
         let (defect, load, tolerance) = (now.defect(), max_abs(&program.f), accuracy.tolerance());
@@ -88,8 +88,8 @@ impl End {
     }
 }
 
-/// A solution of a program without stiffness whose forces balance its loads to the last digit of every row, by those of the
-/// springs of the last step: displacements of these change forces so that products of pairs stay.
+/// A solution of a program without stiffness whose forces balance its loads to the last digit of every row. The forces
+/// are corrected by displacements of the springs of the last step, so that products of pairs stay.
 fn balanced(program: &Program, factors: &ProgramFactors, at: &Variables) -> Variables {
     let lack = |t: &[f64]| {
         let mut rest = program.f.clone();
@@ -98,7 +98,7 @@ fn balanced(program: &Program, factors: &ProgramFactors, at: &Variables) -> Vari
     };
     let mut at = at.clone();
     let mut rest = lack(&at.t);
-    // The largest may grow by rounding only, while the others are corrected.
+    // The largest residual may grow by rounding only, while the others are corrected.
     let most = max_abs(&rest).max(ROUNDING * max_abs(&at.t));
     for _ in 0..BALANCINGS {
         factors.gram.solve(&mut rest);

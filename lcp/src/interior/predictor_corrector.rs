@@ -1,4 +1,4 @@
-//! One step of the interior-point iteration: predictor, correctors, and what to do when they get nowhere.
+//! One step of the interior-point iteration: predictor, correctors, and the alternatives to steps without progress.
 
 use super::constants::{
     CENTRAL, FRACTION_TO_BOUNDARY, IS_CENTRAL, LEAST_AIM, MIXTURES, SHORT, SHORTER,
@@ -32,11 +32,11 @@ impl<'a> PredictorCorrector<'a> {
         Self { system, at, defect, predictor }
     }
 
-    /// One step of Mehrotra's method (1992) with Gondzio's correctors (1996), which costs one factorisation.
-    /// The problem is not monotone with friction: where the step is short, the best mixture of predictor and
-    /// centring takes its place, and where the path turns back, a step along it. A step that makes
-    /// the product of a pair much smaller than the mean is shortened, down to the root of [`HALF_DIGITS`]. Gives the
-    /// new point, and the step that leads there.
+    /// One step of Mehrotra's method (1992) with Gondzio's correctors (1996), which costs one factorisation. The
+    /// problem is not monotone if there is friction: a short step is replaced by the best mixture of predictor and
+    /// centring, and by a step along the path if the path turns back. A step that makes the product of a pair much
+    /// smaller than the mean is shortened, down to the root of [`HALF_DIGITS`]. Returns the new point, and the step
+    /// that leads there.
     pub(super) fn advance(&self) -> (Iterate, Step) {
         let Self { system, at, predictor, .. } = self;
         let Direction { step, alpha, kind } =
@@ -46,7 +46,7 @@ impl<'a> PredictorCorrector<'a> {
         (next, Step { kind, length, mean_product })
     }
 
-    /// A step that makes the products smaller, or one along the path if that is too short.
+    /// A step that makes the products smaller, or a step along the path if that step is too short.
     fn forwards(&self) -> Direction {
         let Self { system, at, defect, predictor } = self;
         let mean = at.mean_product();
@@ -79,7 +79,7 @@ fn within(at: &Iterate, step: &Iterate, mut alpha: f64) -> (Iterate, f64) {
     (next, alpha)
 }
 
-/// The mixture that reduces the products most, or centring alone where none reduces them much.
+/// The mixture that reduces the products most, or centring alone if no mixture reduces them much.
 fn mixture(at: &Iterate, predictor: &Iterate, centring: Iterate) -> Direction {
     let reduction = |share: f64| (1.0 - share) * at.longest(&predictor.mixed(&centring, share));
     let tried = MIXTURES.map(|share| (reduction(share), share));

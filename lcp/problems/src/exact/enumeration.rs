@@ -19,7 +19,7 @@ pub struct EnumerationSettings {
     pub max_order: usize,
     /// Largest number of vertices and rays, over all faces.
     pub max_generators: usize,
-    /// Wall-clock time; `None` is unlimited. The result has the solutions found until then.
+    /// Wall-clock time; `None` sets no limit. The result has the solutions found until then.
     pub time_limit: Option<Duration>,
 }
 
