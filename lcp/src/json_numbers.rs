@@ -1,5 +1,5 @@
-//! Numbers in files: what is infinite is `null` there, which the methods write for a residual that is out of
-//! range and for a bound that does not exist, and reads back as it was.
+//! Numbers in files: an infinite number, which is a residual out of range or a bound that does not exist, is
+//! written as `null` and read back as infinite.
 
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
@@ -7,7 +7,7 @@ fn finite(value: f64) -> Option<f64> {
     value.is_finite().then_some(value)
 }
 
-/// `null` is infinity.
+/// Serialises infinity as `null`.
 pub(crate) mod infinity {
     use super::{Deserialize, Deserializer, Serialize, Serializer, finite};
 
@@ -21,7 +21,7 @@ pub(crate) mod infinity {
     }
 }
 
-/// `null` is minus infinity.
+/// Serialises minus infinity as `null`.
 pub(crate) mod minus_infinity {
     pub(crate) use super::infinity::serialize;
     use super::{Deserialize, Deserializer};
@@ -31,7 +31,7 @@ pub(crate) mod minus_infinity {
     }
 }
 
-/// Every `null` of a list is infinity.
+/// Serialises every infinity of a list as `null`.
 pub(crate) mod infinities {
     use super::{Deserialize, Deserializer, Serializer, finite};
 

@@ -1,4 +1,4 @@
-//! Lemke's method on the general form: records of its pivots, and solutions along a line of right-hand sides.
+//! Lemke's method on the general form, records of its pivots, and solutions along a line of right-hand sides.
 
 mod artificial;
 mod basis_matrix;
@@ -42,27 +42,28 @@ use crate::{Error, HorizontalLcp, LemkeSettings, Method, Solution};
 ///
 /// A nonsingular complementary basis, given or found, turns the problem into `w + T z = q`, which is equilibrated by
 /// powers of two. The artificial variable `z0` enters with the covering vector `d`, and complementary pivots follow
-/// until it leaves. In ties `z0` leaves first; otherwise the lexicographic rule decides. The tableau is checked
-/// against the data in every block of pivots and rebuilt if it has drifted. The equations of the final basis are
-/// solved with the original matrices and refined. The status is [`Solved`](crate::Status::Solved) only if the
-/// residuals, computed from the original data, are below the tolerance. A free variable (a pair of opposite columns)
-/// is basic from the start and never leaves.
+/// until it leaves. In ties `z0` leaves first; otherwise the lexicographic rule decides. The tableau is checked against
+/// the data in every block of pivots and rebuilt if it has drifted. The equations of the final basis are solved with
+/// the original matrices and refined. The status is [`Solved`](crate::Status::Solved) only if the residuals, computed
+/// from the original data, are below the tolerance. A free variable (a pair of opposite columns) is basic from the
+/// start and never leaves.
 ///
 /// # Guarantee
-/// In exact arithmetic it finds a solution, or a proof that there is none, for copositive-plus `M` (for example
-/// positive semidefinite `M`) in the standard form. For other classes the path may end on a secondary ray although a
-/// solution exists. Then other covering vectors and start bases are tried, and every attempt is recorded in [`Info::attempts`](crate::Info::attempts). After the last one the status is
-/// [`Infeasible`](crate::Status::Infeasible), with a proof, or [`RayTermination`](crate::Status::RayTermination),
-/// which is none.
+/// The method in exact arithmetic finds a solution, or a proof that there is none, for copositive-plus `M` (for example
+/// positive semidefinite `M`) in the standard form. The path for other classes may end on a secondary ray although a
+/// solution exists. Other covering vectors and start bases are then tried, and every attempt is recorded in
+/// [`Info::attempts`](crate::Info::attempts). After the last attempt the status is
+/// [`Infeasible`](crate::Status::Infeasible), with a proof, or [`RayTermination`](crate::Status::RayTermination), which
+/// proves nothing.
 ///
 /// # Cost
 /// The memory is about five dense matrices of order `n` at the peak; a pivot costs about `100 n` flops and its share
 /// of a blocked matrix product, `2 n^2` flops.
 ///
 /// If both matrices are sparse ([`HorizontalLcp::is_sparse`]), no dense matrix of order `n` is formed. The memory is
-/// that of the LU factors of a basis and some vectors. A pivot costs three solves with them, more if rows tie, and
-/// its share of a factorisation. One exception: if no complementary basis is found otherwise, one is searched with
-/// dense matrices up to order 2000; beyond that a start basis should be given ([`LemkeSettings::start`]).
+/// that of the LU factors of a basis and some vectors. A pivot costs three solves with these factors, more if rows tie,
+/// and its share of a factorisation. One exception: if no complementary basis is found otherwise, one is searched with
+/// dense matrices up to order 2000; larger problems should be given a start basis ([`LemkeSettings::start`]).
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Lemke {
     settings: LemkeSettings,
@@ -83,8 +84,9 @@ impl Lemke {
     /// needs the attempt and the order.
     ///
     /// # Errors
-    /// For settings out of range, and [`Error::NotTreated`] for dense problems that need more memory than there is.
-    /// Mathematical outcomes are in [`Solution::status`].
+    /// [`Error::Setting`], [`Error::Length`] or [`Error::NotFinite`] for settings out of range, and
+    /// [`Error::NotTreated`] for dense problems that need more memory than there is. Mathematical outcomes are in
+    /// [`Solution::status`].
     pub fn solve_with_progress(
         &self,
         problem: &HorizontalLcp,
@@ -103,7 +105,7 @@ impl Lemke {
     }
 }
 
-/// Refuses orders of dense problems for which the system has not the memory, before it is taken.
+/// Refuses, before it is allocated, a dense problem of an order for which memory does not suffice.
 fn check_memory(order: usize) -> Result<(), Error> {
     let entries = order.checked_mul(order).and_then(|square| square.checked_mul(MATRICES));
     let mut trial: Vec<f64> = Vec::new();
@@ -122,7 +124,7 @@ fn check_memory(order: usize) -> Result<(), Error> {
 mod tests {
     use super::*;
 
-    /// Three million unknowns: five dense matrices of them are more than any memory.
+    /// Five dense matrices of three million unknowns need more than any memory.
     #[test]
     fn an_order_beyond_the_memory_is_refused() {
         let message = check_memory(3_000_000).map_err(|error| error.to_string());

@@ -27,8 +27,8 @@
 //!
 //! # A time step
 //!
-//! The unknowns are velocities and the forces are impulses if the mass matrix takes the place of the stiffness. Within a
-//! step `h` a point may at most close its gap, `gap / h + v_n >= 0`. A block falls on the floor and slides until it
+//! The unknowns are velocities and the forces are impulses if the mass matrix takes the place of the stiffness. A point
+//! may at most close its gap within a step `h`: `gap / h + v_n >= 0`. A block falls on the floor and slides until it
 //! stops:
 //!
 //! ```
@@ -97,12 +97,12 @@
 //!
 //! # Solutions
 //!
-//! A [`Solution`] has the point, its [`Status`], its [`Residuals`] from the original data, its complementary
-//! [`Basis`] if the method has one, and the cost ([`Info`]). If there is no solution, it has the
-//! proof. Any point or basis is a [`WarmStart`] for any method that can use it.
-//! [`Lcp::error_bound`] bounds the distance of a point of a monotone problem from the solution, and [`refine`]
-//! computes states of contacts in double-double arithmetic. [`Solution::into_result`] makes an error of every end without
-//! a solution, and [`Solver::solve_all`] solves many problems on all cores.
+//! A [`Solution`] has the point, its [`Status`], its [`Residuals`] from the original data, its complementary [`Basis`]
+//! if the method has one, and the cost ([`Info`]). If there is no solution, it has the proof. Any point or basis is a
+//! [`WarmStart`] for any method that can use it. [`Lcp::error_bound`] bounds the distance of a point of a monotone
+//! problem from the solution, and [`refine`] computes states of contacts in double-double arithmetic.
+//! [`Solution::into_result`] returns an error for every status except `Solved`, and [`Solver::solve_all`] solves many
+//! problems on all cores.
 //!
 //! A status is a mathematical outcome; an [`Error`] is a mistake in the input. The status is
 //! [`Status::Solved`] only after the residuals were computed from the given data. All tolerances are relative to that
@@ -116,9 +116,9 @@
 //! | `nalgebra` | problems from matrices of `nalgebra` |
 //! | `serde` | problems, settings and results that can be written and read back |
 //!
-//! The crate `lcp-problems` reads problems from files, makes problems whose solutions are known, finds all solutions of small ones in
-//! rational arithmetic, and has the command `lcp`. The
-//! guides `docs/lcp.md` and `docs/methods.md` of the repository say which method to use when, and how each works.
+//! The crate `lcp-problems` reads problems from files, makes problems whose solutions are known, finds all solutions of
+//! small ones in rational arithmetic, and has the command `lcp`. The guides `docs/lcp.md` and `docs/methods.md` of the
+//! repository describe the methods and their use.
 
 mod active;
 mod auto;
@@ -197,7 +197,7 @@ pub use vector::Vector;
 #[doc = include_str!("../README.md")]
 struct ReadmeDoctest;
 
-/// The programs of the guide, likewise, page by page.
+/// The programs of the guide are compiled and run likewise, page by page.
 #[cfg(all(doctest, feature = "clarabel"))]
 mod guide {
     #[doc = include_str!("../../docs/lcp/problems.md")]

@@ -11,8 +11,8 @@ pub(crate) use column::{Column, add_image, column_of, diagonal};
 
 use crate::Error;
 
-/// Relative error up to which entries, and products with a computed vector, are taken for exact. Chosen: the rounding
-/// errors of whoever computed them.
+/// Relative error up to which entries, and products with a computed vector, count as exact. Chosen: the rounding errors
+/// in computed data.
 pub(crate) const DATA_ROUNDING: f64 = 1e-12;
 
 /// A matrix of a problem, dense or sparse.
@@ -102,7 +102,7 @@ impl Matrix {
         Ok(Mat::from_fn(rows.len(), expected, |i, j| rows[i].as_ref()[j]).into())
     }
 
-    /// A square matrix from entries `(row, column, value)`, which add up where they coincide.
+    /// A square matrix from entries `(row, column, value)`; entries at the same place are added.
     pub(crate) fn assembled(
         n: usize,
         is_sparse: bool,
@@ -116,7 +116,7 @@ impl Matrix {
         dense.into()
     }
 
-    /// A sparse matrix from entries `(row, column, value)`, which add up where they coincide.
+    /// A sparse matrix from entries `(row, column, value)`; entries at the same place are added.
     pub(crate) fn from_entries(
         rows: usize,
         cols: usize,
@@ -159,7 +159,7 @@ impl Matrix {
     /// The stored entries `(row, value)` of column `j`, rows in ascending order.
     ///
     /// # Panics
-    /// If there is no such column.
+    /// If the matrix has no column `j`.
     pub fn column(&self, j: usize) -> impl Iterator<Item = (usize, f64)> + '_ {
         self.slice(j).entries()
     }
@@ -188,8 +188,8 @@ impl Matrix {
         Self::from_entries(m.nrows(), m.ncols(), entries).into_sparse()
     }
 
-    /// That a square matrix is symmetric to rounding, measured by the roots of its diagonal entries, as
-    /// fits one that is positive semidefinite.
+    /// Checks that a square matrix is symmetric up to rounding, relative to the roots of its diagonal entries, as is
+    /// suitable for a positive semidefinite matrix.
     pub(crate) fn check_symmetric(&self, what: &'static str) -> Result<(), Error> {
         match self.asymmetry(|_, _| 1.0) {
             None => Ok(()),
@@ -200,7 +200,8 @@ impl Matrix {
         }
     }
 
-    /// The first entry of a square matrix that is not its mirror image, up to rounding and with a sign by row and column.
+    /// The first entry of a square matrix that differs from its mirror image, up to rounding and with a sign by row and
+    /// column.
     pub(crate) fn asymmetry(&self, sign: impl Fn(usize, usize) -> f64) -> Option<(usize, usize)> {
         let size: Vec<f64> = (0..self.ncols()).map(|i| self[(i, i)].abs().sqrt()).collect();
         (0..self.ncols()).find_map(|j| {
@@ -211,8 +212,8 @@ impl Matrix {
         })
     }
 
-    /// Whether an entry `v` of a square matrix is like its mirror image, and whether it is like the opposite of that, up to
-    /// rounding; an entry of the size of rounding is both.
+    /// Whether an entry `v` of a square matrix equals its mirror image, and whether it equals the opposite of its
+    /// mirror image, up to rounding; an entry of the size of rounding errors equals both.
     pub(crate) fn likeness(&self, i: usize, j: usize, v: f64) -> [bool; 2] {
         let size = self[(i, i)].abs().sqrt() * self[(j, j)].abs().sqrt();
         [1.0, -1.0].map(|sign| are_alike(v, sign * self[(j, i)], size))
@@ -240,7 +241,7 @@ impl Matrix {
         }
     }
 
-    /// That the matrix is `rows` by `cols` and has finite entries, which add up to finite sums.
+    /// Checks that the matrix is `rows` by `cols` and has finite entries, which add up to finite sums.
     pub(crate) fn check(&self, what: &'static str, rows: usize, cols: usize) -> Result<(), Error> {
         if self.nrows() != rows || self.ncols() != cols {
             return Err(Error::Shape {
@@ -262,7 +263,7 @@ impl Matrix {
     }
 }
 
-/// That sums of sizes, row by row, are within the range of numbers.
+/// Checks that sums of sizes, row by row, are within the range of numbers.
 pub(crate) fn check_sums(what: &'static str, sums: &[f64]) -> Result<(), Error> {
     match sums.iter().position(|sum| !sum.is_finite()) {
         Some(row) => Err(Error::Overflow { what, row }),
@@ -332,7 +333,8 @@ where
     }
 }
 
-/// Whether entries on both sides of the diagonal differ by rounding errors of their own size, or of that of the diagonal.
+/// Whether entries on both sides of the diagonal differ by rounding errors of their own size, or of the size of the
+/// diagonal.
 fn are_alike(v: f64, mirrored: f64, size: f64) -> bool {
     (v - mirrored).abs() <= DATA_ROUNDING * v.abs().max(mirrored.abs()).max(size)
 }

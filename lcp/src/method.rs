@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-/// A method of the library. In text and files it has a short name.
+/// A method of the library, with a short name in text and files.
 ///
 /// ```
 /// use lcp::Method;
@@ -39,7 +39,7 @@ pub enum Method {
 }
 
 impl Method {
-    /// All of them.
+    /// All methods.
     pub const ALL: [Self; 7] = [
         Self::Auto,
         Self::Lemke,

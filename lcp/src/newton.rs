@@ -31,15 +31,15 @@ pub(crate) use system::{FreePoint, System, is_z_matrix};
     serde(default, deny_unknown_fields)
 )]
 pub struct SemismoothNewtonSettings {
-    /// Largest residual, dimensionless, of a solution with status `Solved`. In `(0, 1)`. It counts only where signs cannot be
-    /// told from rounding errors: else the method ends when all are right.
+    /// Largest residual, dimensionless, of a solution with status `Solved`. In `(0, 1)`. Used only if signs cannot be
+    /// distinguished from rounding errors: else the method ends when all signs are right.
     pub tolerance: f64,
     /// Limit on steps: exchanges of pairs between the sets, each followed by a factorisation.
     pub max_iterations: usize,
-    /// Wall-clock time, checked before every step; `None` is no limit.
+    /// Wall-clock time, checked before every step; `None` sets no limit.
     pub time_limit: Option<Duration>,
-    /// The `z` that are free at the start: those that are basic. If the matrix of the free ones is singular, the
-    /// method uses its own start.
+    /// The start, whose basic `z` are free at first. If the matrix of the free `z` is singular, the method uses its own
+    /// start.
     pub start: WarmStart,
 }
 
@@ -62,18 +62,17 @@ impl SemismoothNewtonSettings {
 
 /// The primal-dual active set method for `w = M z + q`, `z >= 0`, `w >= 0`, `z.w = 0`.
 ///
-/// In every pair one variable is zero. The method solves `M_FF z_F = -q_F` for the free `z`, computes the other `w`,
-/// and exchanges all pairs whose variable is negative, until there is none. This is Newton's method for
-/// `min(z, w) = 0`, which ends with the exact solution after finitely many steps. A symmetric positive definite
-/// `M_FF` is factorised by Cholesky's method, any other one by LU, dense or sparse like `M`. Solves are followed by
-/// iterative refinement.
+/// One variable of every pair is zero. The method solves `M_FF z_F = -q_F` for the free `z`, computes the other `w`,
+/// and exchanges all pairs whose variable is negative, until there is none. This is Newton's method for `min(z, w) =
+/// 0`, which ends with the exact solution after finitely many steps. A symmetric positive definite `M_FF` is factorised
+/// by Cholesky's method, any other one by LU, dense or sparse like `M`. Solves are followed by iterative refinement.
 ///
 /// While the number of negative variables does not decrease, fewer pairs are exchanged, down to single ones, until that number
 /// reaches a new minimum (Júdice and Pires 1994, after Murty 1974).
 ///
 /// * M-matrices (obstacle problems, no positive off-diagonal entry): converges from every start, monotonically after
-///   the first step (Hintermüller, Ito and Kunisch 2003). From a start that is off by some layers of a grid it takes
-///   about as many steps; `families::Obstacle` of the crate `lcp-problems` gives good starts by nested grids.
+///   the first step (Hintermüller, Ito and Kunisch 2003). The number of steps is about the number of layers of a grid
+///   by which a start is wrong; `families::Obstacle` of the crate `lcp-problems` gives good starts by nested grids.
 /// * Other matrices without positive off-diagonal entries: solves whenever the problem is feasible, if necessary by a
 ///   restart from the pairs with `q < 0` (Chandrasekaran 1970).
 /// * P-matrices (for example positive definite ones): the safeguard makes it finite; in the worst case exponentially
@@ -81,8 +80,8 @@ impl SemismoothNewtonSettings {
 /// * Others with a positive diagonal: often solves, without a guarantee. Otherwise the status is
 ///   [`Cycling`](Status::Cycling), [`Stalled`](Status::Stalled) if every next matrix is singular, or one of the
 ///   limits.
-/// * Refused: a diagonal entry that is not positive, and a general problem that is not a standard one in another form
-///   ([`HorizontalLcp::to_standard`]).
+/// * Refused: a diagonal entry that is not positive, and a general problem that cannot be converted to the standard
+///   form ([`HorizontalLcp::to_standard`]).
 ///
 /// # Cost
 /// A step costs one factorisation of `M_FF`. Without a start the first free set has all pairs if `M` has no positive
@@ -109,7 +108,7 @@ pub struct SemismoothNewton {
 named!(SemismoothNewton, SemismoothNewtonSettings, Method::Newton);
 
 impl SemismoothNewton {
-    /// The status if the residuals of the point, the best that was met, are not small.
+    /// The best point found, and the status if its residuals are not small.
     fn run(
         &self,
         lcp: &Lcp,
@@ -122,7 +121,7 @@ impl SemismoothNewton {
         if !is_stuck || !system.is_z_matrix || best.residual <= self.settings.tolerance {
             return (status, best);
         }
-        // The one start that solves every feasible problem with such a matrix.
+        // The only start that solves every feasible problem with such a matrix.
         match system.point(lcp, pushed(lcp)) {
             Some(point) => {
                 let (status, again) = self.iterate(lcp, system, point, monitor);
@@ -154,12 +153,12 @@ impl SemismoothNewton {
             }
             let is_within = best.residual <= self.settings.tolerance;
             let count = match exchanges.next(point.hash, point.violated.len()) {
-                // The signs that are left cannot be told from rounding errors.
+                // The remaining signs cannot be distinguished from rounding errors.
                 Next::Fewer(_) | Next::Cycle if is_within => return (Status::Stalled, best),
                 Next::Exchange(count) | Next::Fewer(count) => count,
                 Next::Cycle => return (Status::Cycling, best),
             };
-            // Where all of them make the matrix singular, fewer may not.
+            // If the exchange of all pairs makes the matrix singular, the exchange of fewer may not.
             let counts = std::iter::successors(Some(count), |count| Some(count / 2));
             let mut points = counts.take_while(|count| *count > 0);
             match points.find_map(|count| system.exchanged(lcp, &point, count)) {

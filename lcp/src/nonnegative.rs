@@ -2,9 +2,9 @@
 //!
 //! `min |sum x_j a_j - c|` over `x >= 0` by the active set method of Lawson and Hanson (*Solving Least
 //! Squares Problems*, 1974, chapter 23). The columns with `x_j > 0` are independent throughout, whatever
-//! the rank of all, and every step lowers the residual, so that it ends. At the minimum the residual
-//! `r = c - sum x_j a_j` has `r . a_j <= 0` for all columns and `r . c = |r|^2`: where it is not zero, it
-//! proves that `c` is no nonnegative combination of the columns.
+//! the rank of all, and every step lowers the residual, so that the method ends. The residual `r = c -
+//! sum x_j a_j` at the minimum has `r . a_j <= 0` for all columns and `r . c = |r|^2`: a nonzero `r`
+//! proves that `c` is not a nonnegative combination of the columns.
 
 use std::cell::Cell;
 
@@ -13,16 +13,16 @@ use web_time::Instant;
 use crate::extended::{Extended, extended};
 use crate::solve::is_over;
 
-/// Rounding of sums in [`Extended`], relative to the sizes of what they come from.
+/// Rounding of sums in [`Extended`], relative to the sizes of their terms.
 const ROUNDING: f64 = f64::EPSILON * f64::EPSILON * 256.0;
-/// Steps for each column.
+/// Largest number of steps, for each column.
 const STEPS: usize = 10;
 
 /// Columns and right-hand side, near one in size.
 pub(crate) struct LeastSquares {
     pub(crate) columns: Vec<Vec<f64>>,
     pub(crate) right: Vec<f64>,
-    /// Columns that were made orthogonal to others so far, which is what the work is proportional to.
+    /// Number of columns made orthogonal to others so far, a measure of the work.
     pub(crate) exchanges: Cell<usize>,
     deadline: Option<Instant>,
 }
@@ -41,7 +41,7 @@ impl LeastSquares {
     }
 
     /// The minimum over the allowed columns, from nonnegative values that are zero for the others. `None`
-    /// where rounding errors keep it from ending, or the time is over first.
+    /// if rounding errors prevent its end, or the time limit is reached first.
     pub(crate) fn solve(&self, is_allowed: &[bool], start: &[Extended]) -> Option<Minimum> {
         let mut x = start.to_vec();
         let mut passive = Passive::default();
@@ -63,8 +63,8 @@ impl LeastSquares {
         passive.add(j, &self.columns[j])
     }
 
-    /// To the minimum over the passive columns without a bound, or as far as all values stay
-    /// nonnegative; those that reach zero are passive no more. Gives the residual.
+    /// Moves to the minimum over the passive columns without a bound, or as far as all values stay
+    /// nonnegative; columns whose values reach zero leave the passive set. Returns the residual.
     fn descend(&self, passive: &mut Passive, x: &mut [Extended]) -> Vec<Extended> {
         loop {
             let target = self.minimum_of(passive);
@@ -86,7 +86,8 @@ impl LeastSquares {
         }
     }
 
-    /// The columns with positive values, where these depend on each other as many as are independent.
+    /// Makes the columns with positive values passive, or a largest independent set of them if they
+    /// depend on each other.
     fn take(&self, passive: &mut Passive, x: &mut [Extended]) {
         *passive = Passive::default();
         for (j, x) in x.iter_mut().enumerate() {
@@ -96,7 +97,7 @@ impl LeastSquares {
         }
     }
 
-    /// The column that lowers the residual the most, by its angle with it.
+    /// The column that lowers the residual the most, by its angle with the residual.
     fn entering(
         &self,
         is_allowed: &[bool],
@@ -178,19 +179,19 @@ fn finite(step: Extended) -> Extended {
     if step.rounded().is_finite() { step } else { Extended::ZERO }
 }
 
-/// The columns with positive values: `a = sum r_k q_k` with orthogonal `q_k`, not normed (Gram and
+/// The columns with positive values: `a = sum r_k q_k` with orthogonal `q_k`, not normalised (Gram and
 /// Schmidt, each column twice).
 #[derive(Default)]
 struct Passive {
     columns: Vec<usize>,
     orthogonal: Vec<Vec<Extended>>,
     squares: Vec<Extended>,
-    /// The factors that every column has of the `q_k` before its own.
+    /// The factors of every column for the `q_k` before its own.
     factors: Vec<Vec<Extended>>,
 }
 
 impl Passive {
-    /// Says no where the column depends on the others.
+    /// Adds a column; `false` if the column depends on the others.
     fn add(&mut self, j: usize, column: &[f64]) -> bool {
         let mut rest = extended(column);
         let whole = dot(&rest, &rest);
@@ -211,7 +212,7 @@ impl Passive {
         true
     }
 
-    /// The parts along the `q_k`, which are taken away.
+    /// Subtracts the parts along the `q_k`, and returns their factors.
     fn project(&self, rest: &mut [Extended]) -> Vec<Extended> {
         let basis = self.orthogonal.iter().zip(&self.squares);
         basis
@@ -262,7 +263,7 @@ mod tests {
         assert_eq!(minimum(&axes, &[-2.0, -3.0]), (vec![0.0, 0.0], vec![-2.0, -3.0]));
     }
 
-    /// Equal, opposite and zero columns do not disturb it.
+    /// Equal, opposite and zero columns do not disturb the method.
     #[test]
     fn columns_may_depend_on_each_other() {
         let columns: [&[f64]; 5] =

@@ -4,8 +4,8 @@ use std::num::NonZero;
 use std::sync::{Mutex, PoisonError};
 use std::thread::{self, Builder};
 
-/// Does the work for every item. Items are taken in their order, by as many threads as the process may use cores; results
-/// must not depend on which of them does what.
+/// Does the work for every item. Items are taken in their order, by as many threads as the process may use cores;
+/// results must not depend on the thread that does the work.
 pub(crate) fn for_each<T: Send>(items: impl IntoIterator<Item = T>, work: impl Fn(T) + Sync) {
     let items: Vec<T> = items.into_iter().collect();
     let cores = thread::available_parallelism().map_or(1, NonZero::get);
@@ -19,7 +19,7 @@ pub(crate) fn for_each<T: Send>(items: impl IntoIterator<Item = T>, work: impl F
     };
     thread::scope(|scope| {
         for _ in 1..threads {
-            // Without another thread this one does all.
+            // The present thread does all the work if no other can be started.
             let _ = Builder::new().spawn_scoped(scope, run);
         }
         run();

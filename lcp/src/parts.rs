@@ -16,7 +16,7 @@ impl Parts {
         self.count <= 1
     }
 
-    /// The element that stands for the part of another.
+    /// The element that represents the part of another.
     pub(crate) fn of(&mut self, mut i: usize) -> usize {
         while self.parent[i] != i {
             self.parent[i] = self.parent[self.parent[i]];
@@ -25,7 +25,7 @@ impl Parts {
         i
     }
 
-    /// Makes one part of those of two elements; the one with the lower number stands for it.
+    /// Joins the parts of two elements; the element with the lower number represents the result.
     pub(crate) fn join(&mut self, i: usize, j: usize) {
         let (i, j) = (self.of(i), self.of(j));
         if i != j {

@@ -21,30 +21,30 @@ use crate::{Error, Info, Method, Observer, Residuals, Solution, Status, WarmStar
 /// Projected Gauss-Seidel, with over-relaxation: for `w = M z + q` with bounds on `z`, and for contact
 /// with friction.
 ///
-/// A sweep solves each row in turn for its own variable and projects it onto its bounds,
-/// `z_i <- mid(lower_i, z_i - omega w_i / M_ii, upper_i)`, where `w_i` uses the newest `z`. For a contact with
-/// friction the normal and the tangential row are solved together, as an exact 2 x 2 problem with Coulomb's law:
-/// open, sticking, or sliding to either side. If none of these applies, which requires a coefficient of friction
-/// above `W_NN / |W_NT|` or an indefinite block, the normal force is corrected first, then the tangential one.
-/// Over-relaxation divides the diagonal block by `omega`, so that forces within the cone stay there.
+/// A sweep solves each row in turn for its own variable and projects the variable onto its bounds, `z_i <- mid(lower_i,
+/// z_i - omega w_i / M_ii, upper_i)`, with `w_i` from the newest `z`. The normal and the tangential row of a contact
+/// with friction are solved together, as an exact 2 x 2 problem with Coulomb's law: open, sticking, or sliding to
+/// either side. If none of these states applies, which requires a coefficient of friction above `W_NN / |W_NT|` or an
+/// indefinite block, the normal force is corrected first, then the tangential one. Over-relaxation divides the diagonal
+/// block by `omega`, so that forces within the cone stay there.
 ///
-/// The point `z` with the part of `w` that its bounds allow is always feasible and complementary, so all of the error is in the
-/// equation; for [`Contact2d`](crate::Contact2d) it is in the gaps and slips of the displacements that follow from the forces.
-/// The best point is returned.
+/// The point `z` with the part of `w` that its bounds allow is always feasible and complementary, so all of the error
+/// is in the equation; for [`Contact2d`](crate::Contact2d) the error is in the gaps and slips of the displacements that
+/// follow from the forces. The best point is returned.
 ///
 /// # Problems
 /// [`Lcp`](crate::Lcp); [`BoxedLcp`](crate::BoxedLcp) in the pairs of its general form;
-/// [`HorizontalLcp`](crate::HorizontalLcp) where [`to_standard`](crate::HorizontalLcp::to_standard)
-/// applies; [`Friction2d`](crate::Friction2d) by contacts; [`Contact2d`](crate::Contact2d) with positive definite
-/// `K`, by contacts, on the matrix `C K^-1 C^T`, which is not formed; and any type that has [`Rows`], by
+/// [`HorizontalLcp`](crate::HorizontalLcp) if [`to_standard`](crate::HorizontalLcp::to_standard) applies;
+/// [`Friction2d`](crate::Friction2d) by contacts; [`Contact2d`](crate::Contact2d) with positive definite `K`, by
+/// contacts, on the matrix `C K^-1 C^T`, which is not formed; and any type that has [`Rows`], by
 /// [`solve_rows`](Self::solve_rows). All relaxed rows must have positive diagonal entries, else the result is
 /// [`Error::NotTreated`].
 ///
 /// # Guarantee
-/// The method converges linearly, if diagonals are positive, for symmetric positive definite `M` with `omega` in
-/// `(0, 2)`, and for strictly diagonally dominant `M` with `omega` in `(0, 1]` (Cryer 1971; Cottle, Pang and Stone
-/// 1992, section 5.2). For symmetric positive semidefinite `M` it converges if there is a solution (Luo and Tseng
-/// 1991). This holds for contact without friction.
+/// The method converges linearly, if diagonals are positive, for symmetric positive definite `M` with `omega` in `(0,
+/// 2)`, and for strictly diagonally dominant `M` with `omega` in `(0, 1]` (Cryer 1971; Cottle, Pang and Stone 1992,
+/// section 5.2). It converges for symmetric positive semidefinite `M` if there is a solution (Luo and Tseng 1991).
+/// These results hold for contact without friction.
 ///
 /// # Failure
 /// There is no guarantee with friction, nor for skew or indefinite parts: the iteration may cycle or diverge, and end
@@ -78,7 +78,7 @@ pub struct ProjectedGaussSeidel {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct RowsSolution {
-    /// How the iteration ended.
+    /// The status of the iteration at its end.
     pub status: Status,
     /// The point. It satisfies the constraints exactly.
     pub z: Vec<f64>,
@@ -99,9 +99,9 @@ impl ProjectedGaussSeidel {
     /// have a point to start from, its `t` is `z`.
     ///
     /// # Errors
-    /// [`Error::Length`] where `q` or the constraints do not fit, [`Error::Bounds`] or [`Error::Setting`]
-    /// for a constraint that nothing meets, [`Error::NotTreated`] for a row without a positive diagonal entry, and
-    /// errors of the settings.
+    /// [`Error::Length`] if `q` or the constraints have a wrong length, [`Error::Bounds`] or [`Error::Setting`] for a
+    /// constraint that no value meets, [`Error::NotTreated`] for a row without a positive diagonal entry, and errors of
+    /// the settings.
     pub fn solve_rows<R: Rows + ?Sized>(
         &self,
         rows: &mut R,
@@ -140,7 +140,7 @@ impl ProjectedGaussSeidel {
         )
     }
 
-    /// The `z` to start from, of the point `(t, y)` of the settings, which are checked for so many pairs.
+    /// The start `z`, from the point `(t, y)` of the settings, which are checked for this number of pairs.
     fn start(
         &self,
         pairs: usize,

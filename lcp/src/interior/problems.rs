@@ -22,9 +22,10 @@ impl Solver<Contact2d> for InteriorPoint {
 
 /// The solution is that of [`MixedLcp::to_general`].
 ///
-/// Convex programs have steps of their own, if the crossover is switched off and the bounded variables act on the free ones
-/// only, as forces do on bodies: a step factorises a matrix with the order of the free ones, and a homogeneous problem ends
-/// at a solution or at a Farkas vector, [`Status::Infeasible`](crate::Status::Infeasible) (Andersen and Ye 1999).
+/// Convex programs have steps of their own, if the crossover is switched off and the bounded variables act on the free
+/// ones only, as forces do on bodies: a step factorises a matrix with the order of the free ones, and a homogeneous
+/// problem ends at a solution or at a Farkas vector, [`Status::Infeasible`](crate::Status::Infeasible) (Andersen and Ye
+/// 1999).
 impl Solver<MixedLcp> for InteriorPoint {
     fn solve_pairs(
         &self,
@@ -42,7 +43,7 @@ impl Solver<MixedLcp> for InteriorPoint {
 
 impl InteriorPoint {
     /// Follows the path, and pivots from its end if the loads are balanced but no vertex nearby has consistent states:
-    /// the matrices of the path do not show which variables are basic in rows that have only rounding errors.
+    /// the matrices of the path do not show the basic variables of rows that have only rounding errors.
     fn to_vertex(
         &self,
         problem: &MixedLcp,
@@ -112,7 +113,7 @@ impl Solver<HorizontalLcp> for InteriorPoint {
     }
 }
 
-/// In mixed form, by the distances from bounds.
+/// The problem is solved in mixed form, by the distances from bounds.
 impl Solver<BoxedLcp> for InteriorPoint {
     fn solve_pairs(
         &self,

@@ -33,7 +33,8 @@ impl Units {
 }
 
 impl Program {
-    /// Forces of least size along these columns that balance the loads `f` on the free variables, beside stiffness.
+    /// Forces of least size along these columns that, together with the stiffness, balance the loads `f` on the
+    /// free variables.
     pub(super) fn of_least_forces(
         k: SparseColMat<usize, f64>,
         f: Vec<f64>,
@@ -43,7 +44,7 @@ impl Program {
         Self { k, f, a, x_0: vec![0.0; count], compliance: vec![1.0; count] }
     }
 
-    /// The program with variables of order one, and the units of these.
+    /// The program with variables of order one, and their units.
     pub(super) fn scaled(mut self) -> (Self, Units) {
         let mut largest = vec![0.0_f64; self.f.len()];
         for entry in self.a.triplet_iter() {
@@ -98,7 +99,7 @@ impl Program {
 /// The matrix of the steps of a program: order, pattern and factors.
 pub(super) struct ProgramFactors {
     pub(super) gram: Gram,
-    /// The springs in the place of the pairs that the factors are of.
+    /// The springs of these factors, which replace the pairs.
     pub(super) stiffness: Vec<f64>,
     pub(super) factorisations: usize,
 }
@@ -109,7 +110,7 @@ impl ProgramFactors {
         Ok(Self { gram, stiffness: Vec::new(), factorisations: 0 })
     }
 
-    /// `None` where numbers overflow.
+    /// Factorises for these springs; `None` if numbers overflow.
     pub(super) fn factorise(
         &mut self,
         program: &Program,
@@ -124,7 +125,7 @@ impl ProgramFactors {
     }
 }
 
-/// A proof with zeros for what hardly moves beside the rest: rounding errors would contradict each other.
+/// A proof with zeros for parts that hardly move beside the rest: rounding errors would contradict each other.
 pub(super) fn without_noise(mut v: Vec<f64>) -> Vec<f64> {
     let noise = SMALL * max_abs(&v);
     v.iter_mut().filter(|v| v.abs() <= noise).for_each(|v| *v = 0.0);

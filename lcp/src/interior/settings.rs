@@ -16,21 +16,23 @@ use crate::{Error, WarmStart};
 pub struct InteriorPointSettings {
     /// Largest residual, dimensionless, of an answer called `Solved`. In `(0, 1)`.
     pub tolerance: f64,
-    /// Steps, each with one factorisation. The systems of the crossover come on top.
+    /// Largest number of steps, each with one factorisation. The systems of the crossover are additional.
     pub max_iterations: usize,
-    /// Multiples of the largest gap by which a start is opened: one attempt for each, when the one before has jammed. From
-    /// wide starts easy problems take half as many steps again, but hard ones jam less often. At least one, none negative.
+    /// Multiples of the largest gap by which a start is opened: one attempt for each, when the one before has jammed.
+    /// Easy problems take half as many steps again from wide starts, but hard ones jam less often. At least one, none
+    /// negative.
     pub openings: Vec<f64>,
-    /// Wall-clock time, looked at before every step; `None` is no limit.
+    /// Wall-clock time, checked before every step; `None` sets no limit.
     pub time_limit: Option<Duration>,
-    /// A point or a basis, of the pairs of the general form, that may be the solution of a similar
-    /// problem: before the first step the states of its contacts are tried.
+    /// A point or a basis, of the pairs of the general form, that may be the solution of a similar problem: the states
+    /// of its contacts are tried before the first step.
     pub start: WarmStart,
-    /// Whether the exact point on the boundary is looked for. Without it the answer is a point inside,
-    /// which has no basis, and accuracy ends where Newton's method loses its digits, at about 1e-9. A [`MixedLcp`](crate::MixedLcp)
-    /// of a convex program is then solved by the homogeneous problem, which needs no start, no openings, and proves by itself.
+    /// Whether the exact point on the boundary is searched. Without the crossover the answer is an interior point,
+    /// which has no basis, and accuracy ends when Newton's method loses its digits, at about 1e-9. A
+    /// [`MixedLcp`](crate::MixedLcp) of a convex program is then solved by the homogeneous problem, which needs neither
+    /// start nor openings and gives proofs by itself.
     pub crossover: bool,
-    /// Whether it is asked, if the method jams on bodies in contact, if any forces balance the loads at all.
+    /// Whether to test, if the method jams on bodies in contact, that any forces balance the loads at all.
     pub prove_infeasible: bool,
 }
 

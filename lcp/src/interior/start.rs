@@ -1,4 +1,4 @@
-//! Where the iteration starts, and how it finds out how far bodies move.
+//! The start of the iteration, and its adaptation to the distances that bodies move.
 
 use super::constants::{WIDE_ENOUGH, WIDENING};
 use super::iterate::{Iterate, Pairs};
@@ -22,7 +22,7 @@ pub(super) fn start(problem: &Scaled, condensed: &mut Condensed) -> Iterate {
         point.add_forces(-springs.nn * point.x_0, -springs.tt * point.s_0, &mut u);
     }
     condensed.solve(&mut u);
-    // A compliant contact has a smaller gap than its spring predicts, by its force times its compliance.
+    // The gap of a compliant contact is smaller than its spring predicts, by its force times its compliance.
     let gaps = problem.points.iter().zip(&springs);
     let gaps: Vec<f64> = gaps.map(|(point, springs)| springs.nn * point.gap(&u, 0.0)).collect();
     let mean = gaps.iter().map(|g| g.abs()).sum::<f64>() / gaps.len().max(1) as f64;
@@ -44,12 +44,12 @@ pub(super) fn start(problem: &Scaled, condensed: &mut Condensed) -> Iterate {
     Iterate { points: points.collect(), u }
 }
 
-/// The first step, from a start that is opened first if need be.
+/// The first step, from a start that is opened first if necessary.
 ///
 /// A start has the deformations of bodies, but not the bending of slender ones and the rotations of loose ones. Its
-/// gaps are too small for these if the predictor, with the forces of the start, changes them by more than twice their
-/// mean. Forces or the problem are at fault if wider gaps do not halve the change: with any smaller decrease, the path
-/// of a rigid wedge that is pulled out jams.
+/// gaps are too small for these motions if the predictor, with the forces of the start, changes them by more than
+/// twice their mean. Forces or the problem are at fault if wider gaps do not halve the change: the path of a rigid
+/// wedge that is pulled out jams if a smaller decrease is accepted.
 pub(super) fn set_out(
     problem: &Scaled,
     condensed: &mut Condensed,
@@ -80,7 +80,7 @@ mod tests {
     use super::*;
     use crate::{Contact2d, ContactPoint};
 
-    /// The error of products decreases by the part of a step that is taken, up to its square.
+    /// A step decreases the error of products by the part of it that is taken, up to the square of that part.
     #[test]
     fn newtons_step_is_exact_to_first_order() {
         let mut builder = Contact2d::builder([[2.0, 0.5], [0.5, 1.0]], vec![-1.0, 0.7]);

@@ -2,13 +2,13 @@
 
 use super::constants::{CENTRAL, CORRECTORS, LONG_ENOUGH, LONGER};
 
-/// The largest step, at most one, that leaves numbers positive that change.
+/// The largest step, at most one, that leaves the changing numbers positive.
 pub(super) fn longest(numbers: impl Iterator<Item = (f64, f64)>) -> f64 {
     numbers.filter(|(_, change)| *change < 0.0).map(|(v, change)| -v / change).fold(1.0, f64::min)
 }
 
-/// A step with its length, made longer by correctors of centrality (Gondzio 1996), each of which costs a solve. It gets the
-/// step and the part of it at which products are looked at, and gives the corrected step.
+/// A step with its length, made longer by correctors of centrality (Gondzio 1996), each of which costs a solve. The
+/// corrector gets the step and the part of it at which products are evaluated, and returns the corrected step.
 pub(super) fn lengthened<S>(
     mut step: S,
     longest: impl Fn(&S) -> f64,

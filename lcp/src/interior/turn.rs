@@ -1,4 +1,4 @@
-//! Where the central path turns back.
+//! Turns of the central path.
 
 use super::constants::{ARC_FRACTIONS, LONG};
 use super::iterate::{Direction, Iterate};

@@ -1,4 +1,4 @@
-//! The variables of the homogeneous problem of a convex program, inside their bounds, and where they start.
+//! The variables of the homogeneous problem of a convex program, inside their bounds, and their start.
 
 use super::constants::START_SHIFT;
 use super::program::{Program, ProgramFactors};
@@ -11,7 +11,7 @@ pub(super) struct Variables {
     pub(super) u: Vec<f64>,
     pub(super) t: Vec<f64>,
     pub(super) y: Vec<f64>,
-    /// The pair that tells a solution from a proof that there is none.
+    /// The pair that distinguishes a solution from a proof that there is none.
     pub(super) tau: f64,
     pub(super) kappa: f64,
 }
@@ -26,13 +26,14 @@ impl Variables {
         let forces = stiffness.iter().zip(&program.x_0).map(|(stiffness, x)| -stiffness * x);
         program.add_forces(&forces.collect::<Vec<f64>>(), &mut u);
         factors.gram.solve(&mut u);
-        // Less than the gap by what the force presses together, which is the force of a spring of stiffness one.
+        // The gap is reduced by the compression under the force, which is the force of a spring of stiffness
+        // one.
         let mut gaps = program.opened(&u);
         for ((gap, x), stiffness) in gaps.iter_mut().zip(&program.x_0).zip(stiffness) {
             *gap = stiffness * (*gap + x);
         }
         let mean = gaps.iter().map(|g| g.abs()).sum::<f64>() / gaps.len().max(1) as f64;
-        // Contacts that pull cannot stay: the larger the pull, the farther the solution.
+        // Contacts that pull cannot remain: the larger the pull, the farther the solution.
         let pull = gaps.iter().fold(0.0, |max, gap| gap.max(max));
         let shift = mean.max(START_SHIFT * pull);
         let shift = if shift > 0.0 && shift.is_finite() { shift } else { 1.0 };
@@ -76,7 +77,7 @@ impl Variables {
         longest(pairs.map(|(v, change)| (*v, *change)))
     }
 
-    /// The solution that the point may be near to.
+    /// The solution near the point, if there is one.
     pub(super) fn solution(mut self) -> Self {
         let by = 1.0 / self.tau.max(f64::MIN_POSITIVE);
         let Self { u, t, y, .. } = &mut self;

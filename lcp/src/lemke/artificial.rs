@@ -1,9 +1,10 @@
-//! Problems without a nonsingular complementary basis: artificial columns, only where they are needed.
+//! Problems without a nonsingular complementary basis: artificial columns, only for the pairs that
+//! need them.
 //!
-//! For a pair none of whose columns reaches outside the span of those chosen for the others, one of
-//! its variables is set to zero, and its column is replaced by an artificial one that completes the
-//! basis. A solution in which all artificial variables are zero solves the problem as given, which
-//! the residuals of the original data decide.
+//! A pair may have no column that reaches outside the span of the columns chosen for the other pairs.
+//! One of its variables is then set to zero, and the column of that variable is replaced by an
+//! artificial one that completes the basis. A solution with all artificial variables zero solves the
+//! problem as given, as the residuals of the original data decide.
 
 use super::feasibility::in_problem_rows;
 use super::finish::BasicPoint;
@@ -12,7 +13,7 @@ use crate::certify::is_proof;
 use crate::vector::{SMALL, max_abs};
 use crate::{Basis, HorizontalLcp, Matrix, Side, Solution};
 
-/// The problem in which the missing pairs have an artificial column instead of that of `side`.
+/// The problem in which the column `side` of each missing pair is replaced by an artificial one.
 pub(super) fn completed(
     problem: &Equilibrated<'_>,
     chosen: &[Option<Side>],
@@ -58,8 +59,8 @@ pub(super) fn without_artificial(
     })
 }
 
-/// Where no column at all reaches outside the span of those chosen, but `c` does: the part of `c`
-/// outside is a Farkas vector.
+/// A checked Farkas vector if no column at all reaches outside the span of those chosen, but `c` does:
+/// the part of `c` outside.
 pub(super) fn part_outside(problem: &Equilibrated<'_>, complement: &Matrix) -> Option<Vec<f64>> {
     let right = problem.right_hand_side();
     let mut outside = vec![0.0; right.len()];

@@ -15,8 +15,8 @@ pub(super) enum BasisMatrix {
     Sparse { columns: Columns, lu: SparseLu },
 }
 
-/// Columns with one entry only, as all those of `y` in the standard form, are solved by substitution;
-/// only the others are factorised.
+/// Columns with one entry only, such as all those of `y` in the standard form, are solved by
+/// substitution; only the others are factorised.
 pub(super) struct Bordered {
     singles: Vec<Single>,
     /// Positions of the other columns, which fill the rows that are left.
@@ -34,13 +34,13 @@ struct Single {
 }
 
 impl BasisMatrix {
-    /// `None` when the matrix is singular to working precision.
+    /// The factorised matrix of a basis; `None` if it is singular to working precision.
     pub(super) fn new(problem: &Equilibrated<'_>, basis: &Basis) -> Option<Self> {
         let columns: Vec<_> = basis.sides().iter().copied().enumerate().map(Some).collect();
         Self::from_columns(problem, &columns)
     }
 
-    /// The matrix of any columns, one per row; `None` is the right-hand side.
+    /// The matrix of any columns, one per row; a column `None` is the right-hand side.
     pub(super) fn from_columns(
         problem: &Equilibrated<'_>,
         columns: &[Option<(usize, Side)>],
@@ -74,7 +74,7 @@ impl BasisMatrix {
         }
     }
 
-    /// Calls with `(position, row, entry)` for all entries.
+    /// Calls `f` with `(position, row, entry)` for all entries.
     fn for_each(&self, mut f: impl FnMut(usize, usize, f64)) {
         match self {
             Self::Dense(it) => it.for_each(&mut f),
@@ -105,7 +105,7 @@ impl BasisMatrix {
         high.iter().zip(&error).map(|(high, error)| high + error).collect()
     }
 
-    /// Row `position` of the inverse, refined, without the rounding errors in place of zeros.
+    /// Row `position` of the inverse, refined, with zeros in place of rounding errors.
     pub(super) fn inverse_row(&self, position: usize) -> Vec<f64> {
         let n = self.order();
         let mut y = vec![0.0; n];
@@ -119,7 +119,7 @@ impl BasisMatrix {
         });
         self.solve_transpose(&mut step);
         let errors = sampled(&sizes, |sample| self.solve_transpose(sample));
-        // Numbers this small are zero, whatever the sampled errors.
+        // Numbers of this size are zero, whatever the sampled errors.
         let least = f64::EPSILON * f64::EPSILON * max_abs(&y);
         let refined = y.iter().zip(&step).map(|(y, step)| y + step);
         refined
@@ -215,7 +215,7 @@ impl Bordered {
 }
 
 /// Solutions for random right-hand sides of rounding size: the largest of each entry. Sizes are random
-/// too, since signs alone cancel now and then.
+/// too, since errors that differ only in sign cancel now and then.
 fn sampled(sizes: &[f64], solve: impl Fn(&mut [f64])) -> Vec<f64> {
     let mut errors = vec![0.0_f64; sizes.len()];
     for seed in 0..SAMPLES {

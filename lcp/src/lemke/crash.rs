@@ -1,8 +1,9 @@
 //! Start bases: one column of every pair, together nonsingular.
 //!
 //! Sparse columns are offered to a factorisation that refuses those that depend on the ones before: first those of the
-//! preferred sides, then the others of the pairs that have none yet. If pairs stay without a column, the sides of a
-//! structural matching are tried in the same way. Dense ones are chosen by pivoted QR factorisations, then by exchanges.
+//! preferred sides, then the others of the pairs that have none yet. If pairs remain without a column, the sides of a
+//! structural matching are tried in the same way. Dense columns are chosen by pivoted QR factorisations, then by
+//! exchanges.
 
 mod matching;
 
@@ -21,14 +22,14 @@ use crate::solve::is_over;
 use crate::vector::max_abs;
 use crate::{Basis, Matrix, Side};
 
-/// As many independent columns as there are, at most one of every pair.
+/// A largest set of independent columns, at most one of every pair.
 pub(super) enum Crash {
-    /// One of every pair.
+    /// One column of every pair.
     Complete(Basis),
-    /// Pairs without a column, as many as there are columns that complete the chosen ones: an
-    /// orthonormal basis of what these leave out, or unit columns.
+    /// Pairs without a column, as many as there are columns that complete the chosen ones: an orthonormal basis of the
+    /// complement of their span, or unit columns.
     Partial { chosen: Vec<Option<Side>>, complement: Box<Matrix> },
-    /// The time was over first.
+    /// The time limit was reached first.
     Late,
 }
 
@@ -74,8 +75,8 @@ pub(super) fn find_basis(
     }
 }
 
-/// The basis that the structure of the problem offers, as slack variables do: of every pair a column with
-/// a single entry, all in different rows.
+/// The basis given by the structure of the problem, as by slack variables: a column with a single entry of every pair,
+/// all in different rows.
 fn single_entries(problem: &Equilibrated<'_>, preferred: &[Side]) -> Option<Basis> {
     let mut singles = Columns::default();
     for (pair, side) in both_sides(preferred) {
@@ -94,8 +95,8 @@ fn both_sides(preferred: &[Side]) -> impl Iterator<Item = (usize, Side)> + '_ {
     own.clone().chain(own.map(|(pair, side)| (pair, side.complement())))
 }
 
-/// As many independent columns, completed by unit columns, as are found from the preferred sides, all `t`, or the sides
-/// of a matching.
+/// A largest set of independent columns, completed by unit columns, among those found from the preferred sides, all
+/// `t`, or the sides of a matching.
 fn grown(problem: &Equilibrated<'_>, preferred: &[Side], deadline: Option<Instant>) -> Crash {
     let n = preferred.len();
     let all_t = vec![Side::T; n];
@@ -159,8 +160,8 @@ fn independent(
     (sides, missing.into_iter().map(|(_, row)| row).collect())
 }
 
-/// A basis whose determinant no exchange of a single pair makes larger: those found by independence
-/// alone may be so poor that every path from them ends on a ray.
+/// A basis whose determinant is not enlarged by the exchange of any single pair: bases found by independence alone may
+/// be so poor that every path from them ends on a ray.
 fn enlarged(problem: &Equilibrated<'_>, basis: Basis, deadline: Option<Instant>) -> Basis {
     let n = problem.order();
     let zeros = vec![0.0; n];
@@ -213,9 +214,9 @@ impl CrashExchanges<'_> {
         self.problem.columns(&picked)
     }
 
-    /// As many independent columns as two pivoted QR factorisations find, first among the preferred
-    /// sides, then among the other columns of the other pairs outside the span of the first, with an
-    /// orthonormal basis of what they leave out.
+    /// The independent columns that two pivoted QR factorisations find, first among the preferred sides, then among the
+    /// other columns of the other pairs outside the span of the first, with an orthonormal basis of the complement of
+    /// their span.
     fn independent_columns(&self) -> (Vec<Option<Side>>, Mat<f64>) {
         let n = self.preferred.len();
         let mut chosen = vec![None; n];
@@ -235,11 +236,10 @@ impl CrashExchanges<'_> {
         (chosen, complement * rest)
     }
 
-    /// Raises the number of pairs with a chosen column by one, through the shortest chain of
-    /// exchanges: a column of a free pair takes the place of one chosen before, whose complement
-    /// takes the next place, until one of them reaches outside the present span (an augmenting
-    /// path of the matroid intersection of independence and pairs; Edmonds 1970). None too where the time is
-    /// over.
+    /// Raises the number of pairs with a chosen column by one, through the shortest chain of exchanges: a column of a
+    /// free pair takes the place of one chosen before, whose complement takes the next place, until one of them reaches
+    /// outside the present span (an augmenting path of the matroid intersection of independence and pairs; Edmonds
+    /// 1970). `None` also if the time limit is reached.
     fn next(
         &self,
         chosen: &[Option<Side>],
@@ -258,7 +258,8 @@ impl CrashExchanges<'_> {
             x
         };
 
-        // Breadth first over columns (pair, side), each with the place in the queue of the one that it takes the place of.
+        // Breadth-first search over columns (pair, side), each with the position in the queue of the column that it
+        // replaces.
         let open = (0..n).filter(|&k| chosen[k].is_none());
         let both = |k: usize| [self.preferred[k], self.preferred[k].complement()].map(|it| (k, it));
         let mut queue: Vec<(usize, Side, Option<usize>)> =
@@ -293,9 +294,9 @@ impl CrashExchanges<'_> {
     }
 }
 
-/// Independent columns by QR with column pivoting, up to the numerical rank, and an orthonormal basis
-/// of the complement of their span. `reference` is the size of the data that `m` was computed from:
-/// a matrix of nothing but rounding errors has rank zero.
+/// Independent columns by QR with column pivoting, up to the numerical rank, and an orthonormal basis of the complement
+/// of their span. `reference` is the size of the data from which `m` was computed: a matrix of nothing but rounding
+/// errors has rank zero.
 fn pivot_columns(m: &Mat<f64>, reference: f64) -> (Vec<usize>, Mat<f64>) {
     let (rows, size) = (m.nrows(), m.nrows().min(m.ncols()));
     if size == 0 || m.norm_max() == 0.0 {

@@ -12,7 +12,7 @@ pub(super) struct Dense<'a> {
     covering: &'a [f64],
     q: &'a [f64],
     tableau: Tableau,
-    /// Column of every variable, where it is nonbasic.
+    /// Column of every nonbasic variable.
     col_of: Vec<usize>,
 }
 

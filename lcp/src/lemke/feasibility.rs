@@ -1,9 +1,9 @@
 //! Proof that there is no solution: `A t + B y = c` has none with `t >= 0` and `y >= 0`.
 //!
-//! By Farkas' lemma that is so exactly if some `pi` has `A^T pi <= 0`, `B^T pi <= 0` and
-//! `c.pi > 0`. It is found by the primal simplex method on `w + T z - d z0 = q`, which makes the
-//! artificial variable as small as it can be, without regard to complementarity. If that is zero, the
-//! system is feasible. If not, the multipliers of the last basis are the proof.
+//! Such a proof exists exactly if some `pi` has `A^T pi <= 0`, `B^T pi <= 0` and `c.pi > 0` (Farkas' lemma).
+//! The vector is found by the primal simplex method on `w + T z - d z0 = q`, which minimises the artificial
+//! variable without regard to complementarity. If its minimum is zero, the system is feasible. If not, the
+//! multipliers of the last basis are the proof.
 
 use super::basis_matrix::BasisMatrix;
 use super::constants::VANISHING;
@@ -35,7 +35,8 @@ pub(super) fn farkas_vector(
             break;
         }
         let Some(entering) = descending_variable(&path, row, n) else {
-            // Orthogonal to all basic columns except the artificial one, whose place the right-hand side takes.
+            // The vector is orthogonal to all basic columns except the artificial one, which the right-hand
+            // side replaces.
             let basis: Vec<_> = path.basic().map(|var| start.variable(var)).collect();
             let matrix = BasisMatrix::from_columns(problem, &basis);
             let pi = matrix.map(|matrix| in_problem_rows(problem, &matrix.inverse_row(row)));
@@ -65,7 +66,7 @@ fn descending_variable(path: &Path<'_>, row: usize, n: usize) -> Option<Var> {
     best.1.filter(|_| best.0 > VANISHING * largest)
 }
 
-/// From equilibrated rows, with a largest entry of one.
+/// A vector in the rows of the problem from one in equilibrated rows, with a largest entry of one.
 pub(super) fn in_problem_rows(problem: &Equilibrated<'_>, pi: &[f64]) -> Vec<f64> {
     in_units_of_largest(pi.iter().zip(&problem.row).map(|(pi, row)| pi * row))
 }

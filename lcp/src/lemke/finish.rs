@@ -1,4 +1,4 @@
-//! From a complementary basis to a point that the original data vouches for.
+//! The step from a complementary basis to a point that is verified by the original data.
 
 use super::basis_matrix::BasisMatrix;
 use super::start::Equilibrated;
@@ -13,7 +13,7 @@ pub(super) struct BasicPoint {
     pub(super) basis: Basis,
     pub(super) residuals: Residuals,
     pub(super) condition: f64,
-    /// The pairs whose basic variable is negative, and was set to zero.
+    /// The pairs whose basic variable is negative and was set to zero.
     pub(super) negative: Vec<usize>,
 }
 
@@ -27,7 +27,7 @@ impl BasicPoint {
 }
 
 /// Solves for the basic variables with the original columns, refines, and sets negative values to
-/// zero, which the residuals see where it is more than rounding.
+/// zero; the residuals show values that are more than rounding errors.
 pub(super) fn solve_basis(problem: &Equilibrated<'_>, basis: &Basis) -> Option<BasicPoint> {
     let matrix = BasisMatrix::new(problem, basis)?;
     let condition = matrix.condition();
@@ -57,7 +57,7 @@ pub(super) fn solve_basis(problem: &Equilibrated<'_>, basis: &Basis) -> Option<B
 fn refined(matrix: &BasisMatrix, right: &[f64]) -> Vec<f64> {
     let mut x = right.to_vec();
     matrix.solve(&mut x);
-    // What rounding to `f64` leaves out.
+    // The part that rounding to `f64` omits.
     let mut low = vec![0.0; x.len()];
     for _ in 0..REFINEMENTS {
         let mut step = matrix.residual(right, &x, &low);

@@ -1,17 +1,17 @@
-//! What a path needs of the linear algebra, dense or sparse.
+//! The linear algebra that a path needs, dense or sparse.
 
 /// A variable of a path: `w_k` is `k`, `z_k` is `n + k`, the artificial one `2 n`.
 pub(super) type Var = usize;
 
-/// The other variable of the pair, of `n` pairs.
+/// The other variable of the pair, for `n` pairs.
 pub(super) fn complement(var: Var, n: usize) -> Var {
     if var < n { var + n } else { var - n }
 }
 
 /// The columns of `w + T z - d z0 = q` in terms of the present basis.
 ///
-/// Start coordinates are those in which the data are held: for the dense kernel the basic variables
-/// of the start basis, for the sparse one the equilibrated rows of the problem.
+/// Start coordinates are the coordinates of the data: the basic variables of the start basis for the dense kernel,
+/// the equilibrated rows of the problem for the sparse one.
 pub(super) trait Kernel {
     /// `q` in start coordinates.
     fn right_hand_side(&self) -> &[f64];
@@ -22,30 +22,30 @@ pub(super) trait Kernel {
     /// The column of a nonbasic variable in the present basis.
     fn column(&mut self, var: Var, out: &mut [f64]);
 
-    /// The variable `entering` takes the place of `leaving` in `row`; `column` is its column, the last one asked for.
+    /// The variable `entering` takes the place of `leaving` in `row`; `column` is its column, the last one computed.
     fn exchange(&mut self, row: usize, entering: Var, leaving: Var, column: &[f64]);
 
-    /// A row of the inverse of the basis, as factors that [`entry`](Self::entry) understands.
+    /// A row of the inverse of the basis, as factors for [`entry`](Self::entry).
     fn row(&self, row: usize) -> Vec<f64>;
 
     /// The entry of a row with these factors in the column of a nonbasic variable.
     fn entry(&self, row: usize, factors: &[f64], var: Var) -> f64;
 
-    /// A vector that breaks ties as a small multiple of it on the right-hand side would, in terms of the
-    /// present basis and constant in start coordinates; only if rows cost much.
+    /// A vector that breaks ties as a small multiple of it on the right-hand side would, in terms of the present
+    /// basis and constant in start coordinates; only if rows are expensive.
     fn parting(&self) -> Option<Vec<f64>>;
 
-    /// Whether the exchanges held back should be dealt with.
+    /// Whether the exchanges held back should be applied.
     fn is_due(&self) -> bool;
 
-    /// Deals with the exchanges held back. `false` when that takes a new start.
+    /// Applies the exchanges held back. `false` if a rebuild is necessary.
     fn apply(&mut self) -> bool;
 
-    /// Starts anew from the start data with the given basis, whose values it computes. `false`, and
-    /// nothing changed, when the basis is singular.
+    /// Rebuilds from the start data with the given basis, whose values it computes. `false`, with nothing changed, if
+    /// the basis is singular.
     fn rebuild(&mut self, basic: &[Var], values: &mut [f64]) -> bool;
 
-    /// Deals with what is due, if anything is. `false` when the basis is singular.
+    /// Applies exchanges if they are due. `false` if the basis is singular.
     fn tidy(&mut self, basic: &[Var], values: &mut [f64]) -> bool {
         !self.is_due() || self.apply() || self.rebuild(basic, values)
     }

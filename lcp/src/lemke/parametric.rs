@@ -1,8 +1,8 @@
 //! The parametric problem, traced from breakpoint to breakpoint.
 //!
-//! This is the path of Lemke's method with the parameter in place of the artificial variable: the basis at the start
-//! solves the problem, the parameter enters, and then the complement of each leaving variable. Between two pivots all
-//! variables, and the parameter, are linear in the entering one.
+//! The path is that of Lemke's method with the parameter in place of the artificial variable: the basis at the start
+//! solves the problem, the parameter enters, and then the complement of each leaving variable. All variables, and the
+//! parameter, are linear in the entering one between two pivots.
 
 mod outcome;
 
@@ -61,12 +61,11 @@ impl Parametric {
         &self.settings
     }
 
-    /// Traces from `lambda = from` to `to`, which may be smaller, or infinite. `problem` holds `A`,
-    /// `B` and `c0`.
+    /// Traces from `lambda = from` to `to`, which may be smaller, or infinite. `problem` has `A`, `B` and `c0`.
     ///
     /// # Errors
-    /// For settings out of range, a `c1` that does not fit or is not finite, a `from` that is not
-    /// finite or a `to` that is not a number.
+    /// An error for settings out of range, a `c1` that has a wrong length or is not finite, a `from` that is not finite
+    /// or a `to` that is not a number.
     pub fn trace(
         &self,
         problem: &HorizontalLcp,
@@ -170,7 +169,7 @@ impl Tracer<'_> {
             let is_back = speed < 0.0;
             let goal = if is_back { self.from } else { self.to };
             let reach = ((goal - self.from) / self.unit - path.value(parameter)) / speed;
-            // A step that ends on the first value may go on from there.
+            // A path whose step ends on the first value may go on from there.
             let is_last = if is_back { reach < step } else { reach <= step && reach.is_finite() };
             if !is_last && row.is_none() {
                 out.bases.push(self.basis(&path, entering));
@@ -178,7 +177,7 @@ impl Tracer<'_> {
                 return ParametricEnd::Ray;
             }
             let step = if is_last { reach } else { step };
-            // Rows within this window count as tied, so that a step within it parts a tie.
+            // Rows within this window count as tied, so that a step within the window separates a tie.
             if step * max_abs(&column) > TIE_WINDOW * path.scale || is_last && out.bases.is_empty()
             {
                 let along = path.moved(&path.values, entering, step, &column);
@@ -201,8 +200,8 @@ impl Tracer<'_> {
         }
     }
 
-    /// Adds the point with these values of all variables of the path, if the original data vouch for it. `lambda`
-    /// replaces the value of the path where it is known.
+    /// Adds the point with these values of all variables of the path, if it is verified by the original data. `lambda`
+    /// replaces the value of the path if it is known.
     fn note(&self, along: &[f64], lambda: Option<f64>, out: &mut ParametricPath) -> bool {
         let point = self.point(along, lambda);
         let residual = self.residual(&point);
@@ -214,8 +213,8 @@ impl Tracer<'_> {
         is_right
     }
 
-    /// A point. A solution that vanishes must not be measured by its own rounding errors: values that are small against
-    /// the path's are zero.
+    /// A point. A vanishing solution must not be measured by its own rounding errors: values that are small against
+    /// those of the path are zero.
     fn point(&self, along: &[f64], lambda: Option<f64>) -> Breakpoint {
         let parameter = along[along.len() - 1];
         let zero = SMALL * (1.0 + parameter.abs());
@@ -255,7 +254,7 @@ impl Tracer<'_> {
     }
 }
 
-/// `c0 + lambda c1`, where what cancels up to rounding is zero.
+/// `c0 + lambda c1`, with zero for terms that cancel up to rounding.
 fn right_hand_side(problem: &HorizontalLcp, c1: &[f64], lambda: f64) -> Vec<f64> {
     let terms = problem.c().iter().zip(c1).map(|(c0, c1)| (c0, lambda * c1));
     let sum = |(a, b): (&f64, f64)| {

@@ -15,8 +15,8 @@ use crate::random::SplitMix;
 use crate::vector::max_abs;
 use crate::{Ray, Side};
 
-/// Called before every pivot with the number of those done and the artificial variable
-/// ([`Path::artificial_left`]); may end the path.
+/// Called before every pivot with the number of pivots so far and the artificial variable ([`Path::artificial_left`]);
+/// may end the path.
 pub(super) type Limits<'a> = &'a mut dyn FnMut(usize, f64) -> Option<AttemptEnd>;
 
 pub(super) struct Path<'a> {
@@ -26,13 +26,13 @@ pub(super) struct Path<'a> {
     /// Values of the basic variables, row by row.
     pub(super) values: Vec<f64>,
     basic: Vec<Var>,
-    /// Row of every variable, where it is basic.
+    /// Row of every basic variable.
     pub(super) row_of: Vec<Option<usize>>,
     /// Whether the artificial variable is a parameter, which may have any value.
     pub(super) is_parametric: bool,
     /// First value of the artificial variable.
     pub(super) artificial_start: f64,
-    /// Size of the basic values, against which a tie is judged.
+    /// Size of the basic values, by which ties are judged.
     pub(super) scale: f64,
     pub(super) pivots: usize,
     pub(super) factorisations: usize,
@@ -41,14 +41,14 @@ pub(super) struct Path<'a> {
     visited: HashSet<u64>,
     signature: u64,
     column: Vec<f64>,
-    /// The variable that nothing blocked, at a ray.
+    /// The variable that nothing blocked, if the path ended on a ray.
     unblocked: Var,
     /// Pivots at the last rebuilding of the tableau.
     rebuilt_at: Option<usize>,
 }
 
 impl<'a> Path<'a> {
-    /// Rows of free variables have a covering of zero.
+    /// A path with this covering vector, which is zero in rows of free variables.
     pub(super) fn new(start: &'a Start, covering: &'a [f64]) -> Self {
         let n = start.q.len();
         Self {
@@ -100,20 +100,20 @@ impl<'a> Path<'a> {
         self.row_of[self.artificial()]
     }
 
-    /// The artificial variable relative to its first value: one until it is basic, and where there is none.
+    /// The artificial variable relative to its first value: one before it is basic, and on paths without it.
     pub(super) fn artificial_left(&self) -> f64 {
         self.artificial_row().map_or(1.0, |row| self.values[row] / self.artificial_start)
     }
 
-    /// Whether the basic variable of a row must not be negative. A free variable, once basic, stays.
+    /// Whether the basic variable of a row must not be negative. A free variable, once basic, remains basic.
     pub(super) fn is_bounded(&self, row: usize) -> bool {
         let n = self.order();
         let var = self.basic[row];
         if var == 2 * n { !self.is_parametric } else { !self.start.is_free(var % n) }
     }
 
-    /// Follows the path to its end. Without an artificial variable that of a pair, the driver, takes its place, and the
-    /// path ends when it, or its complement, leaves (Lemke and Howson 1964).
+    /// Follows the path to its end. A path without an artificial variable begins with a variable of a pair instead, the
+    /// driver, and ends when the driver, or its complement, leaves (Lemke and Howson 1964).
     pub(super) fn run(&mut self, driver: Option<usize>, limits: Limits<'_>) -> AttemptEnd {
         if let Some(end) = limits(self.pivots, self.artificial_left()) {
             return end;
@@ -129,8 +129,8 @@ impl<'a> Path<'a> {
         end
     }
 
-    /// Exchanges until no value is negative; gives the variable that follows. The driver, and those that follow it, must
-    /// lift every negative value without lowering others below zero, or there is no such path.
+    /// Exchanges until no value is negative; returns the variable that follows. The driver, and the variables that
+    /// follow it, must lift every negative value without lowering others below zero, else there is no such path.
     fn lift(
         &mut self,
         driver: Var,
@@ -166,7 +166,7 @@ impl<'a> Path<'a> {
 
     fn follow(&mut self, mut entering: Var, column: &mut [f64], limits: Limits<'_>) -> AttemptEnd {
         loop {
-            // The artificial variable has left, or one of a pair that was basic with both.
+            // The artificial variable has left, or a variable of the pair that was basic with both.
             if entering == self.artificial() || !self.is_nonbasic(entering) {
                 return AttemptEnd::Complementary;
             }
@@ -179,13 +179,13 @@ impl<'a> Path<'a> {
             self.kernel.column(entering, column);
             match self.leaving_row(column) {
                 Some(row) => {
-                    // The rule is deterministic: a basis that came back comes back for ever.
+                    // The rule is deterministic: a basis that recurs once recurs for ever.
                     if !self.is_new() {
                         return AttemptEnd::Cycle;
                     }
                     entering = self.exchange(row, entering, column);
                 }
-                // A ray may be drift: only a column that the data confirm counts.
+                // A ray may be drift: only a column that is confirmed by the data counts.
                 None if !self.has_drifted(entering) => return self.at_ray(entering, column),
                 None if self.is_rebuilt() => return AttemptEnd::Singular,
                 None if !self.rebuild() => return AttemptEnd::Singular,
@@ -194,8 +194,8 @@ impl<'a> Path<'a> {
         }
     }
 
-    /// The first pivot: the artificial variable enters. Returns the variable that follows, or `None`
-    /// where the start basis is already the solution.
+    /// Makes the first pivot: the artificial variable enters. Returns the variable that follows, or `None` if the start
+    /// basis is already the solution.
     pub(super) fn enter_artificial(&mut self, column: &mut [f64]) -> Option<Var> {
         let first = self.first_row()?;
         self.kernel.column(self.artificial(), column);
@@ -203,8 +203,8 @@ impl<'a> Path<'a> {
         Some(self.exchange(first, self.artificial(), column))
     }
 
-    /// The row that the artificial variable takes: the most negative value for its covering, the
-    /// last of equal ones, which keeps the rows lexicographically positive.
+    /// The row that the artificial variable takes: the most negative value relative to its covering, the last of equal
+    /// ones, which keeps the rows lexicographically positive.
     fn first_row(&self) -> Option<usize> {
         let mut worst = None;
         let mut ratio = 0.0;
@@ -245,8 +245,8 @@ impl<'a> Path<'a> {
         if leaving == self.artificial() { leaving } else { complement(leaving, self.order()) }
     }
 
-    /// A column that nothing blocks is a ray only when the artificial variable is not already
-    /// zero: then the basis solves the problem, and it leaves on its own row.
+    /// The ending at a column that nothing blocks: a ray only if the artificial variable is not already zero. If it is
+    /// zero, the basis solves the problem, and the artificial variable leaves on its own row.
     fn at_ray(&mut self, entering: Var, column: &[f64]) -> AttemptEnd {
         if let Some(row) = self.artificial_row()
             && self.values[row] <= VANISHING * self.artificial_start
@@ -288,7 +288,7 @@ impl<'a> Path<'a> {
         self.moved(&vec![0.0; self.order()], entering, 1.0, column)
     }
 
-    /// Values of all variables after a step of the entering one, given its column, from these of the basic ones.
+    /// Values of all variables after a step of the entering one, given its column, from these values of the basic ones.
     pub(super) fn moved(
         &self,
         values: &[f64],
@@ -305,12 +305,12 @@ impl<'a> Path<'a> {
         moved
     }
 
-    /// Remembers the present basis; `false` if it was met before.
+    /// Records the present basis; `false` if it occurred before.
     pub(super) fn is_new(&mut self) -> bool {
         self.visited.insert(self.signature)
     }
 
-    /// Deals with the exchanges held back, and starts anew where the result has drifted.
+    /// Applies the exchanges held back, and rebuilds if the result has drifted.
     pub(super) fn tidy(&mut self) -> bool {
         let nonbasic = (0..=2 * self.order()).filter(|&var| self.is_nonbasic(var));
         let probe = nonbasic.cycle().nth(self.pivots % (self.order() + 1));
@@ -342,7 +342,7 @@ impl<'a> Path<'a> {
         for (&var, &factor) in self.basic.iter().zip(&sum).filter(|(_, factor)| **factor != 0.0) {
             self.kernel.add_start_column(var, factor, &mut residual);
         }
-        // Written so that a NaN has drifted.
+        // The negation makes a NaN count as drift.
         !residual.iter().all(|r| r.abs() <= VANISHING * size)
     }
 }

@@ -34,7 +34,7 @@ impl Named for Lemke {
     }
 }
 
-/// On the general form of the problem, and judged by the problem itself.
+/// Solves the general form of the problem; the answer is judged by the problem itself.
 impl<P: Converted> Solver<P> for Lemke {
     fn solve_pairs(&self, problem: &P, observer: &mut Observer<'_>) -> Result<Solution, Error> {
         solve_in_general_form(problem, self.settings().tolerance, |general, is_other| {
@@ -49,9 +49,9 @@ impl<P: Converted> Solver<P> for Lemke {
     }
 }
 
-/// On the mixed problem of [`Contact2d::to_mixed`], to which a given covering vector belongs. Without a start
-/// the path begins from open contacts, with the displacements that they leave free. The answer has neither a
-/// basis nor a ray, which would belong to the mixed problem.
+/// Solves the mixed problem of [`Contact2d::to_mixed`], to which a given covering vector belongs. Without a
+/// start the path begins from open contacts, with the displacements that they leave free. The answer has
+/// neither a basis nor a ray, which would belong to the mixed problem.
 impl Solver<Contact2d> for Lemke {
     fn solve_pairs(
         &self,
@@ -62,7 +62,7 @@ impl Solver<Contact2d> for Lemke {
         if let Some(closed) = without_rounding(problem) {
             let mut solution = self.solve_contact(&closed, observer)?;
             if let Some(state) = solution.contact.take_if(|_| solution.status == Status::Solved) {
-                // Gaps and slips are those of the given data.
+                // Gaps and slips follow from the given data.
                 let state = problem.state(state.u, state.t_n, state.t_t);
                 (solution.t, solution.y) = problem.to_pairs(&state);
                 solution.judge_again(problem.residuals(&state), self.settings().tolerance);
@@ -81,8 +81,8 @@ impl Solver<Contact2d> for Lemke {
     }
 }
 
-/// The problem with gaps and slips of zero in the place of rounding errors, if there are any: closed contacts
-/// contradict each other by rounding errors, so that no basis is quite right.
+/// The problem with gaps and slips of zero in place of rounding errors, if there are any: closed contacts
+/// contradict each other by rounding errors, so that no basis is exactly right.
 fn without_rounding(problem: &Contact2d) -> Option<Contact2d> {
     let points = Scaled::of_contact(problem).points;
     let mut has_any = false;
@@ -112,8 +112,8 @@ impl Lemke {
         settings.covering = self.settings().covering.clone();
         settings.start = problem.mixed_start(&mixed, &settings.start);
         if settings.start == WarmStart::None {
-            // From there the problem is copositive, if `K` is regular; from a basis with contact forces
-            // it is not, and a path may end on a ray.
+            // The problem is copositive from this basis, if `K` is regular; it is not from a basis with
+            // contact forces, and a path may end on a ray.
             settings.start = WarmStart::Basis(Basis::all(Side::Y, mixed.order()));
         }
         let mut solution = Self::new(settings).solve_iterating(&mixed.to_general(), observer)?;
@@ -122,7 +122,7 @@ impl Lemke {
         solution.judge_again(problem.residuals(&state), self.settings().tolerance);
         (solution.t, solution.y) = problem.to_pairs(&state);
         solution.contact = Some(state);
-        // These belong to the pairs of the mixed problem.
+        // The basis and the ray belong to the pairs of the mixed problem.
         solution.basis = None;
         solution.certificate =
             solution.farkas().map(|pi| Certificate::Farkas { pi: problem.farkas_of_mixed(pi) });

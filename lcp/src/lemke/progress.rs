@@ -1,6 +1,6 @@
-//! How far the pivots have come.
+//! The progress of the pivots.
 
-/// How far a solve of [`Lemke`](crate::Lemke) has come, for an observer.
+/// The progress of a solve of [`Lemke`](crate::Lemke), for an observer.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct Progress {
@@ -11,6 +11,6 @@ pub struct Progress {
     /// Order of the problem.
     pub order: usize,
     /// Value of the artificial variable, relative to its first one: 1 before it enters, and in attempts in which
-    /// the variable of a pair takes its place.
+    /// the variable of a pair replaces it.
     pub artificial: f64,
 }

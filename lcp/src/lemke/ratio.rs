@@ -1,13 +1,13 @@
-//! The ratio test: which basic variable leaves.
+//! The ratio test, which determines the leaving variable.
 
 use super::constants::{TIE_WINDOW, VANISHING};
 use super::path::Path;
 use crate::vector::{HALF_DIGITS, SMALL, max_abs};
 
 impl Path<'_> {
-    /// The row that leaves, or `None` when nothing blocks the entering variable. In two passes: the
-    /// longest step that brings no variable below zero by more than the window, then among the rows that block within
-    /// it those with sound pivots.
+    /// The row that leaves, or `None` if nothing blocks the entering variable. There are two passes: the longest step
+    /// that brings no variable below zero by more than the window, then among the rows that block within this step
+    /// those with sound pivots.
     pub(super) fn leaving_row(&self, column: &[f64]) -> Option<usize> {
         let smallest_pivot = (VANISHING * max_abs(column)).max(SMALL);
         let blocks = |&i: &usize| column[i] > smallest_pivot && self.is_bounded(i);
@@ -39,17 +39,17 @@ impl Path<'_> {
         }
     }
 
-    /// The tied row whose row of the inverse basis, divided by its pivot, comes first in lexicographic order. In exact
-    /// arithmetic no basis comes back along a path of such choices.
+    /// The tied row whose row of the inverse basis, divided by its pivot, comes first in lexicographic order. No basis
+    /// recurs along a path of such choices in exact arithmetic.
     fn lexicographic_minimum(&self, column: &[f64], tied: &[usize]) -> usize {
-        // Rows are computed where they are first looked at.
+        // Rows are computed when they are first needed.
         let mut left: Vec<(usize, Option<Vec<f64>>)> = tied.iter().map(|&i| (i, None)).collect();
         for k in 0..column.len() {
             if left.len() == 1 {
                 break;
             }
-            // Where `w_k` is basic its column of the inverse is a unit column: among zeros the one of
-            // that row, which is positive, is not the least.
+            // The column of the inverse is a unit column if `w_k` is basic: the entry of that row is positive, and not
+            // the least among zeros.
             if let Some(at) = self.row_of[k] {
                 left.retain(|(i, _)| *i != at);
                 continue;
@@ -60,8 +60,8 @@ impl Path<'_> {
             };
             let keys: Vec<f64> = left.iter_mut().map(key).collect();
             let least = keys.iter().copied().fold(f64::INFINITY, f64::min);
-            // Entries of an equilibrated tableau are of order one: where all keys are rounding errors of
-            // zero they must not be measured against each other.
+            // Entries of an equilibrated tableau are of order one: keys that are all rounding errors of zero must not
+            // be measured against each other.
             let smallest_pivot = left.iter().fold(f64::INFINITY, |min, (i, _)| min.min(column[*i]));
             let scale = keys.iter().fold(1.0 / smallest_pivot, |max, key| max.max(key.abs()));
             let mut is_least = keys.iter().map(|key| key - least <= TIE_WINDOW * scale);
@@ -71,8 +71,8 @@ impl Path<'_> {
     }
 }
 
-/// The tied row that a small change of the right-hand side, the same all along the path, would make the first; in exact
-/// arithmetic that parts them all, unless by chance.
+/// The tied row that would come first after a small change of the right-hand side, constant along the path; the change
+/// separates all ties in exact arithmetic, except by chance.
 fn first_parted(parting: &[f64], column: &[f64], tied: &[usize]) -> Option<usize> {
     let key = |&i: &usize| parting[i] / column[i];
     let least = tied.iter().map(key).fold(f64::INFINITY, f64::min);

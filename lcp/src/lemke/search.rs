@@ -1,4 +1,4 @@
-//! The attempts on one problem, and what they come to.
+//! The attempts on one problem, and their result.
 
 use std::ops::ControlFlow;
 use web_time::Instant;
@@ -61,7 +61,7 @@ impl<'a> Attempts<'a> {
         }
         let (first_start, kind) = match self.first_start() {
             Ok(start) => start,
-            // Nonsingular, but not to working precision.
+            // The basis is nonsingular, but not to working precision.
             Err(Crash::Complete(_)) => return self.prove_or(Status::NumericalTrouble),
             Err(Crash::Late) => return self.give_up(Status::TimeLimit),
             Err(Crash::Partial { .. }) if self.is_completed => {
@@ -77,7 +77,7 @@ impl<'a> Attempts<'a> {
         let first = Trial { start: kind, covering: self.first_covering(kind) };
         let mut trial = first;
         let mut last_basis = None;
-        // Costs of a game are positive: no proof is to be found, and the paths of pairs are short.
+        // Costs of a game are positive: there is no proof to find, and the paths of pairs are short.
         let is_game = first_start.is_feasible_far_out();
         let (mut number, mut had_ray) = (0, false);
         while self.has_another(number) {
@@ -103,7 +103,7 @@ impl<'a> Attempts<'a> {
                 None => {}
             }
             last_basis = basis.or(last_basis);
-            // The first ray asks the question; its answer does not depend on the attempt.
+            // The search for a proof follows the first ray only; its result does not depend on the attempt.
             let is_first_ray = end == AttemptEnd::Ray && !had_ray;
             had_ray |= is_first_ray;
             if is_first_ray && self.settings.prove_infeasible && !is_game {
@@ -118,8 +118,8 @@ impl<'a> Attempts<'a> {
         self.conclude()
     }
 
-    /// Without a complementary basis: with artificial columns, on either side of the pairs that need
-    /// one.
+    /// The attempts on a problem without a complementary basis: with artificial columns, on either side of the pairs
+    /// that need one.
     fn completed(
         mut self,
         chosen: &[Option<Side>],
@@ -151,7 +151,7 @@ impl<'a> Attempts<'a> {
         self.prove_or(Status::NoComplementaryBasis)
     }
 
-    /// The first start basis, or why there is none.
+    /// The first start basis, or the reason for which there is none.
     fn first_start(&self) -> Result<(Start, AttemptStart), Crash> {
         let preferred = match &self.settings.start {
             WarmStart::None => None,
@@ -176,8 +176,8 @@ impl<'a> Attempts<'a> {
         self.problem.start(basis).map(|start| (start, kind)).ok_or(found)
     }
 
-    /// The point of the start basis where it solves the problem. The values of a basis that had to be
-    /// factorised are not zero where they should be, so that a path would start at rounding errors.
+    /// The point of the start basis if it solves the problem. Values of a factorised basis that should be zero have
+    /// rounding errors, at which a path would start.
     fn solution_at(&self, start: &Start) -> Option<BasicPoint> {
         let is_negative = |(k, &q): (usize, &f64)| q < -SMALL && !start.is_free(k);
         if start.q.iter().enumerate().any(is_negative) {
@@ -186,8 +186,8 @@ impl<'a> Attempts<'a> {
         solve_basis(&self.problem, &start.basis).filter(|point| self.is_solved(point))
     }
 
-    /// The covering vector of the settings; one that was given refers to the rows of the start basis that
-    /// was given with it, and not to those of another.
+    /// The covering vector of the settings; a given vector refers to the rows of the start basis given with it, and not
+    /// to those of another.
     fn first_covering(&self, start: AttemptStart) -> AttemptCovering {
         let was_replaced = self.settings.start != WarmStart::None && start != AttemptStart::Given;
         match &self.settings.covering {
@@ -219,7 +219,7 @@ impl<'a> Attempts<'a> {
         other
     }
 
-    /// Follows one path; gives the complementary basis as well, if it ended on one.
+    /// Follows one path; also returns the complementary basis, if the path ended on one.
     fn attempt(
         &mut self,
         start: &Start,
@@ -236,7 +236,7 @@ impl<'a> Attempts<'a> {
         let covering = covering_vector(trial.covering, start, given);
         let mut path = Path::new(start, &covering);
         path.trace = settings.trace.then(Vec::new);
-        // Every pair has its turn before the paths that begin with them may be twice as long.
+        // Every pair has its turn before the limit on paths from pairs is doubled.
         let (round, driver) = match trial.covering {
             AttemptCovering::Column { pair } => (pair / order, Some(pair % order)),
             _ => (0, None),
@@ -268,7 +268,7 @@ impl<'a> Attempts<'a> {
         (attempt, basis)
     }
 
-    /// Limits of a path, asked before every pivot.
+    /// Limits of a path, checked before every pivot.
     fn limits<'o>(
         &self,
         attempt: usize,
@@ -288,7 +288,7 @@ impl<'a> Attempts<'a> {
         }
     }
 
-    /// Whether another attempt follows so many.
+    /// Whether another attempt follows after this number of attempts.
     fn has_another(&self, made: usize) -> bool {
         if let Some(most) = self.settings.max_attempts {
             return made < most;
@@ -315,8 +315,8 @@ impl<'a> Attempts<'a> {
         }
     }
 
-    /// The point that exchanges of all pairs with negative values lead to, as long as each makes it better (Kostreva 1978).
-    /// Where rounding has told ties apart a path may end beside the basis of the solution.
+    /// The point after exchanges of all pairs with negative values, repeated as long as each improves the point
+    /// (Kostreva 1978). A path may end beside the basis of the solution if rounding errors have separated ties.
     fn exchanged(&self, mut point: BasicPoint) -> BasicPoint {
         while !self.is_solved(&point) && !point.negative.is_empty() {
             match solve_basis(&self.problem, &point.exchanged()) {
@@ -338,7 +338,7 @@ impl<'a> Attempts<'a> {
         }
     }
 
-    /// Gives a proof by least squares for a small problem without a start basis, else this status.
+    /// Returns a proof by least squares for a small problem without a start basis, else this status.
     fn prove_or(self, status: Status) -> Solution {
         let is_small = self.problem.order() <= MOST_PAIRS && !self.is_completed;
         let is_wanted = is_small && self.settings.prove_infeasible;
@@ -348,7 +348,7 @@ impl<'a> Attempts<'a> {
         }
     }
 
-    /// No attempt reached the tolerance: the best point if it is near, else what the attempts say.
+    /// The solution if no attempt reached the tolerance: the best point if it is near, else the status of the attempts.
     fn conclude(mut self) -> Solution {
         let nearly = self.settings.tolerance.sqrt();
         if let Some(point) = self.almost.take_if(|point| point.residuals.worst() <= nearly) {
@@ -376,7 +376,7 @@ impl<'a> Attempts<'a> {
         self.give_up(Status::Infeasible).proved(Certificate::Farkas { pi })
     }
 
-    /// Without a point there is still an answer: zero, with its residuals.
+    /// The answer without a point: zero, with its residuals.
     fn give_up(self, status: Status) -> Solution {
         let zero = vec![0.0; self.problem.order()];
         let residuals = self.problem.judge.residuals(&[&zero, &zero], Precision::Exact);

@@ -1,16 +1,17 @@
-//! The sparse kernel: a sparse LU factorisation of one basis, and a dense one, of small order, of what
-//! the pivots since have changed (the Schur complement method; Bisschop and Meeraus 1977, 1980).
+//! The sparse kernel: a sparse LU factorisation of one basis, and a dense one, of small order, of the
+//! changes by later pivots (the Schur complement method; Bisschop and Meeraus 1977, 1980).
 //!
-//! With the factorised basis `B0`, the columns `N` that came in since, and the rows `R` whose variable
-//! they took, a column `a` in terms of the present basis is `s` in the rows `R` and `x` elsewhere:
+//! Let `B0` be the factorised basis, `N` the columns that entered since, and `R` the rows whose
+//! variable they replaced. A column `a` in terms of the present basis is `s` in the rows `R` and `x`
+//! elsewhere:
 //!
 //! ```text
 //! B0 x + N s = a,  x_R = 0    =>    S s = (B0^-1 a)_R,   x = B0^-1 (a - N s),   S = (B0^-1 N)_R
 //! ```
 //!
-//! So a pivot costs a few sparse solves however many there were before, nothing dense of the order of
-//! the problem is kept but a few vectors, and errors do not accumulate from one pivot to the next. The
-//! artificial variable, whose column is dense, is always one of `N`, never of `B0`.
+//! So a pivot costs a few sparse solves whatever the number of earlier pivots, no dense data of the
+//! order of the problem are kept except a few vectors, and errors do not accumulate from one pivot to
+//! the next. The artificial variable, whose column is dense, is always one of `N`, never of `B0`.
 
 use std::borrow::Cow;
 
@@ -40,7 +41,7 @@ pub(super) struct Sparse<'a> {
     /// The vector that breaks ties.
     parting: Vec<f64>,
     factored: Factored<'a>,
-    /// Pivots since the factorisation, and how many are allowed.
+    /// Pivots since the factorisation, and their limit.
     pivots: usize,
     limit: usize,
     /// The last column computed, in terms of `B0`.
@@ -57,7 +58,7 @@ struct Factored<'a> {
     place: Vec<Option<usize>>,
     /// `S`, column by column.
     schur: Vec<Vec<f64>>,
-    /// `None` where `S` is singular.
+    /// `None` if `S` is singular.
     schur_lu: Option<Lu>,
 }
 
@@ -68,7 +69,7 @@ impl<'a> Sparse<'a> {
         for (k, &d) in covering.iter().enumerate().filter(|(_, d)| **d != 0.0) {
             start.columns.add_to(k, -d, &mut artificial);
         }
-        // The last row of a tie in the first pivot leaves: its part is the smallest.
+        // The last row of a tie leaves in the first pivot: its part is the smallest.
         let mut parting = vec![0.0; n];
         let mut random = SplitMix::new(n as u64);
         for (k, &d) in covering.iter().enumerate() {
@@ -92,7 +93,7 @@ impl<'a> Sparse<'a> {
         self.artificial.len()
     }
 
-    /// `out` is the column on entry; returns `(B0^-1 column)`, and leaves `B^-1 column`.
+    /// Replaces the column in `out` by `B^-1 column`; returns `(B0^-1 column)`.
     fn solve(&self, factored: &Factored<'_>, out: &mut [f64], work: &mut Vec<f64>) -> Vec<f64> {
         let mut in_base = out.to_vec();
         factored.lu.solve(&mut in_base, work);
@@ -118,7 +119,7 @@ impl<'a> Sparse<'a> {
         }
     }
 
-    /// The factors of a basis, with its values, refined once; `None` when it is singular.
+    /// The factors of a basis, with its values, refined once; `None` if the basis is singular.
     fn factorise(&mut self, basic: &[Var]) -> Option<(Factored<'a>, Vec<f64>)> {
         let n = self.order();
         let artificial_row = basic.iter().position(|&var| var == 2 * n);
@@ -130,7 +131,7 @@ impl<'a> Sparse<'a> {
             columns.close();
         }
         let (lu, replaced) = SparseLu::new(&columns);
-        // The place of the artificial variable is held by a unit column.
+        // A unit column holds the place of the artificial variable.
         if replaced.len() > 1 || replaced.first().map(|it| it.0) != artificial_row {
             return None;
         }
@@ -149,7 +150,7 @@ impl<'a> Sparse<'a> {
         self.work = work;
         let error = max_abs(&self.residual(basic, &values));
         let size = max_abs(&values).max(max_abs(&self.start.right));
-        // Written so that a NaN is refused.
+        // This form of the condition refuses a NaN.
         (size.is_finite() && error <= VANISHING * size).then_some((factored, values))
     }
 
@@ -168,8 +169,8 @@ impl<'a> Factored<'a> {
         Self { lu, changed: Vec::new(), place, schur: Vec::new(), schur_lu: None }
     }
 
-    /// A variable, whose column in terms of `B0` is given, takes a row. Where that row is new to `R`
-    /// its entries in the other columns of `S` are there already.
+    /// Puts a variable, whose column in terms of `B0` is given, into a row. If that row is new to `R`
+    /// its entries in the other columns of `S` are stored already.
     fn change(&mut self, row: usize, var: Var, in_base: &[f64]) {
         let k = *self.place[row].get_or_insert(self.changed.len());
         if k == self.changed.len() {
@@ -183,7 +184,7 @@ impl<'a> Factored<'a> {
         self.schur_lu = Lu::new(schur.as_ref());
     }
 
-    /// Solves with `S`, or with its transpose. A singular one leaves no number.
+    /// Solves with `S`, or with its transpose. The result for a singular `S` is NaN.
     fn solve_schur(&self, x: &mut [f64], is_transposed: bool) {
         match &self.schur_lu {
             Some(lu) if is_transposed => lu.solve_transpose_vector(x),
@@ -281,9 +282,9 @@ impl Kernel for Sparse<'_> {
     }
 }
 
-/// Pivots between two factorisations. One with `m` nonzeros takes the time of some `500 m` flops, and
-/// `k` pivots take factorisations of `S` of together `k^4 / 6` flops: for every pivot the sum is least
-/// near the fourth root of `1000 m`, and flat around it.
+/// Pivots between two factorisations. A factorisation with `m` nonzeros takes the time of some `500 m`
+/// flops, and `k` pivots take factorisations of `S` of together `k^4 / 6` flops: the sum per pivot is
+/// least near the fourth root of `1000 m`, and flat around it.
 fn pivot_limit(stored: usize) -> usize {
     stored.saturating_mul(1000).isqrt().isqrt().clamp(16, 256)
 }

@@ -1,4 +1,4 @@
-//! From a complementary basis to the problem `w + T z = q` that a path follows.
+//! The step from a complementary basis to the problem `w + T z = q` that a path follows.
 
 mod flip;
 
@@ -22,7 +22,7 @@ pub(super) struct Equilibrated<'a> {
     pub(super) row: Vec<f64>,
     t_factor: Vec<f64>,
     y_factor: Vec<f64>,
-    /// For a free pair the positive `r` with `B_j = -r A_j`: one unit of `y` is `r` units of `-t`.
+    /// The positive `r` with `B_j = -r A_j` of every free pair: one unit of `y` is `r` units of `-t`.
     pub(super) opposite: Vec<Option<f64>>,
     pub(super) judge: GeneralJudge<'a>,
 }
@@ -60,7 +60,7 @@ impl<'a> Equilibrated<'a> {
         }
     }
 
-    /// Equilibrated columns, one beside the other.
+    /// Equilibrated columns, side by side.
     pub(super) fn columns(&self, picked: &[(usize, Side)]) -> Mat<f64> {
         let mut m = Mat::zeros(self.order(), picked.len());
         for (k, &(pair, side)) in picked.iter().enumerate() {
@@ -69,7 +69,7 @@ impl<'a> Equilibrated<'a> {
         m
     }
 
-    /// The columns without zeros; none is the right-hand side.
+    /// The columns without zeros; `None` is the right-hand side.
     pub(super) fn sparse_columns(
         &self,
         picked: impl IntoIterator<Item = Option<(usize, Side)>>,
@@ -106,7 +106,7 @@ impl<'a> Equilibrated<'a> {
             .collect()
     }
 
-    /// `w + T z = q` for a basis, or `None` when it is singular to working precision.
+    /// `w + T z = q` for a basis, or `None` if the basis is singular to working precision.
     pub(super) fn start(&self, basis: &Basis) -> Option<Start> {
         if self.problem.is_sparse() { self.sparse_start(basis) } else { self.dense_start(basis) }
     }
@@ -119,7 +119,7 @@ impl<'a> Equilibrated<'a> {
         let mut q = self.right_hand_side();
         let (mut rows, mut cols) = (vec![1.0; n], vec![1.0; n]);
         if let Some(diagonal) = self.diagonal(side) {
-            // Already equilibrated: the entries of such columns are near one, if not one.
+            // Such columns are equilibrated already: their entries are near one, if not one.
             let is_identity = diagonal.iter().all(|d| d.total_cmp(&1.0).is_eq());
             for j in (0..n).filter(|_| !is_identity) {
                 t.col_as_slice_mut(j).iter_mut().zip(&diagonal).for_each(|(v, d)| *v /= d);
@@ -172,8 +172,8 @@ impl<'a> Equilibrated<'a> {
     }
 }
 
-/// Sets to zero what the solution of an equilibrated system leaves in place of zeros: a row of
-/// nothing else would be scaled up to coefficients.
+/// Sets to zero the rounding errors in the solution of an equilibrated system: a row of only such errors would be
+/// scaled up to coefficients.
 fn drop_rounding(t: &mut Mat<f64>) {
     for j in 0..t.ncols() {
         let column = t.col_as_slice_mut(j);
@@ -198,7 +198,7 @@ pub(super) struct Start {
     data: StartData,
 }
 
-/// `T`, or what it is made of.
+/// `T`, or the data that define it.
 #[derive(Debug)]
 enum StartData {
     Dense(Mat<f64>),
@@ -206,8 +206,8 @@ enum StartData {
 }
 
 impl Start {
-    /// Makes a start from the values of the basis, which become multiples of the largest, and the factors of rows and
-    /// columns; `None` for values that are not finite.
+    /// Makes a start from the values of the basis, which become multiples of the largest one, and the factors of rows
+    /// and columns; `None` for values that are not finite.
     fn new(
         problem: &Equilibrated<'_>,
         basis: &Basis,
@@ -229,7 +229,7 @@ impl Start {
         Some(Self { basis: basis.clone(), free, q, size, row_factor, col_factor, data })
     }
 
-    /// Whether the pair is the two parts of a free variable.
+    /// Whether the pair consists of the two parts of a free variable.
     pub(super) fn is_free(&self, pair: usize) -> bool {
         self.free[pair]
     }
@@ -241,7 +241,7 @@ impl Start {
         self
     }
 
-    /// Pair and side of a variable; none for the artificial one.
+    /// Pair and side of a variable; `None` for the artificial one.
     pub(super) fn variable(&self, var: Var) -> Option<(usize, Side)> {
         let n = self.q.len();
         let side = *self.basis.sides().get(var % n.max(1)).filter(|_| var < 2 * n)?;
@@ -259,7 +259,7 @@ impl Start {
             let w = self.size * along[k] / self.row_factor[k];
             let z = self.size * along[n + k] * self.col_factor[k];
             let (t, y) = self.basis.sides()[k].of((w, z), (z, w));
-            // A free variable is put on the side that its sign asks for.
+            // A free variable is put on the side of its sign.
             problem.opposite[k].map_or((t, y), |ratio| {
                 let net = t - ratio * y;
                 (net.max(0.0), (-net / ratio).max(0.0))
@@ -282,8 +282,8 @@ impl Start {
         }
     }
 
-    /// Whether all `z`, equal and large, make every `w` positive, so that the linear conditions have a solution. Sparse
-    /// problems are not asked.
+    /// Whether all `z`, equal and large, make every `w` positive, so that the linear conditions have a solution. The
+    /// result is `false` for sparse problems, without a test.
     pub(super) fn is_feasible_far_out(&self) -> bool {
         let StartData::Dense(t) = &self.data else { return false };
         let mut sums = vec![0.0; self.q.len()];

@@ -1,10 +1,9 @@
 //! The condensed tableau, with pivots held back and applied in blocks.
 //!
-//! A pivot on entry `(r, s)` of `T` is one rank-1 change of the whole matrix. Done at once it moves
-//! the matrix through memory for every pivot. Lemke's method only ever asks for the entering
-//! column. So up to a block of pivots are held as columns `u_k`: a column of `T` is the stored one
-//! with the held pivots done on it, one after the other (`x_r -> 0`, `x -> x + x_r u_k`), and a full
-//! block is applied to all columns by one matrix product.
+//! A pivot on entry `(r, s)` of `T` is a rank-1 change of the whole matrix, which passes through memory for every
+//! pivot if the change is made at once. Lemke's method only needs the entering column. So up to a block of pivots
+//! are held as columns `u_k`: a column of `T` is the stored one with the held pivots done on it, one after the other
+//! (`x_r -> 0`, `x -> x + x_r u_k`), and a full block is applied to all columns by one matrix product.
 
 use faer::{Mat, MatMut, MatRef};
 use lcp_linalg::{add_product, solve_unit_lower};
@@ -20,9 +19,9 @@ pub(super) struct Tableau {
     rows: Vec<PivotRow>,
     /// Column `i` is row `rows[i]` of `u`.
     u_rows: Mat<f64>,
-    /// For every column the number of the first held pivot that still has to be done on it.
+    /// The number of the first held pivot that still has to be done on every column.
     since: Vec<usize>,
-    /// Where the pivots meet a column: room for one column.
+    /// Memory for the factors of the pivots of one column.
     factors: Vec<f64>,
 }
 
@@ -37,7 +36,7 @@ struct Held {
 #[derive(Debug, Clone, Copy)]
 struct PivotRow {
     row: usize,
-    /// The last held pivot in it.
+    /// The last held pivot in the row.
     last: usize,
 }
 
@@ -60,7 +59,7 @@ impl Tableau {
         self.held.len() == self.u.ncols()
     }
 
-    /// One column of `T`: the stored one plus the columns `u_k`, times what the pivots meet.
+    /// One column of `T`: the stored one plus the columns `u_k`, times the factors of the pivots.
     pub(super) fn column(&mut self, s: usize, out: &mut [f64]) {
         let (n, held, since) = (out.len(), self.held.len(), self.since[s]);
         out.copy_from_slice(self.stored.col_as_slice(s));
@@ -87,8 +86,8 @@ impl Tableau {
         }
     }
 
-    /// One row of `T`, as factors of the stored pivot rows, to which a row without a pivot is added, and the entries
-    /// in the columns that the held pivots exchanged: the held pivots, transposed, in the opposite order.
+    /// One row of `T`, as factors of the stored pivot rows (a row without a pivot is added) and the entries in the
+    /// columns that the held pivots exchanged: the held pivots, transposed, in the opposite order.
     pub(super) fn row(&self, r: usize) -> Vec<f64> {
         let count = self.rows.len();
         let mut factors = vec![0.0; count + self.held.len()];
@@ -147,8 +146,8 @@ impl Tableau {
         }
     }
 
-    /// Applies the held pivots to the stored matrix: `stored + U V`, where `V` are the factors that
-    /// the recurrence of [`column`](Self::column) meets, a triangular system for all columns.
+    /// Applies the held pivots to the stored matrix: `stored + U V`. `V` are the factors in the recurrence of
+    /// [`column`](Self::column), a triangular system for all columns.
     pub(super) fn apply(&mut self) {
         let held = self.held.len();
         let columns = self.stored.ncols();
@@ -188,7 +187,7 @@ impl Tableau {
     }
 }
 
-/// Pivots held back: with more, the product moves less memory for each, and a column costs more.
+/// Number of pivots held back: with more, the product moves less memory for each, and a column costs more.
 fn block(n: usize) -> usize {
     (n / 16).clamp(16, 96)
 }
@@ -205,7 +204,7 @@ mod tests {
         tableau.entry(i, &tableau.row(i), j)
     }
 
-    /// Pivoting twice on the same place undoes the exchange.
+    /// Two pivots on the same place cancel.
     #[test]
     fn a_pivot_is_its_own_inverse() {
         let n = 7;

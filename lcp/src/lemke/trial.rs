@@ -1,11 +1,11 @@
-//! What the attempts vary, and in which order.
+//! The variations of the attempts, and their order.
 
 use super::constants::KINDS;
 use super::start::Start;
 use crate::pivoting::{AttemptCovering, AttemptEnd, AttemptStart};
 use crate::random::SplitMix;
 
-/// One attempt before it is made.
+/// The start and the covering vector of an attempt.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Trial {
     pub(super) start: AttemptStart,
@@ -13,9 +13,10 @@ pub(super) struct Trial {
 }
 
 impl Trial {
-    /// The attempt of this number, from 2, after one that ended so. After a basis that is not quite right in turn from
-    /// there on and with random covering vectors from the first start, since paths from there may come back to it. After
-    /// a ray another covering vector, another start basis, a pair in place of the artificial variable, then more start
+    /// The attempt of this number, from 2, after the given ending of the last one. A basis that is not quite right is
+    /// followed by attempts from that basis and, in turn, from the first start with random covering vectors, since
+    /// paths from that basis may return to it. A ray is followed by another covering vector, another start basis, a
+    /// pair in place of the artificial variable, then more start bases. The pair comes before the others if `is_game`.
     /// bases. `is_game` says that the pair is worth a try before the others.
     pub(super) fn after(
         last: &Self,
@@ -34,11 +35,11 @@ impl Trial {
                 let covering = other(last.covering, seed);
                 return Self { start: AttemptStart::LastBasis, covering };
             }
-            // A basis that is nearly right is worth other covering vectors: paths from there are short.
+            // Other covering vectors are tried from a basis that is nearly right: paths from there are short.
             AttemptEnd::Ray if last.start == AttemptStart::LastBasis && number <= KINDS => {
                 return Self { covering: AttemptCovering::Random { seed }, ..*last };
             }
-            // The path of a game that is long: those of other pairs lead to other solutions, or are shorter.
+            // The path of a pair of a game is too long: paths of other pairs lead to other solutions, or are shorter.
             AttemptEnd::PivotLimit => {
                 if let AttemptCovering::Column { pair } = last.covering {
                     return Self { covering: AttemptCovering::Column { pair: pair + 1 }, ..*first };
@@ -59,8 +60,8 @@ impl Trial {
     }
 }
 
-/// The covering vector in the rows of a start basis; zero for free variables. `given` is that of
-/// the settings, in units of the basic variables.
+/// The covering vector in the rows of a start basis; zero for free variables. `given` is the vector of the settings, in
+/// units of the basic variables.
 pub(super) fn covering_vector(kind: AttemptCovering, start: &Start, given: &[f64]) -> Vec<f64> {
     let n = start.q.len();
     let mut covering: Vec<f64> = match kind {

@@ -1,23 +1,23 @@
-//! How many pairs are exchanged at once.
+//! The number of pairs that are exchanged at once.
 
 use std::collections::HashSet;
 
-/// Steps without fewer negative variables than ever before, after which fewer pairs are exchanged; half of it once fewer than
-/// all are. Chosen.
+/// Steps without a new minimum of the number of negative variables, after which fewer pairs are exchanged; half of this
+/// number once fewer than all pairs are exchanged. Chosen.
 pub(crate) const PATIENCE: usize = 10;
 
 /// The next exchange of negative variables.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Next {
-    /// Exchange so many pairs.
+    /// Exchange this number of pairs.
     Exchange(usize),
-    /// Exchange so many pairs, fewer than before, for lack of progress.
+    /// Exchange this number of pairs, fewer than before, for lack of progress.
     Fewer(usize),
     /// Single exchanges led back to a free set.
     Cycle,
 }
 
-/// All pairs as long as there is progress, else half as many, and so on down to single ones.
+/// Exchanges of all pairs as long as there is progress, else of half as many, and so on down to single ones.
 #[derive(Debug)]
 pub(super) struct Exchanges {
     /// Whether exchanging all pairs converges although the number of negative variables may grow.
@@ -35,7 +35,7 @@ impl Exchanges {
         Self { is_monotone, fewest, most, rounds: PATIENCE, seen: HashSet::new() }
     }
 
-    /// The next exchange, after a free set with this hash and so many negative variables.
+    /// The next exchange, after a free set with this hash and this number of negative variables.
     pub(super) fn next(&mut self, hash: u64, negative: usize) -> Next {
         let is_new = self.seen.insert(hash);
         if negative < self.fewest {

@@ -16,16 +16,16 @@ use crate::matrix::{Column, Storage};
 use crate::scaling::{equilibrate, power_of_two};
 use crate::vector::SMALL;
 
-/// Factors of `M_FF`, dense or sparse like `M`: those of Cholesky where the matrix is symmetric and positive definite, else LU.
-/// Dense ones are in memory that is kept.
+/// Factors of `M_FF`, dense or sparse like `M`: Cholesky factors if the matrix is symmetric and positive definite, else
+/// LU. The memory of dense factors is kept.
 pub(super) struct FreeFactors {
     is_symmetric: bool,
-    /// Whether they are those of the pairs in `free`.
+    /// Whether the factors belong to the pairs in `free`.
     is_known: bool,
     free: Vec<usize>,
     right: Vec<f64>,
     kind: Kind,
-    /// How many factorisations there were.
+    /// Number of factorisations so far.
     pub(super) count: usize,
 }
 
@@ -42,7 +42,7 @@ struct DenseFactors {
     units: (Vec<f64>, Vec<f64>),
     factors: Mat<f64>,
     is_cholesky: bool,
-    /// Which row comes at every place, and the other way round.
+    /// The row at every place, and the place of every row.
     rows: [Vec<usize>; 2],
     sorted: Vec<f64>,
     stack: MemBuffer,
@@ -57,7 +57,8 @@ impl FreeFactors {
         Self { is_symmetric, is_known: false, free, right, kind, count: 0 }
     }
 
-    /// Factorises the matrix of some pairs, unless these are its factors; `false` where it is singular to working precision.
+    /// Factorises the matrix of some pairs, unless the present factors are those; `false` if the matrix is singular to
+    /// working precision.
     pub(super) fn factorise(&mut self, m: &Matrix, is_free: &[bool]) -> bool {
         let free = || (0..is_free.len()).filter(|&i| is_free[i]);
         if self.is_known && free().eq(self.free.iter().copied()) {
@@ -170,8 +171,8 @@ impl DenseFactors {
     }
 }
 
-/// Whether no pivot of a sparse symmetric matrix vanishes, with its factors; `None` where it is not positive definite, or
-/// memory does not suffice.
+/// Whether no pivot of a sparse symmetric matrix vanishes, with its factors; `None` if the matrix is not positive
+/// definite, or memory does not suffice.
 fn cholesky(block: &Matrix) -> Option<(bool, Option<Inverse>)> {
     let Storage::Sparse(sparse) = block.storage() else { return None };
     let mut factors = Cholesky::new(sparse.symbolic()).ok()?;
@@ -183,7 +184,7 @@ fn cholesky(block: &Matrix) -> Option<(bool, Option<Inverse>)> {
     pivots.iter().all(|pivot| *pivot > 0.0).then_some((is_regular, Some(solve)))
 }
 
-/// Solves by LU factors of a sparse matrix with entries near one; `None` if it is singular.
+/// Solves by LU factors of a sparse matrix with entries near one; `None` if the matrix is singular.
 fn lu(block: &Matrix) -> Option<Inverse> {
     let n = block.ncols();
     let columns: Vec<Column<'_>> = (0..n).map(|k| block.slice(k)).collect();

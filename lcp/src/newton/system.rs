@@ -40,12 +40,12 @@ impl System {
         Self { is_z_matrix: is_z_matrix(m), diagonal, factors: FreeFactors::new(m) }
     }
 
-    /// How many factorisations there were.
+    /// Number of factorisations so far.
     pub(crate) fn factorisations(&self) -> usize {
         self.factors.count
     }
 
-    /// The point after the exchange of so many of the pairs with a negative variable, the first ones.
+    /// The point after the exchange of the first `count` pairs with a negative variable.
     pub(super) fn exchanged(
         &mut self,
         lcp: &Lcp,
@@ -57,9 +57,8 @@ impl System {
         self.solve(lcp, &mut next).then_some(next)
     }
 
-    /// The point without the free variables that may be zero. Where both variables of a pair vanish, `z` is
-    /// nothing but noise, which leaves rows with nothing larger in them a residual. None where there are
-    /// no such variables.
+    /// The point without the free variables that may be zero. If both variables of a pair vanish, `z` is only noise,
+    /// which leaves a residual in rows with nothing larger. `None` if there are no such variables.
     pub(super) fn without_noise(&mut self, lcp: &Lcp, point: &FreePoint) -> Option<FreePoint> {
         let roots = self.diagonal.iter().zip(&point.z).map(|(d, z)| d.sqrt() * z.abs());
         let size: Vec<f64> = roots.collect();
@@ -69,13 +68,13 @@ impl System {
         if is_kept == point.is_free { None } else { self.point(lcp, is_kept) }
     }
 
-    /// The point of a free set; none where its matrix is singular to working precision.
+    /// The point of a free set; `None` if its matrix is singular to working precision.
     pub(super) fn point(&mut self, lcp: &Lcp, is_free: Vec<bool>) -> Option<FreePoint> {
         let mut point = FreePoint::of(is_free);
         self.solve(lcp, &mut point).then_some(point)
     }
 
-    /// Computes the point of its free set, `M_FF z_F = -q_F`; `false` where it cannot be solved.
+    /// Computes the point of its free set, `M_FF z_F = -q_F`; `false` if the equations cannot be solved.
     pub(crate) fn solve(&mut self, lcp: &Lcp, point: &mut FreePoint) -> bool {
         point.z.clear();
         point.z.resize(point.is_free.len(), 0.0);
@@ -104,12 +103,12 @@ impl System {
 }
 
 impl FreePoint {
-    /// A point of a free set, before it is solved for.
+    /// A point of a free set, before its equations are solved.
     pub(crate) fn of(is_free: Vec<bool>) -> Self {
         Self { is_free, ..Self::default() }
     }
 
-    /// Exchanges so many of the pairs with a negative variable, the first ones.
+    /// Exchanges the first `count` pairs with a negative variable.
     pub(crate) fn exchange(&mut self, count: usize) {
         let Self { is_free, violated, .. } = self;
         violated.iter().take(count).for_each(|&i| is_free[i] = !is_free[i]);
@@ -127,7 +126,7 @@ impl FreePoint {
         }
     }
 
-    /// The largest `|w_i|` of a free pair, relative to its terms; not finite where a `w` is not.
+    /// The largest `|w_i|` of a free pair, relative to its terms; not finite if a `w` is not.
     fn error(&self) -> f64 {
         let mut worst = 0.0_f64;
         for ((w, size), is_free) in self.w.iter().zip(&self.sizes).zip(&self.is_free) {
@@ -141,7 +140,7 @@ impl FreePoint {
         worst
     }
 
-    /// Whether `q` has no share in the equations of a solution: then that is in the kernel of `M_FF`, for which
+    /// Whether `q` has no share in the equations of a solution: the solution is then in the kernel of `M_FF`, in which
     /// a factorisation does not always find a vanishing pivot.
     fn is_in_kernel(&self, q: &[f64]) -> bool {
         let rows = q.iter().zip(&self.sizes).zip(&self.is_free).filter(|(_, is_free)| **is_free);
@@ -158,7 +157,7 @@ impl FreePoint {
             let value = if is_free[i] {
                 *hash ^= SplitMix::new(i as u64).next_u64();
                 w[i] = 0.0;
-                // Without an entry of its own no rounding error of `z` shows in its row.
+                // A row without a diagonal entry shows no rounding error of its `z`.
                 z[i] * if diagonal[i] == 0.0 { f64::INFINITY } else { diagonal[i].abs() }
             } else {
                 w[i]
@@ -175,8 +174,8 @@ impl FreePoint {
         });
     }
 
-    /// Bounds of the residuals if no variable is negative: those of all rows, with the most that rounding may hide of them in
-    /// sums of products. `image` is memory.
+    /// Bounds of the residuals if no variable is negative: the residuals of all rows, plus the largest parts of them
+    /// that rounding may hide in sums of products. `image` is memory.
     pub(crate) fn residuals(
         &self,
         lcp: &Lcp,

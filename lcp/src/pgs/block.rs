@@ -12,7 +12,7 @@ use crate::{Error, Method};
 pub(super) struct Block {
     row: usize,
     constraint: Constraint,
-    /// One by one for bounds: then only the first entry counts.
+    /// The entries; only the first one counts for bounds, which are relaxed one by one.
     w: [[f64; 2]; 2],
 }
 
@@ -68,7 +68,7 @@ impl Block {
         (0..self.constraint.rows()).map(move |i| w[i][i])
     }
 
-    /// Whether the constraint allows one value alone in its row of this number.
+    /// Whether the constraint allows only one value in its row of this number.
     fn is_fixed(&self, i: usize) -> bool {
         match self.constraint {
             Constraint::Bounds { lower, upper } => lower >= upper,
@@ -85,11 +85,11 @@ impl Block {
         }
     }
 
-    /// Moves `z` to where the block allows it to be.
+    /// Projects `z` onto the values that the block allows.
     pub(super) fn project(&self, z: &mut [f64]) {
         for row in self.rows() {
             let [lower, upper] = self.bounds(row, z);
-            // Zeros without a sign.
+            // The sum gives zeros without a sign.
             z[row] = z[row].max(lower).min(upper) + 0.0;
         }
     }
@@ -105,7 +105,7 @@ impl Block {
     }
 
     /// The entries of `z` that solve the block, with its part of the matrix divided by the over-relaxation;
-    /// the second one is that of a contact.
+    /// the second entry is used for contacts only.
     pub(super) fn relaxed<R: Rows + ?Sized>(
         &self,
         rows: &R,
@@ -131,7 +131,7 @@ impl Block {
 }
 
 impl Constraint {
-    /// That something meets the constraint, which has this number.
+    /// Checks that some value meets the constraint, which has this number.
     fn check(self, index: usize) -> Result<(), Error> {
         match self {
             Self::Bounds { lower, upper } => check_interval("variable", index, lower, upper),

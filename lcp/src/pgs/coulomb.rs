@@ -9,13 +9,13 @@ pub(super) struct Coulomb {
 }
 
 impl Coulomb {
-    /// Forces within the friction cone that meet Coulomb's law together with the velocities `W r + p`;
-    /// `None` where no state of the contact does.
+    /// Forces within the friction cone that satisfy Coulomb's law together with the velocities `W r +
+    /// p`; `None` if no state of the contact does.
     ///
-    /// If the contact closes without forces, `p_N < 0`, sticking gives the forces `(n, t) / det W`. With
-    /// sliding to either side, `r_T = +-mu r_N`, the tangential velocity is
-    /// `-(t -+ mu n) / (W_NN +- W_NT mu)`: the same two numbers `t -+ mu n` say whether it sticks, and
-    /// which way it slides. If `det W` and both denominators are positive, exactly one state fits.
+    /// If the contact closes without forces, `p_N < 0`, sticking gives the forces `(n, t) / det W`. The
+    /// tangential velocity for sliding to either side, `r_T = +-mu r_N`, is `-(t -+ mu n) / (W_NN +-
+    /// W_NT mu)`: the same two numbers `t -+ mu n` decide whether the contact sticks, and the direction
+    /// of sliding. If `det W` and both denominators are positive, exactly one state fits.
     pub(super) fn forces(&self, p: [f64; 2]) -> Option<[f64; 2]> {
         let Self { w: [[nn, nt], [tn, tt]], mu } = *self;
         if p[0] >= 0.0 {
@@ -27,7 +27,7 @@ impl Coulomb {
             let stiffness = nn + side * mu * nt;
             let fits = stiffness > 0.0 && side * (t - side * mu * n) >= 0.0;
             let normal = -p[0] / stiffness;
-            // Without friction the zero has no sign.
+            // The zero without friction has no sign.
             fits.then_some([normal, side * mu * normal + 0.0])
         };
         let stick = || {
@@ -37,7 +37,8 @@ impl Coulomb {
             let bound = mu * normal;
             fits.then_some([normal, (t / determinant).max(-bound).min(bound)])
         };
-        // At the borders of the states sliding is the one that needs no division by the determinant.
+        // Sliding is preferred at the borders of the states since it needs no division by the
+        // determinant.
         slip(1.0).or_else(|| slip(-1.0)).or_else(stick)
     }
 
@@ -58,8 +59,8 @@ impl Coulomb {
 mod tests {
     use super::*;
 
-    /// Over a grid of contacts and velocities the state that is found obeys the law, and where the
-    /// theory says so there is one.
+    /// The state found obeys the law over a grid of contacts and velocities, and a state is found
+    /// whenever the theory guarantees one.
     #[test]
     fn the_state_found_obeys_the_law() {
         let steps = || (-4..=4_i8).map(f64::from);

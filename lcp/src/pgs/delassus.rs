@@ -1,5 +1,5 @@
 //! The matrix `C K^-1 C^T + D` of contacts between elastic bodies, by its rows. `D` is diagonal: the compliances of the
-//! contacts themselves. Every contact has a normal row and after it a tangential one, which is empty without friction.
+//! contacts themselves. Every contact has a normal row followed by a tangential one, which is empty without friction.
 
 use faer::linalg::solvers::Solve;
 use faer::sparse::linalg::solvers::Llt;
@@ -14,7 +14,7 @@ use crate::matrix::column_of;
 use crate::parts::Parts;
 use crate::{Contact2d, ContactState, Error};
 
-/// Most numbers of `K^-1 C^T` that are kept. Chosen: a quarter of a GB.
+/// Largest number of entries of `K^-1 C^T` that are kept. Chosen: a quarter of a GB.
 const LARGEST: usize = 1 << 25;
 
 /// The rows of `C K^-1 C^T + D`. Bodies that `K` does not couple are factorised one by one, so that a column of
@@ -26,7 +26,7 @@ pub(super) struct Delassus<'a> {
     c: Columns,
     /// `K^-1 C^T`.
     columns: Columns,
-    /// The displacements `K^-1 C^T z`, as the state.
+    /// The displacements `K^-1 C^T z`, which are the state of the iteration.
     u: Vec<f64>,
 }
 
@@ -119,7 +119,7 @@ impl<'a> Delassus<'a> {
     }
 }
 
-/// `C`, of which the tangential rows without friction are empty.
+/// `C`, with empty tangential rows without friction.
 fn rows_of_contacts(problem: &Contact2d) -> Columns {
     let mut columns = Columns::default();
     for j in 0..problem.displacements() {

@@ -17,7 +17,7 @@ impl Solver<Lcp> for ProjectedGaussSeidel {
     }
 }
 
-/// Judged on the problem as it stands.
+/// The answer is judged by the problem as given.
 impl Solver<HorizontalLcp> for ProjectedGaussSeidel {
     fn solve_pairs(
         &self,
@@ -41,7 +41,7 @@ impl Solver<HorizontalLcp> for ProjectedGaussSeidel {
     }
 }
 
-/// In the pairs of [`BoxedLcp::to_general`].
+/// The solution has the pairs of [`BoxedLcp::to_general`].
 impl Solver<BoxedLcp> for ProjectedGaussSeidel {
     fn solve_pairs(
         &self,
@@ -65,7 +65,7 @@ impl Solver<BoxedLcp> for ProjectedGaussSeidel {
     }
 }
 
-/// In the pairs of [`Friction2d::standard`].
+/// The solution has the pairs of [`Friction2d::standard`].
 impl Solver<Friction2d> for ProjectedGaussSeidel {
     fn solve_pairs(
         &self,
@@ -89,9 +89,9 @@ impl Solver<Friction2d> for ProjectedGaussSeidel {
     }
 }
 
-/// On the forces, in the pairs of [`Contact2d::to_general`]: the displacements follow from them if `K`
-/// is positive definite, and the compliances of the contacts are on the diagonal. Bodies that `K` does not couple are
-/// eliminated one by one.
+/// The unknowns are the forces, and the solution has the pairs of [`Contact2d::to_general`]: the displacements follow
+/// from the forces if `K` is positive definite, and the compliances of the contacts are on the diagonal. Bodies that
+/// `K` does not couple are eliminated one by one.
 impl Solver<Contact2d> for ProjectedGaussSeidel {
     fn solve_pairs(
         &self,

@@ -1,12 +1,13 @@
-//! A structural basis: a row for every pair in which one of its columns has an entry.
+//! A structural basis: a row for every pair, different for each, in which one of its columns has an
+//! entry.
 
 use lcp_linalg::Columns;
 
 use crate::Side;
 
-/// The side of the column with which every pair was matched to a row of its own, for as many pairs as
-/// can be (a maximum bipartite matching by augmenting paths; Kuhn 1955, Duff 1981). `columns` are those
-/// of the preferred sides, then the others. A preferred side is left only where that raises the
+/// The side of the column by which every pair was matched to a row of its own, for the largest possible
+/// number of pairs (a maximum bipartite matching by augmenting paths; Kuhn 1955, Duff 1981). `columns`
+/// are those of the preferred sides, then the others. A preferred side is left only if that raises the
 /// number of matched pairs.
 pub(super) fn matched_sides(columns: &Columns, preferred: &[Side]) -> Vec<Option<Side>> {
     let n = preferred.len();

@@ -2,18 +2,18 @@
 
 use crate::{Basis, Status};
 
-/// How a trace ended.
+/// The ending of a trace.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub enum ParametricEnd {
     /// The parameter has reached its last value.
     Reached,
-    /// From the last breakpoint on nothing blocks: the solution continues along [`ParametricPath::ray`] without end.
+    /// Nothing blocks after the last breakpoint: the solution continues along [`ParametricPath::ray`] without end.
     Ray,
     /// The path has turned back to the first value of the parameter.
     TurnedBack,
-    /// There is no solution to start from: the status of the solve at the first value.
+    /// No solution to start from: the status of the solve at the first value.
     NoStart(Status),
     /// The limit on breakpoints was reached.
     BreakpointLimit,
@@ -55,10 +55,10 @@ pub struct ParametricRay {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct ParametricPath {
-    /// How the trace ended.
+    /// The ending of the trace.
     pub end: ParametricEnd,
     /// The breakpoints, from the first value of the parameter on. The parameter need not increase from one to the
-    /// next: the path can turn back if the problem is not monotone, and the parameter is constant where the solutions
+    /// next: the path can turn back if the problem is not monotone, and the parameter is constant if the solutions
     /// for one value form a segment.
     pub breakpoints: Vec<Breakpoint>,
     /// The complementary basis between consecutive breakpoints, and after the last one if the path ends on a ray.
@@ -71,8 +71,8 @@ pub struct ParametricPath {
 }
 
 impl ParametricPath {
-    /// Every solution on the path for a value of the parameter, in order: none outside the traced values, several
-    /// where the path turns back.
+    /// Every solution on the path for a value of the parameter, in order: none outside the traced values, several if
+    /// the path turns back.
     pub fn solutions_at(&self, lambda: f64) -> Vec<Breakpoint> {
         let mut found: Vec<Breakpoint> = Vec::new();
         for pair in self.breakpoints.windows(2) {

@@ -4,7 +4,7 @@ use super::*;
 use crate::Lcp;
 use crate::random::SplitMix;
 
-/// A chain of springs above an obstacle: the basis that a path may end beside has one contact too few and one too many.
+/// A chain of springs above an obstacle: the last basis of a path may have one contact too few and one too many.
 #[test]
 fn pairs_with_negative_values_are_exchanged_all_at_once() {
     let n = 6;
@@ -25,7 +25,7 @@ fn pairs_with_negative_values_are_exchanged_all_at_once() {
     assert_eq!(point.t, [0.5, 0.0, 0.0, 0.0, 1.0, 1.0]);
 }
 
-/// A step of the descent takes the columns of all pairs, which in large problems is minutes for all steps.
+/// A step of the descent takes the columns of all pairs, so that all steps take minutes in large problems.
 #[test]
 fn flips_end_when_the_time_is_over() {
     let mut random = SplitMix::new(1);

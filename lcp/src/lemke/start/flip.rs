@@ -11,9 +11,9 @@ use crate::solve::is_over;
 use crate::vector::max_abs;
 
 impl Start {
-    /// Another start basis: principal pivots on pairs drawn at random, alone if the pivot is sound, else
-    /// together with a pair that makes a block of order two sound. At most some hundred pairs of a
-    /// sparse problem are drawn. The basis so far if the time is over.
+    /// Another start basis: principal pivots on pairs drawn at random, alone if the pivot is sound, else together with
+    /// a pair that makes a block of order two sound. At most some hundred pairs of a sparse problem are drawn. The
+    /// result is the basis so far if the time limit is reached.
     pub(crate) fn flipped(&self, seed: u64, deadline: Option<Instant>) -> Basis {
         let n = self.q.len();
         let is_sparse = matches!(self.data, StartData::Sparse(_));
@@ -48,7 +48,7 @@ impl Start {
                 .filter(|&k| column[k].abs() >= sound)
                 .collect();
             if let Some(&partner) = random.pick(&partners) {
-                // Row `partner` of column `pair`, then row `pair` of column `partner`.
+                // First row `partner` of column `pair`, then row `pair` of column `partner`.
                 kernel.exchange(partner, n + pair, partner, &column);
                 kernel.column(n + partner, &mut column);
                 if column[pair].abs() >= SOUND_PIVOT * max_abs(&column) {
@@ -67,9 +67,10 @@ impl Start {
         self.basis_with(&flipped)
     }
 
-    /// Principal pivots on single pairs, each the one after which the negative values add up to least, until none makes
-    /// the sum smaller. Paths from a basis with few and small negative values end at a solution more often: of planted
-    /// indefinite problems of order 40 one path in 15 instead of one in 200. A step takes the columns of all pairs.
+    /// Makes principal pivots on single pairs, each the one with the smallest sum of negative values afterwards, until
+    /// no pivot decreases the sum. Paths from a basis with few and small negative values end at a solution more often:
+    /// one path in 15 instead of one in 200 for planted indefinite problems of order 40. A step takes the columns of
+    /// all pairs.
     fn descend(
         &self,
         kernel: &mut dyn Kernel,
@@ -84,7 +85,7 @@ impl Start {
         }
         let negative = |v: f64| if v < 0.0 { -v } else { 0.0 };
         let mut column = vec![0.0; n];
-        // Each pivot leads to a basis not seen before; as many as pairs are enough for a start.
+        // Each pivot leads to a new basis; as many pivots as pairs are enough for a start.
         for _ in 0..n {
             let mut least: f64 = values.iter().map(|&v| negative(v)).sum();
             let mut best = None;
