@@ -1,6 +1,6 @@
-//! What a pivoting method tells of its work.
+//! Records of the work of a pivoting method.
 
-/// How one attempt of a pivoting method ended.
+/// The ending of one attempt of a pivoting method.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
@@ -11,11 +11,11 @@ pub enum AttemptEnd {
     Ray,
     /// The limit on pivots was reached.
     PivotLimit,
-    /// A basis came back.
+    /// A basis was repeated.
     Cycle,
     /// The basis became singular to working precision.
     Singular,
-    /// The observer asked to stop.
+    /// The observer stopped the attempt.
     Cancelled,
     /// The limit on wall-clock time was reached.
     TimeLimit,
@@ -26,7 +26,7 @@ pub enum AttemptEnd {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub enum AttemptStart {
-    /// The basis of the settings, or that of the point of the settings.
+    /// The basis of the settings, or the basis of the point of the settings.
     Given,
     /// All `y`.
     AllY,
@@ -36,7 +36,7 @@ pub enum AttemptStart {
     Found,
     /// The basis on which the last attempt ended.
     LastBasis,
-    /// The first one after exchanges of pairs drawn at random.
+    /// The first basis after exchanges of pairs drawn at random.
     Flipped {
         /// Seed of the generator.
         seed: u64,
@@ -63,18 +63,17 @@ impl std::fmt::Display for AttemptStart {
 pub enum AttemptCovering {
     /// All ones after equilibration.
     Ones,
-    /// Ones, and for a negative value of the start basis more, up to one for the lowest: the path begins near the
-    /// right-hand side of the problem.
+    /// Ones, increased by up to one for negative values of the start basis (by one for the lowest): the path
+    /// begins near the right-hand side of the problem.
     Negative,
     /// Pseudo-random.
     Random {
         /// Seed of the generator.
         seed: u64,
     },
-    /// The one of the settings.
+    /// The covering vector of the settings.
     Given,
-    /// The column of the nonbasic variable of a pair, which takes the place of the artificial one
-    /// (Lemke and Howson 1964).
+    /// The column of the nonbasic variable of a pair, which replaces the artificial one (Lemke and Howson 1964).
     Column {
         /// The pair, from 0.
         pair: usize,
@@ -93,7 +92,7 @@ impl std::fmt::Display for AttemptCovering {
     }
 }
 
-/// One attempt: where it started, with which covering vector, and how it ended.
+/// One attempt: its start, its covering vector, and its ending.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
@@ -102,11 +101,11 @@ pub struct Attempt {
     pub start: AttemptStart,
     /// The covering vector.
     pub covering: AttemptCovering,
-    /// How the attempt ended.
+    /// The ending of the attempt.
     pub end: AttemptEnd,
-    /// Pivots that it took.
+    /// Number of its pivots.
     pub pivots: usize,
-    /// The worst residual of its complementary basis, where it ended on one that could be solved.
+    /// The worst residual of its complementary basis, if the attempt ended on a basis that could be solved.
     pub residual: Option<f64>,
 }
 

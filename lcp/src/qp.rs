@@ -1,4 +1,5 @@
-//! Convex quadratic programs: an interior-point method, and the exact states that its points lead to.
+//! Convex quadratic programs: an interior-point method, and the exact solutions by states of contacts that follow from
+//! its points.
 
 mod constants;
 mod contact;
@@ -30,29 +31,29 @@ use crate::{
 /// Complementarity problems that are the conditions of a convex quadratic program.
 ///
 /// * [`Lcp`] with `M` symmetric positive semidefinite: minimise `z M z / 2 + q z` for `z >= 0`;
-///   [`HorizontalLcp`], where [`HorizontalLcp::to_standard`] recognises such a problem.
+///   [`HorizontalLcp`], if [`HorizontalLcp::to_standard`] recognises such a problem.
 /// * [`MixedLcp`] with `M = [P, -G^T; G, S]`, both `P` and `S` symmetric positive semidefinite, whatever is free: minimise
 ///   `u P u / 2 + z S z / 2 + p u` for `G u + S z + r >= 0`, or `= 0` if the variable of the row is free. Such an [`Lcp`] is
 ///   treated, too.
 /// * [`BoxedLcp`] with such an `M`: its bounds become rows of a mixed problem.
-/// * [`Contact2d`]: minimise `u K u / 2 - f u` for gaps `C_n u + x_0 >= 0`. With friction it is a sequence of such
-///   programs: with fixed bounds `g` of the friction forces (Tresca) the work `g |C_t u + s_0|` is added, and `g` goes half
+/// * [`Contact2d`]: minimise `u K u / 2 - f u` for gaps `C_n u + x_0 >= 0`. A problem with friction is a sequence of such
+///   programs: the work `g |C_t u + s_0|` of friction forces with fixed bounds `g` (Tresca) is added, and `g` goes half
 ///   the way to `mu t_n`, until it converges.
 ///
-/// Symmetry and semidefiniteness are checked. Clarabel's interior-point method finds a point near the solution, which the
-/// **exchange of states** makes exact, as for [`InteriorPoint`](crate::InteriorPoint): in every pair the larger variable is taken
-/// as nonzero, which gives a linear system; pairs with wrong signs are exchanged, as long as their number decreases. The page
-/// `docs/methods/quadratic_programs.md` has the whole.
+/// Symmetry and semidefiniteness are checked. Clarabel's interior-point method finds a point near the solution, which
+/// the **exchange of states** makes exact, as for [`InteriorPoint`](crate::InteriorPoint): the larger variable of every
+/// pair is taken as nonzero, which gives a linear system; pairs with wrong signs are exchanged, as long as their number
+/// decreases. The page `docs/methods/quadratic_programs.md` has the details.
 ///
 /// **Guarantee**: in exact arithmetic a program without friction is solved if it has a solution, and is otherwise
 /// [`Infeasible`](crate::Status::Infeasible) with a proof, by the interior-point method for least forces. In
-/// floating-point arithmetic this holds as long as the stiffnesses of one problem differ by less than about 1e6. With friction
-/// the fixed-point iteration contracts if `mu` or the ratio of tangential to normal stiffness is small; otherwise the status is
-/// [`Stalled`](crate::Status::Stalled).
+/// floating-point arithmetic this holds as long as the stiffnesses of one problem differ by less than about 1e6. The
+/// fixed-point iteration for friction contracts if `mu` or the ratio of tangential to normal stiffness is small;
+/// otherwise the status is [`Stalled`](crate::Status::Stalled).
 ///
 /// **Failure**: `Stalled` and [`NumericalTrouble`](crate::Status::NumericalTrouble) for data so ill-conditioned that
-/// neither a solution nor a proof is found. Then use [`Lemke`](crate::Lemke) or [`InteriorPoint`](crate::InteriorPoint), as
-/// [`Auto`](crate::Auto) does.
+/// neither a solution nor a proof is found. [`Lemke`](crate::Lemke) or [`InteriorPoint`](crate::InteriorPoint) should
+/// then be used, as by [`Auto`](crate::Auto).
 ///
 /// **Cost**: 10 to 20 factorisations of the sparse matrix `[K, C^T; C, -D]` for every program, and one for every
 /// round of exchanges. [`Info::iterations`](crate::Info::iterations) and the observer count programs, or, with
@@ -82,7 +83,7 @@ pub struct QuadraticProgram {
 named!(QuadraticProgram, QuadraticProgramSettings, Method::QuadraticProgram);
 
 impl QuadraticProgram {
-    /// Without springs, of a `K` that is known to be semidefinite.
+    /// Solves a problem without springs, with a `K` that is known to be semidefinite.
     fn solve_plain(
         &self,
         contact: &Contact2d,
@@ -113,7 +114,7 @@ impl QuadraticProgram {
         run.finish(end)
     }
 
-    /// A mixed problem, with a proof in the rows of a general one.
+    /// Solves a mixed problem, with a proof in the rows of a general one.
     fn solve_mixed(
         &self,
         problem: &MixedLcp,
@@ -157,7 +158,7 @@ impl Solver<HorizontalLcp> for QuadraticProgram {
     }
 }
 
-/// On the pairs of [`MixedLcp::to_general`].
+/// The solution has the pairs of [`MixedLcp::to_general`].
 impl Solver<MixedLcp> for QuadraticProgram {
     fn solve_pairs(
         &self,
@@ -168,7 +169,7 @@ impl Solver<MixedLcp> for QuadraticProgram {
     }
 }
 
-/// In mixed form, by the distances from bounds.
+/// The problem is solved in mixed form, by the distances from bounds.
 impl Solver<BoxedLcp> for QuadraticProgram {
     fn solve_pairs(
         &self,

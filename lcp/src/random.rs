@@ -24,7 +24,7 @@ impl SplitMix {
         (self.next_u64() >> 11) as f64 / (1_u64 << 53) as f64
     }
 
-    /// One of the items, unless there is none.
+    /// A random one of the items; `None` if there are no items.
     pub fn pick<'a, T>(&mut self, items: &'a [T]) -> Option<&'a T> {
         let draw = self.next_u64();
         let count = u64::try_from(items.len()).ok().filter(|&count| count > 0)?;

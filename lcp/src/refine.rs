@@ -24,8 +24,8 @@ use crate::vector::{HALF_DIGITS, check_length, check_vector};
 use crate::{Contact2d, ContactState, Error};
 
 impl Contact2d {
-    /// The states nearest to a solution: a contact is open if its gap, relative to the largest displacement, is
-    /// larger than its force, relative to the largest force. It slides if its slip is larger than the difference
+    /// The states nearest to a solution: a contact is open if its gap, relative to the largest displacement, is larger
+    /// than its force, relative to the largest force. A contact slides if its slip is larger than the difference
     /// between its friction force and the bound.
     ///
     /// # Panics
@@ -43,18 +43,19 @@ impl Contact2d {
     /// t = 0 (open),   g = s = 0 (stick),   g = 0, t_t = -mu t_n (forwards) or mu t_n (backwards)
     /// ```
     ///
-    /// where `g` and `s` contain what the forces press compliant contacts together, with factors in `f64`, and refines
-    /// displacements and forces with residuals in [`Extended`] (Björck, in Cox and Hammarling, Reliable Numerical Computation, 1990), starting from the given state. If the
-    /// inequalities hold too, which [`Refined::margin`] shows, this is a solution of the problem, and its equations hold to
+    /// where `g` and `s` contain the compression of compliant contacts by their forces. The factors are in `f64`;
+    /// displacements and forces are refined with residuals in [`Extended`] (Björck, in Cox and Hammarling, Reliable
+    /// Numerical Computation, 1990), starting from the given state. If the inequalities hold too, which
+    /// [`Refined::margin`] shows, the result is a solution of the problem, and its equations hold to
     /// [`Refined::residual`].
     ///
-    /// The forces of redundant contacts stay as near to the given ones as the equations allow. If their gaps contradict each
-    /// other in the last digits of the data, or bodies move freely, the data are changed by the remaining residual
+    /// The forces of redundant contacts stay as near to the given ones as the equations allow. If their gaps contradict
+    /// each other in the last digits of the data, or bodies move freely, the data are changed by the remaining residual
     /// ([`Refined::shift`]). If the states have no solution the residual stops decreasing.
     ///
     /// # Errors
-    /// [`Error::Length`] when the lengths are not those of the problem, [`Error::NotFinite`] for a state with
-    /// NaN or infinities, [`Error::NotTreated`] when the factors do not fit into memory.
+    /// [`Error::Length`] if the lengths are not those of the problem, [`Error::NotFinite`] for a state with NaN or
+    /// infinities, [`Error::NotTreated`] if the factors do not fit into memory.
     ///
     /// ```
     /// use faer::mat;
@@ -83,12 +84,12 @@ impl Contact2d {
 
     /// The exact solution nearest to the given one: [`refine`](Self::refine) for its [`statuses`](Self::statuses).
     /// Bodies without loads that no contact presses float, with all their contacts open: their position is not
-    /// determined, and they stay where they are. If the inequality of a contact is then violated by no more than a
-    /// rounding error of the solution, the contact takes the state on the other side, as long as this makes the
-    /// margin larger.
+    /// determined, and they stay in place. If the inequality of a contact is then violated by no more than a rounding
+    /// error of the solution, the contact takes the state on the other side, as long as the change increases the
+    /// margin.
     ///
     /// # Errors
-    /// As [`refine`](Self::refine).
+    /// The errors of [`refine`](Self::refine).
     pub fn verify(&self, state: &ContactState) -> Result<Verified, Error> {
         self.check_state(state, &vec![ContactStatus::Open; self.points()])?;
         let scaled = Scaled::of_contact(self);

@@ -11,13 +11,11 @@ pub(crate) use lcp_linalg::power_of_two;
 
 use crate::matrix::Column;
 
-/// Row and column factors, all powers of two, that bring the entries of a matrix, given by its
-/// columns, near one.
+/// Row and column factors, all powers of two, that bring the entries of a matrix, given by its columns, near one.
 ///
-/// The largest entries of rows and columns alone (Ruiz 2001) leave a freedom: in `[A, -R^T; R, 0]`
-/// the size of `A`, and with it the units of the problem, would stay whatever they are. So the
-/// logarithms of all entries are balanced in between (Curtis and Reid 1972). A row or column of
-/// zeros keeps the factor one.
+/// The largest entries of rows and columns alone (Ruiz 2001) do not determine the factors: the size of `A` in `[A,
+/// -R^T; R, 0]`, and with it the units of the problem, would remain. So the logarithms of all entries are balanced in
+/// between (Curtis and Reid 1972). A row or column of zeros keeps the factor one.
 pub(crate) fn equilibrate(rows: usize, columns: &[Column<'_>]) -> (Vec<f64>, Vec<f64>) {
     let mut factors = Equilibration::ones(rows, columns.len());
     factors.damp_largest(columns);
@@ -28,8 +26,9 @@ pub(crate) fn equilibrate(rows: usize, columns: &[Column<'_>]) -> (Vec<f64>, Vec
 
 /// Factors for a computed matrix, by its largest entries alone.
 ///
-/// Entries of the inverse of a band decrease exponentially with their distance from the diagonal. They are no rounding
-/// errors, but if the balance of logarithms counted them like all others, rows would get factors of up to `1e12`.
+/// Entries of the inverse of a band decrease exponentially with their distance from the diagonal. These entries are not
+/// rounding errors, but rows would get factors of up to `1e12` if the balance of logarithms counted them like all
+/// others.
 pub(crate) fn equilibrate_computed(rows: usize, columns: &[Column<'_>]) -> (Vec<f64>, Vec<f64>) {
     let mut factors = Equilibration::ones(rows, columns.len());
     factors.damp_largest(columns);
@@ -46,8 +45,8 @@ impl Equilibration {
         Self { row: vec![1.0; rows], col: vec![1.0; columns] }
     }
 
-    /// Divides every row and column by the root of its largest entry (Ruiz), a few times or until
-    /// all of these are within a factor of two of one.
+    /// Divides every row and column by the root of its largest entry (Ruiz), a few times or until all largest entries
+    /// are within a factor of two of one.
     fn damp_largest(&mut self, columns: &[Column<'_>]) {
         const SWEEPS: usize = 3;
         for _ in 0..SWEEPS {
@@ -85,7 +84,7 @@ impl Equilibration {
         for col in &mut col {
             *col -= mean_of_all;
         }
-        // Without zeros the first means are the answer.
+        // The first means are the answer for a matrix without zeros.
         for _ in 0..if is_full { 0 } else { SWEEPS } {
             let mut sums = Sums::new(row.len());
             // Each column is read once: its own mean, then its share of the sums along rows.
@@ -102,7 +101,7 @@ impl Equilibration {
         self.col.iter_mut().zip(col).for_each(|(factor, log)| *factor *= log.exp2());
     }
 
-    /// To powers of two.
+    /// The factors rounded to powers of two.
     fn rounded(self) -> (Vec<f64>, Vec<f64>) {
         let Self { mut row, mut col } = self;
         row.iter_mut().chain(&mut col).for_each(|f| *f = power_of_two(*f));
@@ -139,7 +138,7 @@ fn largest(column: Column<'_>, row: &[f64], col: f64, row_max: &mut [f64]) -> f6
     lanes.into_iter().fold(0.0, max)
 }
 
-/// Sums of logarithms along rows, and how many they are.
+/// Sums of logarithms along rows, and their numbers of terms.
 struct Sums {
     sums: Vec<f64>,
     counts: Vec<f64>,
@@ -150,8 +149,8 @@ impl Sums {
         Self { sums: vec![0.0; rows], counts: vec![0.0; rows] }
     }
 
-    /// Adds the logarithms of the scaled entries of a column, each with its present correction; gives their sum,
-    /// and how many they are.
+    /// Adds the logarithms of the scaled entries of a column, each with its present correction; returns their sum and
+    /// their number.
     fn add(&mut self, column: Column<'_>, row: &[f64], col: f64, correction: f64) -> [f64; 2] {
         let (mut sums, mut counts) = ([0.0; LANES], [0.0; LANES]);
         let mut add = |lane: usize, v: f64, sum: &mut f64, count: &mut f64| {
@@ -226,15 +225,16 @@ fn lanes_of_mut(values: &mut [f64]) -> (&mut [[f64; LANES]], &mut [f64]) {
     values.as_chunks_mut()
 }
 
-/// Minus the mean of so many values with that sum; zero for none.
+/// Minus the mean of values with this sum and number; zero if there are no values.
 fn negative_mean([sum, count]: [f64; 2]) -> f64 {
     if count > 0.0 { -sum / count } else { 0.0 }
 }
 
-/// The logarithm to base 2 of the size of a number, to within 0.09, and one, or zero for noise: once the largest of their row
-/// and column is near one, entries below eps are rounding errors of the others. Exponent
-/// and mantissa as they stand in memory are nearly the logarithm in units of 2^-52. All but the last twelve bits of them
-/// become a number by being put below the exponent of 2^52. The factors are rounded to powers of two in the end.
+/// The logarithm to base 2 of the size of a number, to within 0.09, and its weight: one, or zero for noise (once the
+/// largest entries of row and column are near one, entries below eps are rounding errors of the others). Exponent and
+/// mantissa as stored in memory, read as an integer, are nearly the logarithm in units of 2^-52. All of these bits
+/// except the last twelve become a number below the exponent of 2^52. The factors are rounded to powers of two in the
+/// end.
 fn logarithm(v: f64) -> (f64, f64) {
     let (v, shift) = (v.abs(), (1_u64 << 52) as f64);
     let digits = f64::from_bits(shift.to_bits() | v.to_bits() >> 12) - shift;
@@ -242,7 +242,7 @@ fn logarithm(v: f64) -> (f64, f64) {
     (digits / (1_u64 << 40) as f64 - 1023.0, kept)
 }
 
-/// Multiplies all entries by factors of their own.
+/// Multiplies every entry by its own factor.
 pub(crate) fn multiply(
     matrix: &mut SparseColMat<usize, f64>,
     factor: impl Fn(usize, usize) -> f64,
@@ -261,7 +261,7 @@ mod tests {
     use super::*;
     use crate::Matrix;
 
-    /// The inverse of a triangular band, whose entries decrease from one to `1e-14`, is left as it is.
+    /// The inverse of a triangular band, whose entries decrease from one to `1e-14`, is not changed.
     #[test]
     fn small_entries_of_an_inverse_do_not_count() {
         let entry = |i: usize, j: usize| if i < j { 0.0 } else { 0.01_f64.powf((i - j) as f64) };
@@ -288,7 +288,7 @@ mod tests {
         }
     }
 
-    /// The block that maxima alone would leave at its units comes near one, dense or sparse.
+    /// A block that maxima alone would leave in its units is brought near one, dense or sparse.
     #[test]
     fn units_of_a_block_are_removed() {
         let block = |scale: f64| {

@@ -18,18 +18,19 @@ use crate::{
 
 /// Solves `w = M z + q` for one `q` after the other, each from the free set of the solution before.
 ///
-/// Steps of a simulation differ little: the `z` that were positive are so again. While they are, a solve takes the factors of
-/// their matrix from the solve before. If signs are wrong, all these pairs change sides as in
-/// [`SemismoothNewton`](crate::SemismoothNewton), with a factorisation each time. If that comes to no end, [`Auto`] solves the
-/// problem. If `M` is dense, solves after the first allocate nothing, except by [`Auto`].
+/// Steps of a simulation differ little: `z` that were positive mostly stay positive. As long as these `z` do, a solve
+/// reuses the factors of their matrix from the solve before. If signs are wrong, all pairs with a wrong sign change
+/// sides as in [`SemismoothNewton`](crate::SemismoothNewton), with a factorisation each time. If these exchanges do not
+/// end, [`Auto`] solves the problem. If `M` is dense, solves after the first allocate nothing, except by [`Auto`].
 ///
 /// Pairs have keys. If contacts come and go, [`renew`](Self::renew) takes the new problem, in which pairs that stay keep
 /// their states; new ones begin with `z = 0`. The three pairs of a contact of [`Friction2d`](crate::Friction2d) have keys
 /// such as `(contact, 0)` to `(contact, 2)`.
 ///
 /// # Residuals
-/// Upper bounds of those of [`Lcp::residuals`]: rows that matter to no load count like all others, and the most that rounding may
-/// hide of a row is added. A point for which they are too large goes to [`Auto`].
+/// The residuals are upper bounds of those of [`Lcp::residuals`]: rows that matter to no load count like all others,
+/// and the largest part of a row that rounding may hide is added. If a bound is too large, [`Auto`] solves the problem
+/// again.
 ///
 /// ```
 /// use lcp::{AutoSettings, Lcp, Sequence};
@@ -57,11 +58,11 @@ pub struct Sequence<K> {
 }
 
 impl<K: Ord + Clone> Sequence<K> {
-    /// A sequence that begins with a problem, one key for every pair; none of them is free. The start of the settings is that of
-    /// the first solve that [`Auto`] does.
+    /// A sequence that begins with a problem, with one key for every pair; there are no free pairs. The start of the
+    /// settings is used in the first solve by [`Auto`].
     ///
     /// # Errors
-    /// [`Error::Length`] for another number of keys, and what [`AutoSettings::validate`] says.
+    /// [`Error::Length`] for another number of keys, and the errors of [`AutoSettings::validate`].
     pub fn new(lcp: Lcp, keys: &[K], settings: AutoSettings) -> Result<Self, Error> {
         let n = lcp.order();
         check_length("keys", keys.len(), n)?;
@@ -85,10 +86,10 @@ impl<K: Ord + Clone> Sequence<K> {
         })
     }
 
-    /// Goes on with another problem, one key for every pair. Pairs of the problem before keep their states.
+    /// Continues with another problem, with one key for every pair. Pairs of the problem before keep their states.
     ///
     /// # Errors
-    /// [`Error::Length`] for another number of keys; the sequence stays as it was.
+    /// [`Error::Length`] for another number of keys; the sequence is then unchanged.
     pub fn renew(&mut self, lcp: Lcp, keys: &[K]) -> Result<(), Error> {
         let states: BTreeMap<&K, &bool> = self.keys.iter().zip(&self.point.is_free).collect();
         let is_free = keys.iter().map(|key| states.get(key).is_some_and(|is_free| **is_free));
@@ -112,9 +113,10 @@ impl<K: Ord + Clone> Sequence<K> {
         self.solve_observed(q, &mut |_| ControlFlow::Continue(()))
     }
 
-    /// Solves the problem for this `q`, calling the observer before every factorisation except the first, and before every
-    /// iteration of [`Auto`]. `Break` stops with [`Status::Cancelled`], unless the point at hand is a solution; the next solve begins at that point. While pairs
-    /// change sides, the residual is the most negative variable, in units of the largest of its vector.
+    /// Solves the problem for this `q`, calling the observer before every factorisation except the first, and before
+    /// every iteration of [`Auto`]. `Break` stops with [`Status::Cancelled`], unless the point at hand is a solution;
+    /// the next solve begins at that point. While pairs change sides, the residual is the most negative variable, in
+    /// units of the largest of its vector.
     ///
     /// # Errors
     /// [`Error::Length`] or [`Error::NotFinite`] for `q`.
@@ -155,8 +157,9 @@ impl<K: Ord + Clone> Sequence<K> {
         Ok(solution)
     }
 
-    /// Exchanges pairs of the wrong sign until there are none; how often. `None` if their number does not decrease, a matrix is
-    /// singular, the time is over, or the observer stops it.
+    /// Exchanges pairs of the wrong sign until there are none, and returns the number of exchanges. `None` if the
+    /// number of such pairs does not decrease, a matrix is singular, the time limit is reached, or the observer stops
+    /// the solve.
     fn exchange(
         &mut self,
         deadline: Option<Instant>,
@@ -182,7 +185,7 @@ impl<K: Ord + Clone> Sequence<K> {
         None
     }
 
-    /// The solution by [`Auto`] in the time that is left, and its states.
+    /// The solution by [`Auto`] in the time left, and its states.
     fn anew(
         &mut self,
         began: Instant,

@@ -5,8 +5,8 @@ use std::time::Duration;
 use crate::vector::{check_length, check_vector};
 use crate::{Basis, Error};
 
-/// The covering vector `d > 0` of the artificial variable, in the rows of the start basis. In rows
-/// of free variables, which may be negative, it is zero.
+/// The covering vector `d > 0` of the artificial variable, in the rows of the start basis. It is zero in rows of free
+/// variables, which may be negative.
 #[derive(Debug, Clone, PartialEq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Covering {
@@ -18,24 +18,24 @@ pub enum Covering {
         /// Seed of the generator.
         seed: u64,
     },
-    /// One positive entry for every pair, in units of the basic variable of the start basis. If a given start basis
-    /// is singular and replaced, all ones instead.
+    /// One positive entry for every pair, in units of the basic variable of the start basis. All ones are used
+    /// instead if a given start basis is singular and replaced.
     Given(Vec<f64>),
 }
 
-/// Start of a method, in the pairs of the general form of the problem, which are also those of its solutions: any of
-/// these may be the start of another method. The description of a basis here is for [`Lemke`](crate::Lemke); the
+/// Start of a method, in the pairs of the general form of the problem, which are also the pairs of its solutions: any
+/// solution may be the start of another method. The description of a basis here is for [`Lemke`](crate::Lemke); the
 /// settings of the other methods describe their use of a start.
 #[derive(Debug, Clone, PartialEq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum WarmStart {
-    /// The method finds its own.
+    /// No start is given: the method finds its own.
     #[default]
     None,
-    /// From a complementary basis. If it is singular, from one that shares as many of its columns as possible.
+    /// A complementary basis. If it is singular, the start is a basis that shares as many of its columns as possible.
     Basis(Basis),
-    /// From a point, for instance the solution of a similar problem. Its basis has from every pair the larger
-    /// variable, relative to the largest entry of its vector.
+    /// A point, for instance the solution of a similar problem. Its basis has the larger variable of every pair,
+    /// relative to the largest entry of its vector.
     Point {
         /// The first variable of every pair.
         t: Vec<f64>,
@@ -60,21 +60,21 @@ pub enum WarmStart {
 pub struct LemkeSettings {
     /// Largest residual, dimensionless, of a solution with status `Solved`. In `(0, 1)`.
     pub tolerance: f64,
-    /// Pivots of one attempt, not of all together; `None` is `100 n + 1000`.
+    /// Largest number of pivots of one attempt, not of all together; `None` is `100 n + 1000`.
     pub max_pivots: Option<usize>,
-    /// Wall-clock time of all attempts together, checked before every pivot; `None` is no limit.
+    /// Wall-clock time of all attempts together, checked before every pivot; `None` sets no limit.
     pub time_limit: Option<Duration>,
-    /// Attempts, each with another covering vector or start basis, before a ray is reported. At least 1;
-    /// `None` is as many as some seconds allow, at least twelve, and no more than
-    /// there are complementary bases.
+    /// Largest number of attempts, each with another covering vector or start basis, before a ray is reported. At
+    /// least 1; `None` allows as many as some seconds suffice for, at least twelve, and no more than there are
+    /// complementary bases.
     pub max_attempts: Option<usize>,
     /// Covering vector of the first attempt.
     pub covering: Covering,
     /// Start of the first attempt.
     pub start: WarmStart,
-    /// Whether the first ray is followed by a search for a proof that there is no solution, by the simplex method.
-    /// Without it the status is [`Infeasible`](crate::Status::Infeasible) only if there is no complementary basis and
-    /// the right-hand side is outside the span of all columns.
+    /// Whether the first ray is followed by a search for a proof that there is no solution, by the simplex method. If
+    /// not, the status is [`Infeasible`](crate::Status::Infeasible) only if there is no complementary basis and the
+    /// right-hand side is outside the span of all columns.
     pub prove_infeasible: bool,
     /// Whether [`Solution::trace`](crate::Solution::trace) records every pivot.
     pub trace: bool,
@@ -95,7 +95,7 @@ impl Default for LemkeSettings {
     }
 }
 
-/// Checks the tolerance that every method has.
+/// Checks the tolerance, a setting of every method.
 pub(crate) fn check_tolerance(tolerance: f64) -> Result<(), Error> {
     if tolerance > 0.0 && tolerance < 1.0 {
         return Ok(());
@@ -112,7 +112,7 @@ pub(crate) fn check_count(name: &'static str, count: Option<usize>) -> Result<()
 }
 
 impl WarmStart {
-    /// The start of a problem with these pairs of another one, whose variables may be exchanged.
+    /// The start of a problem with these pairs of another problem, whose variables may be exchanged.
     pub(crate) fn of_pairs(&self, pairs: impl Iterator<Item = (usize, bool)>) -> Self {
         match self {
             Self::None => Self::None,

@@ -8,7 +8,7 @@ use crate::certify::Ray;
 use crate::pivoting::{Attempt, PivotRecord};
 use crate::{Basis, Certificate, ContactState, HorizontalLcp, Method, Residuals, Status};
 
-/// How a method that [`Auto`](crate::Auto) ran ended.
+/// The ending of a method that [`Auto`](crate::Auto) ran.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(
     feature = "serde",
@@ -17,7 +17,7 @@ use crate::{Basis, Certificate, ContactState, HorizontalLcp, Method, Residuals, 
 )]
 #[non_exhaustive]
 pub enum RunEnd {
-    /// It ended with a status.
+    /// The method ended with a status.
     Ended {
         /// Its status.
         status: Status,
@@ -25,7 +25,7 @@ pub enum RunEnd {
         #[cfg_attr(feature = "serde", serde(with = "crate::json_numbers::infinity"))]
         residual: f64,
     },
-    /// It does not treat the problem.
+    /// The method does not treat the problem.
     Refused {
         /// The reason.
         reason: String,
@@ -49,9 +49,9 @@ pub struct MethodRun {
     /// The method.
     #[cfg_attr(feature = "serde", serde(rename = "solver"))]
     pub method: Method,
-    /// Why it was chosen.
+    /// The reason for its choice.
     pub reason: String,
-    /// How it ended.
+    /// The ending of the method.
     pub end: RunEnd,
     /// Its pivots, as in [`Info::pivots`].
     #[cfg_attr(feature = "serde", serde(default))]
@@ -71,10 +71,10 @@ pub struct Info {
     /// The method that found the point.
     #[cfg_attr(feature = "serde", serde(rename = "solver"))]
     pub method: Method,
-    /// Pivots over all attempts; of enumeration the exchanges of columns in its least squares problems.
+    /// Pivots over all attempts; for enumeration the exchanges of columns in its least squares problems.
     pub pivots: usize,
-    /// Sweeps, steps, or programs of a method that has no pivots. For `QuadraticProgram` these are programs, or
-    /// re-centrings of soft springs, not the iterations within a program, which its `max_iterations` limits.
+    /// Sweeps, steps, or programs of a method that has no pivots. `QuadraticProgram` counts programs, or re-centrings
+    /// of soft springs, not the iterations within a program, which its `max_iterations` limits.
     pub iterations: usize,
     /// Numeric factorisations of a matrix, or tableaus rebuilt from the data.
     pub factorisations: usize,
@@ -83,14 +83,14 @@ pub struct Info {
     /// The residual that controls an iterative method, at its start and after every iteration.
     #[cfg_attr(feature = "serde", serde(with = "crate::json_numbers::infinities"))]
     pub history: Vec<f64>,
-    /// The methods that [`Auto`](crate::Auto) ran, in order. The point and the other numbers here, except for the
-    /// time, come from one of them. For a problem with independent parts these are the methods of all parts, the
-    /// other numbers are sums, and [`method`](Self::method) is that of the largest part.
+    /// The methods that [`Auto`](crate::Auto) ran, in order. The point and the other numbers here, except for the time,
+    /// come from one of them. If the problem has independent parts, `runs` has the methods of all parts, the other
+    /// numbers are sums, and [`method`](Self::method) is that of the largest part.
     pub runs: Vec<MethodRun>,
     /// Wall-clock time \[s\].
     pub seconds: f64,
-    /// The part of it spent on pivots; the rest of a pivoting method is start bases, scaling, final
-    /// solves and proofs \[s\].
+    /// The part of `seconds` spent on pivots; the rest of a pivoting method is start bases, scaling, final solves and
+    /// proofs \[s\].
     pub pivot_seconds: f64,
 }
 
@@ -107,8 +107,8 @@ impl Info {
 
 /// The result of a solver for a problem of type `P`, always with the residuals of its point.
 ///
-/// The pairs are those of the general form of the problem: `problem.variables(&solution)` gives the answer in its own
-/// variables, and takes no solution of a problem of another type.
+/// The pairs are those of the general form of the problem: `problem.variables(&solution)` returns the answer in the
+/// variables of the problem, and takes no solution of a problem of another type.
 ///
 /// ```compile_fail
 /// use lcp::{Auto, BoxedLcp, Lcp, Solver};
@@ -143,9 +143,9 @@ pub struct Solution<P = HorizontalLcp> {
     /// Residuals from the original data: of `contact` or `boxed` if there is one, else of `(t, y)`.
     pub residuals: Residuals,
     /// The proof, checked against the given data, if the status is [`Infeasible`](Status::Infeasible) or
-    /// [`NoSolution`](Status::NoSolution); if it is
-    /// [`RayTermination`](Status::RayTermination), the ray of the first attempt that ended on one, without those that
-    /// have no artificial variable. It refers to the rows and pairs of the general form of the problem.
+    /// [`NoSolution`](Status::NoSolution). If the status is [`RayTermination`](Status::RayTermination), the ray of the
+    /// first attempt with an artificial variable that ended on a ray. The certificate refers to the rows and pairs of
+    /// the general form of the problem.
     pub certificate: Option<Certificate>,
     /// Estimate of the condition number, in the 1-norm, of the equilibrated matrix of the basis.
     pub condition: Option<f64>,
@@ -158,9 +158,9 @@ pub struct Solution<P = HorizontalLcp> {
 }
 
 impl Solution {
-    /// A point that is judged by residuals: [`Solved`](Status::Solved) if they are below the
-    /// tolerance, else what the method says. Zero takes the place of a point that is not finite, as a method finds it if a
-    /// coefficient has no inverse in floating point; its residuals are infinite.
+    /// A point judged by residuals: [`Solved`](Status::Solved) if they are below the tolerance, else the status of the
+    /// method. A point that is not finite, as found if a coefficient has no inverse in floating point, is replaced by
+    /// zero; its residuals are infinite.
     pub(crate) fn judged(
         mut t: Vec<f64>,
         mut y: Vec<f64>,
@@ -188,8 +188,8 @@ impl Solution {
         }
     }
 
-    /// Judges the point by the residuals of the given problem, if a method solved another form of it. A status that
-    /// does not depend on the point, such as a limit, a proof or a ray, stays.
+    /// Judges the point by the residuals of the given problem, if a method solved another form of the problem. A status
+    /// that does not depend on the point, such as a limit, a proof or a ray, stays.
     pub fn judge_again(&mut self, residuals: Residuals, tolerance: f64) {
         self.residuals = residuals;
         let is_of_point =
@@ -199,7 +199,7 @@ impl Solution {
         }
     }
 
-    /// The answer with a checked proof, which says more than the point.
+    /// The answer with a checked proof, which determines the status before the point does.
     pub(crate) fn proved(self, proof: Certificate) -> Self {
         let status = match proof {
             Certificate::Farkas { .. } => Status::Infeasible,
@@ -211,7 +211,7 @@ impl Solution {
 }
 
 impl<P> Solution<P> {
-    /// The Farkas vector of the certificate, if it is one.
+    /// The Farkas vector of the certificate, if the certificate is one.
     pub fn farkas(&self) -> Option<&[f64]> {
         match &self.certificate {
             Some(Certificate::Farkas { pi }) => Some(pi),
@@ -219,7 +219,7 @@ impl<P> Solution<P> {
         }
     }
 
-    /// The secondary ray of the certificate, if it is one.
+    /// The secondary ray of the certificate, if the certificate is one.
     pub fn ray(&self) -> Option<&Ray> {
         match &self.certificate {
             Some(Certificate::Ray(ray)) => Some(ray),
@@ -227,12 +227,12 @@ impl<P> Solution<P> {
         }
     }
 
-    /// This solution as one of the general form of the problem, whose pairs it has.
+    /// This solution as a solution of the general form of the problem, whose pairs it has.
     pub fn of_pairs(self) -> Solution {
         self.of()
     }
 
-    /// This solution as that of a problem of which this is the general form.
+    /// This solution as a solution of a problem with this general form.
     pub(crate) fn of<Q>(self) -> Solution<Q> {
         Solution {
             status: self.status,
@@ -255,7 +255,7 @@ impl<P> Solution<P> {
         self.status == Status::Solved
     }
 
-    /// The solution if it is one, for callers to whom every other end is an error.
+    /// The solution if the status is [`Status::Solved`], for callers to whom every other status is an error.
     ///
     /// ```
     /// use lcp::{Auto, Lcp, Solver, Status};
@@ -273,7 +273,7 @@ impl<P> Solution<P> {
     /// ```
     ///
     /// # Errors
-    /// [`Unsolved`] with all that was found, if the status is not [`Status::Solved`].
+    /// [`Unsolved`] with the whole answer, if the status is not [`Status::Solved`].
     pub fn into_result(self) -> Result<Self, Unsolved> {
         if self.is_solved() {
             Ok(self)
@@ -283,10 +283,10 @@ impl<P> Solution<P> {
     }
 }
 
-/// The end of a solve without a solution, as an error.
+/// A status other than `Solved`, as an error.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[error("the problem is not solved: {}, residual {:.1e}", .solution.status, .solution.residuals.worst())]
 pub struct Unsolved {
-    /// The answer: the best point, and the proof that there is no solution if there is one.
+    /// The answer: the best point, and the proof that there is no solution, if one was found.
     pub solution: Box<Solution>,
 }

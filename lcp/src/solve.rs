@@ -1,4 +1,4 @@
-//! What all solvers have in common.
+//! The parts that all solvers have in common.
 
 use std::ops::ControlFlow;
 use web_time::{Duration, Instant};
@@ -59,8 +59,8 @@ pub(crate) use named;
 /// # Ok::<(), lcp::Error>(())
 /// ```
 pub trait Solver<P>: Named {
-    /// Solves a problem for the pairs of its general form: what a method of this library implements, and
-    /// [`solve_observed`](Self::solve_observed) gives as a solution of the problem.
+    /// Solves a problem for the pairs of its general form, the function that a method implements;
+    /// [`solve_observed`](Self::solve_observed) returns the result as a solution of the problem.
     ///
     /// # Errors
     /// As for [`solve_observed`](Self::solve_observed).
@@ -118,17 +118,17 @@ pub trait Solver<P>: Named {
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct Iteration {
-    /// Number of sweeps, steps or programs; for [`Lemke`](crate::Lemke) the pivots of the attempt, each of which
-    /// begins at 0. With [`Auto`](crate::Auto) every method begins at 0.
+    /// Number of sweeps, steps or programs; for [`Lemke`](crate::Lemke) the pivots of the attempt. The number begins at
+    /// 0 for each attempt, and for each method of [`Auto`](crate::Auto).
     pub iteration: usize,
-    /// The residual that controls the method. [`Lemke`](crate::Lemke) has none on its path; instead this is the
-    /// artificial variable relative to its first value, which is zero at a solution
+    /// The residual that controls the method. The path of [`Lemke`](crate::Lemke) has no residual; the number is then
+    /// the artificial variable relative to its first value, which is zero at a solution
     /// ([`Progress::artificial`](crate::lemke::Progress::artificial)).
     pub residual: f64,
-    /// The method, of which [`Auto`](crate::Auto) runs several one after the other.
+    /// The method; [`Auto`](crate::Auto) runs several one after the other.
     pub method: Method,
-    /// The step of the interior-point method that has led here; `None` at a start, for convex programs, which have an iteration
-    /// of their own, and for other methods.
+    /// The step of the interior-point method that led to this iteration; `None` at a start, for convex programs, which
+    /// have an iteration of their own, and for other methods.
     pub step: Option<Step>,
 }
 
@@ -136,15 +136,15 @@ pub struct Iteration {
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct Step {
-    /// How its direction was found.
+    /// The kind of its direction.
     pub kind: StepKind,
-    /// The part of it that was taken, up to one.
+    /// The part of the step that was taken, up to one.
     pub length: f64,
-    /// The mean product of the pairs after it, in units of the scaled problem.
+    /// The mean product of the pairs after the step, in units of the scaled problem.
     pub mean_product: f64,
 }
 
-/// How the direction of a step of the interior-point method was found.
+/// The kind of the direction of a step of the interior-point method.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum StepKind {
@@ -152,14 +152,14 @@ pub enum StepKind {
     Corrected,
     /// A mixture of the predictor and of centring.
     Mixed,
-    /// Along the central path, where that turns back.
+    /// Along the central path near a turn.
     Turn,
 }
 
 /// Called while a method runs; the result decides whether it continues.
 pub type Observer<'a> = dyn FnMut(&Iteration) -> ControlFlow<()> + 'a;
 
-/// When a limit on time is over; a limit beyond all clocks is none.
+/// The time at which a limit is reached; `None` also for a limit beyond the range of clocks.
 pub(crate) fn deadline_of(began: Instant, time_limit: Option<Duration>) -> Option<Instant> {
     time_limit.and_then(|limit| began.checked_add(limit))
 }
@@ -175,7 +175,7 @@ pub(crate) struct Monitor<'a> {
     deadline: Option<Instant>,
     max_iterations: usize,
     observer: &'a mut Observer<'a>,
-    /// Whether the observer has stopped it, which is not asked again.
+    /// Whether the observer has stopped the method; it is not called again.
     is_cancelled: bool,
     /// The residual at the start and after every iteration.
     pub(crate) history: Vec<f64>,
@@ -194,12 +194,12 @@ impl<'a> Monitor<'a> {
         Self { method, began, deadline, max_iterations, observer, is_cancelled, history }
     }
 
-    /// Notes the residual before an iteration; a status if the run has to end.
+    /// Records the residual before an iteration; returns a status if the run has to end.
     pub(crate) fn stop(&mut self, residual: f64) -> Option<Status> {
         self.stop_after(residual, None)
     }
 
-    /// Notes the step before, too.
+    /// Records the step before, too.
     pub(crate) fn stop_after(&mut self, residual: f64, step: Option<Step>) -> Option<Status> {
         let (iteration, method) = (self.history.len(), self.method);
         self.history.push(residual);
@@ -214,7 +214,7 @@ impl<'a> Monitor<'a> {
         is_over(self.deadline).then_some(Status::TimeLimit)
     }
 
-    /// When there must be no more of them.
+    /// The time after which no iteration may begin.
     pub(crate) fn deadline(&self) -> Option<Instant> {
         self.deadline
     }

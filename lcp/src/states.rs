@@ -1,5 +1,5 @@
-//! The problem in units of its own, the law of the state of a contact, and the linear system: shared by the methods for contact
-//! that come down to a state of every contact.
+//! The problem in units of its own, the law of the state of a contact, and the linear system: shared by the methods for
+//! contact that end with a state of every contact.
 
 mod condensed;
 mod law;

@@ -1,4 +1,4 @@
-//! Answers in the variables of the problem as it was posed.
+//! Answers in the variables of the problem as given.
 
 use crate::{
     BoxedLcp, Contact2d, ContactForces, ContactState, Friction2d, Lcp, MixedLcp, Qp, QpPoint,

@@ -1,4 +1,4 @@
-//! Vectors: what they are made from, how large they are, and whether they can be taken as data.
+//! Vectors: their conversions, their sizes, and checks of data.
 
 pub(crate) use lcp_linalg::{HALF_DIGITS, REFINEMENTS, max_abs};
 
@@ -9,9 +9,9 @@ pub(crate) const ROUNDING: f64 = 64.0 * f64::EPSILON;
 /// Residual of a solved system, and size of numbers that vanish at its solution: pivots of a singular matrix, gaps of
 /// closed contacts, entries of a tableau. Rounding: some hundred eps.
 pub(crate) const SMALL: f64 = 1e-13;
-/// Numbers below this part of another one hardly count beside it: a coupling beside the strongest one of its row, once
-/// rows and columns are equilibrated; a term beside the largest one of its row, or of the problem; the errors of a proof
-/// beside what they must leave positive. Chosen.
+/// Numbers below this part of another number hardly count beside it: a coupling beside the strongest one of its row,
+/// once rows and columns are equilibrated; a term beside the largest one of its row, or of the problem; the errors of a
+/// proof beside the numbers that must remain positive. Chosen.
 pub(crate) const WEAK: f64 = 1.0 / 1024.0;
 /// A vector of a problem.
 ///
@@ -94,7 +94,7 @@ pub(crate) fn check_vector(what: &'static str, v: &[f64]) -> Result<(), Error> {
     }
 }
 
-/// Checks that numbers can be between these bounds, finite ones at a finite distance.
+/// Checks that every pair of bounds allows a number, and that finite bounds have a finite distance.
 pub(crate) fn check_bounds(what: &'static str, lower: &[f64], upper: &[f64]) -> Result<(), Error> {
     let mut bounds = lower.iter().zip(upper).enumerate();
     bounds.try_for_each(|(index, (&lower, &upper))| check_interval(what, index, lower, upper))
@@ -122,7 +122,7 @@ pub(crate) fn in_units_of_largest(v: impl IntoIterator<Item = f64>) -> Vec<f64> 
     v.into_iter().map(|v| v / largest).collect()
 }
 
-/// That a value of every contact point is at least zero and finite.
+/// Checks that a value of every contact point is at least zero and finite.
 pub(crate) fn check_sizes(
     name: &'static str,
     values: impl Iterator<Item = f64>,

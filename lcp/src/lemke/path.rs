@@ -72,8 +72,7 @@ impl<'a> Path<'a> {
         }
     }
 
-    /// A path along which the artificial variable is a parameter: it may have any value, and does not
-    /// leave when it is zero.
+    /// A path with the artificial variable as a parameter, which may have any value and does not leave at zero.
     pub(super) fn parametric(start: &'a Start, rate: &'a [f64]) -> Self {
         let mut path = Self::new(start, rate);
         path.values.iter_mut().for_each(|value| *value = value.max(0.0));

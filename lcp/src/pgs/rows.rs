@@ -8,10 +8,10 @@ use crate::matrix::Storage;
 /// A square matrix `M` given by the products of its rows with a vector `z`, which may be represented by a state
 /// instead.
 ///
-/// The sweeps change one entry of `z` at a time and report it by [`moved`](Self::moved). An implementation with a
-/// state needs three short functions. In contact between rigid bodies, for instance, the forces `z` change the
-/// velocities of the bodies by `M_b^-1 J^T z`, and a row product is a row of `J` times these velocities; the matrix
-/// `J M_b^-1 J^T` is never formed:
+/// The sweeps change one entry of `z` at a time and report the change by [`moved`](Self::moved). An implementation
+/// with a state needs three short functions. The forces `z` in contact between rigid bodies, for instance, change
+/// the velocities of the bodies by `M_b^-1 J^T z`, and a row product is a row of `J` times these velocities; the
+/// matrix `J M_b^-1 J^T` is never formed:
 ///
 /// ```
 /// use lcp::pgs::{Constraint, Rows};
@@ -60,16 +60,17 @@ pub trait Rows {
     /// `(M z)_i`, either from `z` or from the state, which belongs to the same `z`.
     fn product(&self, i: usize, z: &[f64]) -> f64;
 
-    /// `z_i` was changed by `change`: an implementation with a state updates it. The state must be linear in the
-    /// changes. Without a state there is nothing to do.
+    /// Reports that `z_i` was changed by `change`: an implementation with a state updates it. The state must be
+    /// linear in the changes. An implementation without a state does nothing.
     fn moved(&mut self, _i: usize, _change: f64) {}
 
-    /// Sets `z = 0`: an implementation with a state sets it to zero. This is called before every evaluation of the
-    /// residual, after which all of `z` is reported again, so that no rounding errors accumulate in the state.
+    /// Sets `z = 0`: an implementation with a state sets it to zero. The function is called before every evaluation
+    /// of the residual, after which all of `z` is reported again, so that no rounding errors accumulate in the
+    /// state.
     fn clear(&mut self) {}
 
-    /// `sum_j |M_ij z_j|`, relative to which the residual of the row is measured. A smaller value, such as
-    /// `|(M z)_i|` by default, makes the residual larger and harder to reach.
+    /// `sum_j |M_ij z_j|`, by which the residual of the row is measured. A smaller value, such as `|(M z)_i|` by
+    /// default, makes the residual larger and the tolerance harder to reach.
     fn size(&self, i: usize, z: &[f64]) -> f64 {
         self.product(i, z).abs()
     }
@@ -80,8 +81,8 @@ pub trait Rows {
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Constraint {
-    /// `lower <= z_i <= upper`, either of which may be infinite, with `w_i >= 0` at the lower bound,
-    /// `w_i <= 0` at the upper one, and `w_i = 0` in between.
+    /// `lower <= z_i <= upper`, with `w_i >= 0` at the lower bound, `w_i <= 0` at the upper one, and `w_i = 0` in
+    /// between. The bounds may be infinite.
     Bounds {
         /// The lower bound.
         #[cfg_attr(feature = "serde", serde(with = "crate::json_numbers::minus_infinity"))]
@@ -90,9 +91,9 @@ pub enum Constraint {
         #[cfg_attr(feature = "serde", serde(with = "crate::json_numbers::infinity"))]
         upper: f64,
     },
-    /// Unilateral contact with Coulomb's friction in the plane, `z_i` and `z_(i + 1)` being the normal and
-    /// the tangential force, `w_i` and `w_(i + 1)` the velocities: `z_i` and `w_i` are complementary, and
-    /// the tangential force is at most `mu z_i`, against the sliding.
+    /// Unilateral contact with Coulomb's friction in the plane. `z_i` and `z_(i + 1)` are the normal and the
+    /// tangential force, `w_i` and `w_(i + 1)` the velocities: `z_i` and `w_i` are complementary, and the
+    /// tangential force is at most `mu z_i`, against the sliding.
     Friction {
         /// The coefficient of friction.
         mu: f64,
@@ -148,7 +149,7 @@ impl Rows for MatrixRows {
 
     fn product(&self, i: usize, z: &[f64]) -> f64 {
         match self.transposed.storage() {
-            // Summed in lanes, which does not wait for its own additions.
+            // The sum is computed in lanes, which need not wait for each other.
             Storage::Dense(m) => m.col(i).transpose() * ColRef::from_slice(z),
             Storage::Sparse(_) => self.transposed.slice(i).dot(z),
         }
@@ -161,7 +162,7 @@ impl Rows for MatrixRows {
     }
 }
 
-/// The normal and the tangential row of one contact after the other.
+/// Entries for the normal and the tangential row of one contact after the other.
 pub(super) fn interleaved(normal: &[f64], tangential: &[f64]) -> Vec<f64> {
     normal.iter().zip(tangential).flat_map(|(n, t)| [*n, *t]).collect()
 }

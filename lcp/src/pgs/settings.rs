@@ -25,13 +25,13 @@ pub struct ProjectedGaussSeidelSettings {
     /// Largest residual, dimensionless, of a solution with status `Solved`. In `(0, 1)`. The default is `1e-8`: every
     /// further digit costs the same number of sweeps.
     pub tolerance: f64,
-    /// Sweeps.
+    /// Largest number of sweeps.
     pub max_iterations: usize,
-    /// Wall-clock time, checked before every sweep; `None` is no limit.
+    /// Wall-clock time, checked before every sweep; `None` sets no limit.
     pub time_limit: Option<Duration>,
-    /// Start: zero, or a point, of which `z` is used. A basis is refused, since it does not give the size of `z`.
+    /// Start: zero, or the `z` of a point. A basis is refused, since it does not give the size of `z`.
     pub start: WarmStart,
-    /// The over-relaxation `omega`: the diagonal is divided by it. In `(0, 2)`, outside of which the
+    /// The over-relaxation `omega`, by which the diagonal is divided. In `(0, 2)`: outside of this interval the
     /// sweeps do not converge even for symmetric positive definite matrices.
     pub relaxation: f64,
 }

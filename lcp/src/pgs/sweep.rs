@@ -1,4 +1,4 @@
-//! The sweeps, and when they end.
+//! The sweeps, and the conditions for their end.
 
 use super::block::Block;
 use super::{Constraint, ProjectedGaussSeidelSettings, Rows};
@@ -8,8 +8,8 @@ use crate::{Error, Residuals, Status};
 
 /// Sweeps between two evaluations of the residual, each of which costs as much as several sweeps. Chosen.
 const INTERVAL: usize = 20;
-/// Least number of sweeps in which the residual has to fall by a tenth. Chosen: along a chain of `n` bodies information
-/// spreads for `n` sweeps before the largest residual decreases.
+/// Least number of sweeps in which the residual has to fall by a tenth. Chosen: information spreads along a chain of
+/// `n` bodies for `n` sweeps before the largest residual decreases.
 const PATIENCE: usize = 2000;
 
 /// Rows with their constraints, and a point that meets them.
@@ -24,7 +24,7 @@ pub(super) struct Sweeps<'a, R: ?Sized> {
     sizes: Vec<f64>,
 }
 
-/// A point with what the residual is made of.
+/// A point with the parts of its residual.
 pub(super) struct Swept {
     pub(super) z: Vec<f64>,
     /// `M z + q`.
@@ -37,7 +37,7 @@ pub(super) struct Swept {
 }
 
 impl<'a, R: Rows + ?Sized> Sweeps<'a, R> {
-    /// From `start`, or from zero, both moved to where the constraints allow them to be.
+    /// Sweeps that begin at `start`, or at zero, projected onto the constraints.
     pub(super) fn new(
         settings: &'a ProjectedGaussSeidelSettings,
         rows: &'a mut R,
@@ -57,7 +57,7 @@ impl<'a, R: Rows + ?Sized> Sweeps<'a, R> {
         Ok(Self { settings, rows, q, blocks, diagonals, z, sizes: vec![0.0; n] })
     }
 
-    /// Sweeps until `judge` finds residuals below the tolerance, or something else ends them.
+    /// Sweeps until `judge` finds residuals below the tolerance, or another condition ends the iteration.
     pub(super) fn run(
         mut self,
         monitor: &mut Monitor<'_>,
@@ -67,7 +67,7 @@ impl<'a, R: Rows + ?Sized> Sweeps<'a, R> {
         let mut best = self.point(vec![0.0; self.z.len()]);
         let (mut last_fall, mut merit) = (0, f64::INFINITY);
         let (mut sweep, mut change, mut residual) = (0, f64::INFINITY, f64::INFINITY);
-        // Below which changes the residual may be small.
+        // The size of changes below which the residual may be small.
         let mut small = tolerance;
         let status = loop {
             let is_due = sweep % INTERVAL == 0 || change < small;
@@ -75,7 +75,7 @@ impl<'a, R: Rows + ?Sized> Sweeps<'a, R> {
             if is_due {
                 small = small.min(0.5 * change);
                 let worst = self.judged(judge, &mut best).worst();
-                // Nothing gets finite again: the best point stays.
+                // Numbers that are not finite remain so: the best point is kept.
                 is_lost = !worst.is_finite();
                 residual = if is_lost { residual } else { worst };
             }
@@ -98,7 +98,8 @@ impl<'a, R: Rows + ?Sized> Sweeps<'a, R> {
         (best, status)
     }
 
-    /// Relaxes every block once. The largest change, each times its diagonal entry in units of its row.
+    /// Relaxes every block once; returns the largest change, each multiplied by its diagonal entry, in units of its
+    /// row.
     fn sweep(&mut self) -> f64 {
         let Self { settings, rows, q, blocks, diagonals, z, sizes } = self;
         let mut largest = 0.0_f64;

@@ -1,4 +1,4 @@
-//! How far a point can be from the solution of a monotone problem.
+//! Bounds of the distance of a point from the solution of a monotone problem.
 
 use faer::{Mat, Side as Triangle};
 
@@ -18,7 +18,7 @@ pub enum Monotonicity {
     /// Positive semidefinite up to rounding: the solutions form a convex set, empty only if the problem
     /// is infeasible.
     Weak,
-    /// Neither.
+    /// The problem is not monotone.
     None,
 }
 
@@ -31,17 +31,17 @@ pub struct ErrorBound {
     pub monotonicity: Monotonicity,
     /// Euclidean norm of the components of `z` that are set to zero to make the point complementary.
     pub moved: f64,
-    /// Euclidean norm of the change of `q` that makes that point an exact solution: its backward error.
+    /// Euclidean norm of the change of `q` that makes the complementary point an exact solution: its backward error.
     pub perturbation: f64,
-    /// If the problem is strongly monotone: the solution is within this distance of `z`, in the Euclidean norm.
+    /// Bound of the Euclidean distance of the solution from `z`, if the problem is strongly monotone.
     pub distance: Option<f64>,
 }
 
 impl Lcp {
-    /// Whether the problem is monotone, from the eigenvalues of the symmetric part of `M`. An
-    /// eigenvalue within `n eps` of zero, relative to the largest, counts as zero.
+    /// The monotonicity of the problem, from the eigenvalues of the symmetric part of `M`. An eigenvalue within `n
+    /// eps` of zero, relative to the largest, counts as zero.
     ///
-    /// Costs `O(n^3)`, and memory for a dense matrix.
+    /// The cost is `O(n^3)`, and memory for a dense matrix.
     pub fn monotonicity(&self) -> Monotonicity {
         let n = self.order();
         let m = self.m().to_dense();
@@ -60,12 +60,12 @@ impl Lcp {
         }
     }
 
-    /// Bounds how far `z >= 0` is from solving the problem and, for a strongly monotone one, from its solution.
+    /// Bounds the backward error of `z >= 0` and, for a strongly monotone problem, its distance from the solution.
     ///
-    /// In every pair the smaller of `z_i max|M e_i|` and `w_i` is set to zero, the first by moving `z` by `r`, the
+    /// The smaller of `z_i max|M e_i|` and `w_i` in every pair is set to zero, the first by moving `z` by `r`, the
     /// second by changing `q` by `v`. So `z - r` solves the problem with another `q`. Solutions of strongly monotone
     /// problems depend on `q` with the constant `1 / modulus`, so the solution is within `|r| + |v + M r| / modulus`
-    /// of `z`. The rounding errors of computing `w` are included. For a problem that is only monotone every solution
+    /// of `z`. The rounding errors of computing `w` are included. If the problem is only monotone, every solution
     /// `s` satisfies `(z - r - s) M (z - r - s) <= perturbation |z - r - s|`.
     ///
     /// The cost is that of [`monotonicity`](Self::monotonicity).
@@ -81,8 +81,8 @@ impl Lcp {
     /// ```
     ///
     /// # Errors
-    /// [`Error::Length`] when `z` does not fit, [`Error::Setting`] for a component that is negative or
-    /// not a number.
+    /// [`Error::Length`] if `z` has a wrong length, [`Error::Setting`] for a component that is negative or not a
+    /// number.
     pub fn error_bound(&self, z: &[f64]) -> Result<ErrorBound, Error> {
         let n = self.order();
         check_length("z", z.len(), n)?;

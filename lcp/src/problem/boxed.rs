@@ -7,11 +7,11 @@ use crate::matrix::check_sums;
 use crate::vector::{check_bounds, check_length, check_vector};
 use crate::{Error, Matrix, Vector};
 
-/// The problem `w = M z + q`, `lower <= z <= upper` of order `n`, where `w_i >= 0` if `z_i` is at
-/// its lower bound, `w_i <= 0` if it is at its upper one, and `w_i = 0` in between.
+/// The problem `w = M z + q`, `lower <= z <= upper` of order `n`, with `w_i >= 0` if `z_i` is at its lower bound, `w_i
+/// <= 0` if `z_i` is at its upper one, and `w_i = 0` in between.
 ///
-/// Bounds may be infinite. With `lower = 0` and `upper = inf` it is the standard problem; without bounds it is a system
-/// of equations.
+/// Bounds may be infinite. The problem is the standard one for `lower = 0` and `upper = inf`, and a system of equations
+/// without bounds.
 ///
 /// ```
 /// use faer::mat;
@@ -58,10 +58,9 @@ impl BoxedLcp {
     /// A problem of order `n` from `M` (n x n), `q`, `lower` and `upper` (n).
     ///
     /// # Errors
-    /// [`Error::Shape`] or [`Error::Length`] when the shapes do not fit, [`Error::NotFinite`] for a
-    /// NaN or an infinity other than those of bounds, [`Error::Bounds`] for a lower bound above the
-    /// upper one, a lower bound of `+inf` or an upper one of `-inf`, [`Error::Overflow`] where sums of these data leave
-    /// the range of numbers.
+    /// [`Error::Shape`] or [`Error::Length`] if the sizes do not agree, [`Error::NotFinite`] for a NaN or an infinity
+    /// other than those of bounds, [`Error::Bounds`] for a lower bound above the upper one, a lower bound of `+inf` or
+    /// an upper one of `-inf`, [`Error::Overflow`] if sums of these data exceed the range of numbers.
     pub fn new(
         m: impl Into<Matrix>,
         q: impl Into<Vector>,
@@ -109,9 +108,9 @@ impl BoxedLcp {
         &self.upper
     }
 
-    /// The general problem: `n` pairs, and one more for every variable with two finite, different
-    /// bounds. Row `i` is `w - M z = q` for variable `i`, with `z` as its distance from the bound that is nearer to zero; the
-    /// additional rows are the distances between the two bounds.
+    /// The general problem: `n` pairs, and one more for every variable with two finite, different bounds. Row `i` is `w
+    /// - M z = q` for variable `i`, with `z` as its distance from the bound nearer to zero; the additional rows are the
+    /// distances between the two bounds.
     pub fn to_general(&self) -> HorizontalLcp {
         let mut c = self.q.clone();
         let (mut a, mut b) = (Vec::new(), Vec::new());
@@ -168,7 +167,7 @@ impl BoxedLcp {
             BoundKind::Lower => (lower(i) + t(i), y(i)),
             BoundKind::Upper => (upper(i) - t(i), -y(i)),
             BoundKind::Fixed => (lower(i), y(i) - t(i)),
-            // From the bound that is nearer, so that it is met exactly.
+            // The value is computed from the nearer bound, so that it can meet that bound exactly.
             BoundKind::Both(k) if t(k) < t(i) => (upper(i) - t(k), y(i) - y(k)),
             BoundKind::Both(k) => (lower(i) + t(i), y(i) - y(k)),
         };
@@ -200,7 +199,7 @@ impl BoxedLcp {
         (t, y)
     }
 
-    /// The problem with variables at a bound fixed there, and those between bounds free; `None` if none is free.
+    /// The problem with variables at a bound fixed there, and the others free; `None` if none is free.
     pub(crate) fn held(&self, z: &[f64], w: &[f64]) -> Option<Self> {
         let is_inside = |j: usize| w[j] == 0.0 && self.lower[j] < z[j] && z[j] < self.upper[j];
         let mut held = Self { lower: z.to_vec(), upper: z.to_vec(), ..self.clone() };
@@ -212,7 +211,7 @@ impl BoxedLcp {
         has_any.then_some(held)
     }
 
-    /// `M z + q`, without what the bounds do not allow.
+    /// `M z + q`, without the parts that the bounds do not allow.
     pub(crate) fn forces(&self, z: &[f64]) -> Vec<f64> {
         let mut w = self.image(z);
         for (j, w) in w.iter_mut().enumerate() {
@@ -258,7 +257,7 @@ impl BoxedLcp {
         self.order() + self.upper_pairs().into_iter().flatten().count()
     }
 
-    /// The further pair that every variable with two bounds has in the general problem.
+    /// The second pair of every variable with two bounds in the general problem.
     pub(crate) fn upper_pairs(&self) -> Vec<Option<usize>> {
         let pair = |kind| if let BoundKind::Both(pair) = kind { Some(pair) } else { None };
         self.kinds().into_iter().map(pair).collect()
@@ -279,8 +278,8 @@ impl BoxedLcp {
         self.lower.iter().zip(&self.upper).map(kind).collect()
     }
 
-    /// A variable by its distance from the bound that is nearer to zero, which keeps more digits of the value than the
-    /// other one.
+    /// A variable by its distance from the bound nearer to zero, which keeps more digits of the value than the distance
+    /// from the other one.
     pub(super) fn distance(&self, j: usize, kind: BoundKind) -> Distance {
         let (lower, upper) = (self.lower[j], self.upper[j]);
         let (shift, sign, pair, other) = match kind {

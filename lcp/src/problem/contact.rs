@@ -31,16 +31,16 @@ use crate::{Error, Matrix, Vector};
 /// ```
 ///
 /// with `n` displacements `u`, or velocities, and `m` contact points: normal forces `t_n`, tangential forces `t_t`,
-/// gaps `g`, slips `s`. `K` is symmetric positive semidefinite and may have zero modes, as for floating bodies. For a
-/// rigid body `u` are the amplitudes of its motions, and `K` is zero (in statics) or its mass. A point with `mu = 0`
-/// has no tangential force, whatever its row of `C_t`.
+/// gaps `g`, slips `s`. `K` is symmetric positive semidefinite and may have zero modes, as for floating bodies. The
+/// entries of `u` for a rigid body are the amplitudes of its motions, and `K` is zero (in statics) or its mass. A point
+/// with `mu = 0` has no tangential force, whatever its row of `C_t`.
 ///
 /// The compliances `a_n` and `a_t` are those of springs in series with the contact, such as a film between the bodies:
-/// lengths per force, zero unless [`Contact2d::with_compliance`] or a [`ContactPoint`] gives them. The gap `g` is what is
-/// left open beside the spring.
+/// lengths per force, zero unless [`Contact2d::with_compliance`] or a [`ContactPoint`] gives them. The gap `g` is the
+/// remaining opening beside the spring.
 ///
-/// [`Contact2d::builder`] takes the points one by one, [`Contact2d::new`] takes matrices, and
-/// [`Contact2d::variables`] gives the state of a solution.
+/// [`Contact2d::builder`] takes the points one by one, [`Contact2d::new`] takes matrices, and [`Contact2d::variables`]
+/// returns the state of a solution.
 #[derive(Debug, Clone)]
 pub struct Contact2d {
     k: SparseColMat<usize, f64>,
@@ -85,10 +85,9 @@ impl Contact2d {
     /// [`builder`](Self::builder) takes the points one by one.
     ///
     /// # Errors
-    /// [`Error::Shape`] or [`Error::Length`] when the shapes do not fit, [`Error::NotFinite`] for a
-    /// NaN or an infinity, [`Error::Setting`] for a coefficient of friction that is negative or above 1e12, and
-    /// [`Error::NotSymmetric`] for a `K` that is not symmetric to rounding, [`Error::Indefinite`] for one that is not
-    /// positive semidefinite.
+    /// [`Error::Shape`] or [`Error::Length`] if the sizes do not agree, [`Error::NotFinite`] for a NaN or an infinity,
+    /// [`Error::Setting`] for a coefficient of friction that is negative or above 1e12, [`Error::NotSymmetric`] for a
+    /// `K` that is not symmetric up to rounding, and [`Error::Indefinite`] for a `K` that is not positive semidefinite.
     pub fn new(
         k: impl Into<Matrix>,
         f: impl Into<Vector>,
@@ -110,7 +109,7 @@ impl Contact2d {
         for (what, vector) in [("f", &f), ("x_0", &x_0), ("s_0", &s_0), ("mu", &mu)] {
             check_vector(what, vector)?;
         }
-        // A tangential force of the size of the normal one cannot be told from zero beside larger friction.
+        // A tangential force of the size of the normal one cannot be distinguished from zero beside larger friction.
         if let Some(&value) = mu.iter().find(|mu| !(0.0..=1.0 / DATA_ROUNDING).contains(*mu)) {
             let range = "from 0 to 1e12: a contact with more never slides, and belongs into K";
             return Err(Error::Setting { name: "mu", value, range });
@@ -125,9 +124,9 @@ impl Contact2d {
         Ok(Self { k, f, c_n, c_t, x_0, s_0, mu, compliance, friction })
     }
 
-    /// Adds springs in series with the contacts: the normal and the tangential compliance of every
-    /// point, in length per force. Without friction a point has no tangential force, and its tangential compliance does
-    /// not matter.
+    /// Adds springs in series with the contacts: the normal and the tangential compliance of every point, in length per
+    /// force. The tangential compliance of a point without friction does not matter, since the point has no tangential
+    /// force.
     ///
     /// ```
     /// use faer::mat;
@@ -143,8 +142,8 @@ impl Contact2d {
     /// ```
     ///
     /// # Errors
-    /// [`Error::Length`] when there is not one pair for every point, [`Error::PointValue`] for a compliance that is
-    /// negative or not finite.
+    /// [`Error::Length`] if the number of pairs is not that of the points, [`Error::PointValue`] for a compliance that
+    /// is negative or not finite.
     pub fn with_compliance(self, compliance: Vec<[f64; 2]>) -> Result<Self, Error> {
         check_length("compliance", compliance.len(), self.points())?;
         check_sizes("normal compliance", compliance.iter().map(|it| it[0]))?;
@@ -163,7 +162,7 @@ impl Contact2d {
     }
 
     /// The problem with slips measured from the displacements `u`, for bodies that have moved there: `s_0` becomes
-    /// `-C_t u`. Slips of a state with compliant contacts are taken off by [`slid`](Self::slid).
+    /// `-C_t u`. Slips of a state with compliant contacts are subtracted by [`slid`](Self::slid).
     ///
     /// # Errors
     /// [`Error::Length`] or [`Error::NotFinite`] as [`new`](Self::new).
@@ -303,8 +302,8 @@ impl Contact2d {
 
     /// Displacements and forces from a point of the general problem.
     ///
-    /// From `mu t_n + t_t` and `mu t_n - t_t` the tangential force has no correct digit below `eps mu t_n`: if `mu`
-    /// is 1e6 or more, use [`Solution::contact`](crate::Solution::contact) instead.
+    /// The tangential force computed from `mu t_n + t_t` and `mu t_n - t_t` has no correct digit below `eps mu t_n`: if
+    /// `mu` is 1e6 or more, use [`Solution::contact`](crate::Solution::contact) instead.
     ///
     /// # Panics
     /// If `t` or `y` does not have one entry for every pair.
@@ -358,7 +357,7 @@ impl Contact2d {
         (t, y)
     }
 
-    /// Pairs `(mu t_n + t_t, s+)` and `(mu t_n - t_t, s-)` of a point by its position among those with
+    /// Pairs `(mu t_n + t_t, s+)` and `(mu t_n - t_t, s-)` of a point, given its position among the points with
     /// friction.
     fn tangential_pairs(&self, k: usize) -> [usize; 2] {
         let first = self.displacements() + self.points();

@@ -1,5 +1,5 @@
-//! Problems as data: serialised as what they were made from, and checked again when they are read. In JSON this is the form
-//! of the files of the crate `lcp-problems`, which have a `kind` as well.
+//! Problems as data: serialised as the data from which they were made, and checked again when read. In JSON the data
+//! have the form of the files of the crate `lcp-problems`, which have a `kind` as well.
 
 use std::fmt;
 
@@ -12,13 +12,13 @@ use crate::{Error, Matrix};
 
 /// A problem that is made from data.
 pub trait Stored: Sized {
-    /// Its fields, and a `kind` that is not looked at.
+    /// Its fields, and a `kind` that is ignored.
     type Data: DeserializeOwned;
 
-    /// The problem of such data.
+    /// Makes the problem from such data.
     ///
     /// # Errors
-    /// Those of its constructor.
+    /// The errors of its constructor.
     fn from_data(data: Self::Data) -> Result<Self, Error>;
 }
 
@@ -50,7 +50,7 @@ impl Entries {
         Self::Rows((0..rows).map(row).collect())
     }
 
-    /// The matrix, which must have this size; nothing is allocated for another one.
+    /// The matrix, which must have this size; nothing is allocated for a matrix of another size.
     fn sized(self, what: &'static str, height: usize, width: usize) -> Result<Matrix, Error> {
         let (rows, cols) = match &self {
             Self::Rows(rows) => (rows.len(), rows.first().map_or(width, Vec::len)),
@@ -68,7 +68,7 @@ impl Entries {
     }
 }
 
-/// The first sign tells which of both it is, so that errors have their places.
+/// Reads rows or entries, distinguished by the first character, so that errors have their places.
 impl<'de> Deserialize<'de> for Entries {
     fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
         struct Either;
@@ -108,7 +108,7 @@ fn without_upper(bounds: OptionalBounds) -> Vec<f64> {
     bounds.into_iter().map(|bound| bound.unwrap_or(f64::INFINITY)).collect()
 }
 
-/// Serialises a problem as these fields, and makes it from them.
+/// Serialises a problem as these fields, and makes the problem from them.
 macro_rules! serialised {
     ($problem:ident {
         $($(#[$attribute:meta])* $field:ident: $type:ty = $get:expr),+ $(,)?

@@ -6,11 +6,11 @@ use crate::{Error, Lcp, Matrix, Vector};
 /// Plane contact with Coulomb friction, reduced to the contacts: the relative velocities are `W r + q` for forces
 /// `r`. Every contact has a normal and a tangential component, in this order.
 ///
-/// At every contact the normal force and the normal velocity are complementary, and the tangential
-/// force is at most `mu` times the normal one, against the sliding.
+/// The normal force and the normal velocity of every contact are complementary, and the tangential force is at most
+/// `mu` times the normal one, against the sliding.
 ///
-/// As a standard problem it has the three variables `r_N`, `l = r_T + mu r_N` and the sliding `s >= 0` for every
-/// contact, with
+/// The standard problem has the three variables `r_N`, `l = r_T + mu r_N` and the sliding `s >= 0` for every contact,
+/// with
 /// ```text
 /// w1 = (W_NN - W_NT mu) r_N + W_NT l     + q_N
 /// w2 = (W_TN - W_TT mu) r_N + W_TT l + s + q_T
@@ -51,8 +51,8 @@ impl Friction2d {
     /// (nc), which are not negative.
     ///
     /// # Errors
-    /// [`Error::Shape`] or [`Error::Length`] when the shapes do not fit, [`Error::NotFinite`] for a NaN
-    /// or an infinity, [`Error::Setting`] for a coefficient of friction that is negative or above 1e6.
+    /// [`Error::Shape`] or [`Error::Length`] if the sizes do not agree, [`Error::NotFinite`] for a NaN or an infinity,
+    /// [`Error::Setting`] for a coefficient of friction that is negative or above 1e6.
     pub fn new(
         w: impl Into<Matrix>,
         q: impl Into<Vector>,
@@ -114,8 +114,8 @@ impl Friction2d {
         ContactForces { normal, tangential }
     }
 
-    /// The point of the standard problem that belongs to forces within the cones and the velocities that they allow, two
-    /// for every contact: sliding is what the velocity is at the border of the cone.
+    /// The point of the standard problem that belongs to forces within the cones and the velocities that they allow,
+    /// two for every contact: the sliding is the velocity at the border of the cone.
     pub fn to_pairs(&self, r: &[f64], v: &[f64]) -> (Vec<f64>, Vec<f64>) {
         let contacts = r.chunks_exact(2).zip(v.chunks_exact(2)).zip(&self.mu);
         let pairs = contacts.flat_map(|((r, v), mu)| {
@@ -127,7 +127,7 @@ impl Friction2d {
     }
 }
 
-/// A larger coefficient leaves fewer than ten digits of `r_T = l - mu r_N`.
+/// Largest coefficient of friction: a larger one leaves fewer than ten digits of `r_T = l - mu r_N`.
 const LARGEST_MU: f64 = 1e6;
 
 fn standard_form(w: &Matrix, q: &[f64], mu: &[f64]) -> Result<Lcp, Error> {

@@ -7,8 +7,8 @@ use crate::{Error, Matrix, Side, Vector};
 /// The general (horizontal) linear complementarity problem
 /// `A t + B y = c`, `t >= 0`, `y >= 0`, `t.y = 0`, with square `A` and `B` of order `n`.
 ///
-/// Both matrices may be singular, and each may be dense or sparse. A pair whose columns are
-/// opposite, `B_i = -A_i`, is a free variable `t_i - y_i`: the methods treat it as one.
+/// Both matrices may be singular, and each may be dense or sparse. A pair whose columns are opposite, `B_i = -A_i`, is
+/// treated as a free variable `t_i - y_i`.
 ///
 /// ```
 /// use faer::mat;
@@ -34,7 +34,7 @@ impl HorizontalLcp {
     /// A problem of order `n` from `A` (n x n), `B` (n x n) and `c` (n).
     ///
     /// # Errors
-    /// [`Error::Shape`] when the shapes do not fit, [`Error::NotFinite`] for a NaN or an infinity.
+    /// [`Error::Shape`] if the sizes do not agree, [`Error::NotFinite`] for a NaN or an infinity.
     pub fn new(
         a: impl Into<Matrix>,
         b: impl Into<Matrix>,
@@ -48,7 +48,7 @@ impl HorizontalLcp {
         Ok(Self { a, b, c })
     }
 
-    /// From parts that are known to fit and to be finite.
+    /// A problem from parts that are known to have matching sizes and to be finite.
     pub(crate) fn from_parts(a: Matrix, b: Matrix, c: Vec<f64>) -> Self {
         Self { a, b, c }
     }
@@ -76,7 +76,7 @@ impl HorizontalLcp {
     /// The same problem for another right-hand side.
     ///
     /// # Errors
-    /// [`Error::Length`] when it does not fit, [`Error::NotFinite`] for a NaN or an infinity.
+    /// [`Error::Length`] for a wrong length, [`Error::NotFinite`] for a NaN or an infinity.
     pub fn with_right_hand_side(&self, c: Vec<f64>) -> Result<Self, Error> {
         check_length("c", c.len(), self.order())?;
         check_vector("c", &c)?;
@@ -93,12 +93,13 @@ impl HorizontalLcp {
         side.of(&self.a, &self.b).slice(pair)
     }
 
-    /// All columns, of `A` and then of `B`.
+    /// All columns, first those of `A`, then those of `B`.
     pub(crate) fn columns(&self) -> Vec<Column<'_>> {
         self.columns_of(&vec![None; self.order()]).collect()
     }
 
-    /// The columns of the sides that may be positive, of `A` and then of `B`; `None` where both may.
+    /// The columns of the sides that may be positive, first those of `A`, then those of `B`; a side `None` has both
+    /// columns.
     pub(crate) fn columns_of(&self, sides: &[Option<Side>]) -> impl Iterator<Item = Column<'_>> {
         [Side::T, Side::Y].into_iter().flat_map(move |side| {
             let allowed =
@@ -113,7 +114,7 @@ impl HorizontalLcp {
         const ROUNDING: f64 = 4.0 * f64::EPSILON;
         let mut a = self.a.column(pair).filter(|(_, v)| *v != 0.0);
         let mut b = self.b.column(pair).filter(|(_, v)| *v != 0.0);
-        // Most pairs are told apart by their first entries, without a pass over the others.
+        // Most pairs are excluded by their first entries, without a pass over the others.
         let ((i, a_first), (j, b_first)) = (a.next()?, b.next()?);
         let ratio = -b_first / a_first;
         if i != j || ratio <= 0.0 {

@@ -4,8 +4,8 @@ use super::{BoxedLcp, HorizontalLcp, Lcp};
 use crate::vector::check_length;
 use crate::{Error, Matrix, Vector};
 
-/// The mixed problem `w = M z + q` of order `n`, where every `z_i` is either free, with `w_i = 0`,
-/// or complementary: `z_i >= 0`, `w_i >= 0`, `z_i w_i = 0`.
+/// The mixed problem `w = M z + q` of order `n`. Every `z_i` is either free, with `w_i = 0`, or complementary: `z_i >=
+/// 0`, `w_i >= 0`, `z_i w_i = 0`.
 ///
 /// The block of the free variables may be singular: its inverse is not used.
 ///
@@ -26,11 +26,10 @@ pub struct MixedLcp {
 }
 
 impl MixedLcp {
-    /// A problem of order `n` from `M` (n x n), `q` (n) and which variables are free (n).
+    /// A problem of order `n` from `M` (n x n), `q` (n) and a flag for every variable, true if it is free (n).
     ///
     /// # Errors
-    /// [`Error::Shape`] or [`Error::Length`] when the shapes do not fit, [`Error::NotFinite`] for a
-    /// NaN or an infinity.
+    /// [`Error::Shape`] or [`Error::Length`] if the sizes do not agree, [`Error::NotFinite`] for a NaN or an infinity.
     pub fn new(m: impl Into<Matrix>, q: impl Into<Vector>, free: Vec<bool>) -> Result<Self, Error> {
         let q = q.into().into_entries();
         check_length("free", free.len(), q.len())?;
@@ -40,7 +39,7 @@ impl MixedLcp {
         Ok(Self { boxed: BoxedLcp::new(m, q, lower, upper)?, free })
     }
 
-    /// A standard problem, of which no variable is free.
+    /// A standard problem, without free variables.
     pub(crate) fn of_standard(lcp: &Lcp) -> Result<Self, Error> {
         Self::new(lcp.m().clone(), lcp.q().to_vec(), vec![false; lcp.order()])
     }
@@ -60,13 +59,13 @@ impl MixedLcp {
         self.boxed.q()
     }
 
-    /// Which variables are free.
+    /// Whether each variable is free.
     pub fn free(&self) -> &[bool] {
         &self.free
     }
 
-    /// The general problem, of the same order: a complementary variable gives the pair
-    /// `(z_i, w_i)`, a free one the pair of its positive and its negative part.
+    /// The general problem, of the same order: a complementary variable has the pair `(z_i, w_i)`, a free one the pair
+    /// of its positive and its negative part.
     pub fn to_general(&self) -> HorizontalLcp {
         self.boxed.to_general()
     }
@@ -87,20 +86,21 @@ impl MixedLcp {
         self.boxed.to_pairs(z, w)
     }
 
-    /// An entry that violates the symmetry of `M` among free or among other variables, or its skew symmetry between
-    /// both.
+    /// An entry that violates the symmetry of `M` among free or among other variables, or its skew symmetry between the
+    /// two kinds.
     pub(crate) fn asymmetry(&self) -> Option<(usize, usize)> {
         let free = self.free();
         self.m().asymmetry(|i, j| if free[i] == free[j] { 1.0 } else { -1.0 })
     }
 
-    /// The groups of a quadratic program that the variables fit into, or an entry that no groups fit.
+    /// The groups of a quadratic program to which the variables belong, or an entry that fits no groups.
     pub(crate) fn groups(&self) -> Result<Groups, (usize, usize)> {
         let (m, n, free) = (self.m(), self.order(), self.free());
-        // A free variable without an entry of its own has an equation as its row, whose sign does not matter. It is coupled
-        // to the other group alone: within its own there would be no semidefinite block.
+        // The row of a free variable without a diagonal entry is an equation, whose sign does not matter. Such a
+        // variable is coupled to the other group alone: a coupling within its own group would leave no semidefinite
+        // block.
         let is_equation: Vec<bool> = (0..n).map(|i| free[i] && m[(i, i)] == 0.0).collect();
-        // The group, and the sign that the rows tell.
+        // The group, and the sign that follows from the rows.
         let mut labels: Vec<Option<[bool; 2]>> = vec![None; n];
         let mut roots: Vec<usize> = (0..n).collect();
         roots.sort_by_key(|&j| (is_equation[j], !free[j], m[(j, j)] == 0.0));
@@ -142,17 +142,17 @@ impl MixedLcp {
         })
     }
 
-    /// The same problem by bounds.
+    /// The same problem in terms of bounds.
     pub fn boxed(&self) -> &BoxedLcp {
         &self.boxed
     }
 }
 
-/// The variables of a quadratic program and its multipliers: with signs for its rows `M` is symmetric within each of these
-/// groups, and skew between them.
+/// The variables of a quadratic program and its multipliers: with signs for its rows `M` is symmetric within each of
+/// these two groups, and skew between them.
 #[derive(Debug, Clone)]
 pub(crate) struct Groups {
-    /// Whether a variable is one of the program, and no multiplier.
+    /// Whether a variable belongs to the program, and is not a multiplier.
     pub(crate) is_x: Vec<bool>,
     /// The sign of every row: minus one only for equations.
     pub(crate) sign: Vec<f64>,

@@ -4,15 +4,16 @@ use super::boxed::{BoundKind, Distance};
 use super::{BoxedLcp, MixedLcp};
 use crate::{Basis, Error, Matrix, Side, WarmStart};
 
-/// A problem with bounds as a mixed one, of the distances from those bounds that are nearer to zero. A second bound has a
-/// row of its own with a multiplier; what is fixed is left out.
+/// A problem with bounds as a mixed problem of the distances from the bounds nearer to zero. A second bound has a row
+/// of its own with a multiplier; fixed variables are left out.
 #[derive(Debug, Clone)]
 pub(crate) struct MixedForm<'a> {
     problem: &'a BoxedLcp,
     mixed: MixedLcp,
-    /// The pair of every variable in the general form of the problem with bounds, and whether that has `w` first.
+    /// The pair of every variable in the general form of the problem with bounds, and whether `w` is first in that
+    /// pair.
     pairs: Vec<(usize, bool)>,
-    /// The row of the general form that every row is, and its sign.
+    /// The row of the general form for every row, and its sign.
     rows: Vec<(usize, f64)>,
 }
 
@@ -20,7 +21,7 @@ impl BoxedLcp {
     /// The same problem as a mixed one.
     ///
     /// # Errors
-    /// [`Error::Overflow`] if distances leave the range of numbers.
+    /// [`Error::Overflow`] if distances exceed the range of numbers.
     pub(crate) fn to_mixed(&self) -> Result<MixedForm<'_>, Error> {
         let kinds = self.kinds();
         let mut right = self.q().to_vec();
@@ -67,7 +68,7 @@ impl MixedForm<'_> {
         &self.mixed
     }
 
-    /// The start for the mixed problem that belongs to one for the problem with bounds.
+    /// The start for the mixed problem from a start for the problem with bounds.
     pub(crate) fn start(&self, start: &WarmStart) -> WarmStart {
         start.of_pairs(self.pairs.iter().copied())
     }

@@ -8,7 +8,7 @@ use crate::{Error, Matrix, Vector};
 /// The convex quadratic program `min x.P x / 2 + q.x + constant` subject to `l <= A x <= u` and `lower <= x <= upper`.
 ///
 /// Solvers treat its conditions, the [mixed problem](Self::mixed) of the variables and of a multiplier for every bound,
-/// in the numbers of the program.
+/// with the numbers of the program.
 ///
 /// ```
 /// use faer::mat;
@@ -55,8 +55,8 @@ struct RowBounds {
     upper: Vec<f64>,
 }
 
-/// A bound with a multiplier of its own: `w = sign (g - bound)`, where `g` is one of the rows of `A x` or, after these,
-/// of the variables.
+/// A bound with a multiplier of its own: `w = sign (g - bound)`. `g` is one of the rows of `A x` or, after these, of
+/// the variables.
 #[derive(Debug, Clone, Copy)]
 struct Limit {
     of: usize,
@@ -69,9 +69,9 @@ impl Qp {
     /// A program with free variables, from `P` (n x n), `q` (n), `A` (m x n), `l` and `u` (m), which may be infinite.
     ///
     /// # Errors
-    /// [`Error::Shape`] or [`Error::Length`] when the shapes do not fit, [`Error::NotFinite`] for a NaN, or an infinity
-    /// other than those of bounds, [`Error::Bounds`] for bounds without a number between them,
-    /// [`Error::NotSymmetric`] and [`Error::NotConvex`] for a `P` that is not symmetric positive semidefinite.
+    /// [`Error::Shape`] or [`Error::Length`] if the sizes do not agree, [`Error::NotFinite`] for a NaN, or an infinity
+    /// other than those of bounds, [`Error::Bounds`] for bounds without a number between them, [`Error::NotSymmetric`]
+    /// and [`Error::NotConvex`] for a `P` that is not symmetric positive semidefinite.
     pub fn new(
         p: impl Into<Matrix>,
         q: impl Into<Vector>,
@@ -134,8 +134,8 @@ impl Qp {
         Ok(Self { p, q, a, rows, variables, constant: 0.0, limits, mixed })
     }
 
-    /// The conditions of the program: `x`, nonnegative where its lower bound is zero, and the multipliers of the other
-    /// bounds, free where they are equations.
+    /// The conditions of the program: `x`, nonnegative if its lower bound is zero, and the multipliers of the other
+    /// bounds, free if these are equations.
     pub fn mixed(&self) -> &MixedLcp {
         &self.mixed
     }
@@ -155,12 +155,12 @@ impl Qp {
         &self.a
     }
 
-    /// What `A x` is between, `l` and `u`.
+    /// The bounds `l` and `u` of `A x`.
     pub fn row_bounds(&self) -> [&[f64]; 2] {
         [&self.rows.lower, &self.rows.upper]
     }
 
-    /// What `x` is between.
+    /// The bounds `lower` and `upper` of `x`.
     pub fn bounds(&self) -> [&[f64]; 2] {
         [&self.variables.lower, &self.variables.upper]
     }
@@ -199,7 +199,7 @@ impl Qp {
 }
 
 impl RowBounds {
-    /// The finite bounds, of which the first ones have this number.
+    /// The finite bounds; `first` is the number of the first row or variable.
     fn limits(&self, first: usize) -> impl Iterator<Item = Limit> {
         self.lower.iter().zip(&self.upper).enumerate().flat_map(move |(index, (lower, upper))| {
             let (of, is_equation) = (first + index, lower >= upper);
@@ -212,7 +212,7 @@ impl RowBounds {
 }
 
 impl Limit {
-    /// Whether a bound says that its variable is nonnegative, which needs no multiplier.
+    /// Whether a bound requires its variable to be nonnegative, for which no multiplier is needed.
     fn is_sign(&self) -> bool {
         self.sign > 0.0 && self.bound == 0.0 && !self.is_equation
     }

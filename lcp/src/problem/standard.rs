@@ -6,7 +6,7 @@ use crate::{Error, Matrix, Vector};
 
 /// The standard linear complementarity problem `w = M z + q`, `z >= 0`, `w >= 0`, `z.w = 0`.
 ///
-/// As a general problem `t = z`, `y = w`, `A = -M`, `B = 1`, `c = q`.
+/// The general problem has `t = z`, `y = w`, `A = -M`, `B = 1`, `c = q`.
 ///
 /// ```
 /// use lcp::{Lcp, Lemke, Solver};
@@ -27,7 +27,7 @@ impl Lcp {
     /// A problem of order `n` from `M` (n x n) and `q` (n).
     ///
     /// # Errors
-    /// [`Error::Shape`] when the shapes do not fit, [`Error::NotFinite`] for a NaN or an infinity.
+    /// [`Error::Shape`] if the sizes do not agree, [`Error::NotFinite`] for a NaN or an infinity.
     pub fn new(m: impl Into<Matrix>, q: impl Into<Vector>) -> Result<Self, Error> {
         let (m, q) = (m.into(), q.into().into_entries());
         m.check("M", q.len(), q.len())?;
@@ -50,10 +50,10 @@ impl Lcp {
         &self.q
     }
 
-    /// Takes other entries of `q`, without allocating.
+    /// Replaces the entries of `q`, without allocating.
     ///
     /// # Errors
-    /// [`Error::Length`] or [`Error::NotFinite`]; `q` stays as it was.
+    /// [`Error::Length`] or [`Error::NotFinite`]; `q` is then unchanged.
     pub fn set_q(&mut self, q: &[f64]) -> Result<(), Error> {
         check_length("q", q.len(), self.q.len())?;
         check_vector("q", q)?;

@@ -7,12 +7,12 @@ use crate::{Basis, Matrix, Side, WarmStart};
 #[derive(Debug, Clone)]
 pub struct StandardForm {
     lcp: Lcp,
-    /// Which variable of every pair is `w`.
+    /// The side of every pair that is `w`.
     sides: Vec<Side>,
 }
 
 impl HorizontalLcp {
-    /// The same problem in the standard form, if no elimination is needed: in every pair one column has a single
+    /// The same problem in the standard form, if no elimination is needed: one column of every pair has a single
     /// entry, all of them in different rows. The variable of that column is `w`, the other one is `z`. `None` for all
     /// other problems.
     ///
@@ -59,7 +59,7 @@ impl HorizontalLcp {
         Some(StandardForm { lcp: self.divided(&sides, &of_row)?, sides })
     }
 
-    /// `M` and `q`: rows in the order of their `w`, divided by its coefficient.
+    /// `M` and `q`: rows in the order of their `w`, divided by the coefficient of that `w`.
     fn divided(&self, sides: &[Side], of_row: &[(usize, f64)]) -> Option<Lcp> {
         let n = self.order();
         let mut q = vec![0.0; n];
@@ -83,8 +83,8 @@ impl StandardForm {
         &self.lcp
     }
 
-    /// The point of the general problem that belongs to `(z, w)`, and `(z, w)` from such a point: the entries of the
-    /// pairs whose `t` is `w` are exchanged.
+    /// The point of the general problem that belongs to `(z, w)`, or `(z, w)` from a point of the general problem:
+    /// the entries of the pairs whose `t` is `w` are exchanged.
     ///
     /// # Panics
     /// If `z` or `w` does not have one entry for every pair.
@@ -95,12 +95,12 @@ impl StandardForm {
         pairs.map(|((z, w), side)| side.of((*w, *z), (*z, *w))).unzip()
     }
 
-    /// The start for the standard problem that belongs to one for the general problem.
+    /// The start for the standard problem from a start for the general problem.
     pub(crate) fn start(&self, start: &WarmStart) -> WarmStart {
         start.of_pairs(self.pairs())
     }
 
-    /// A basis of the one problem as one of the other.
+    /// A basis of either problem as a basis of the other one.
     pub(crate) fn basis(&self, basis: &Basis) -> Basis {
         basis.of_pairs(self.pairs())
     }

@@ -1,14 +1,13 @@
-//! The numbers that quadratic programs go by, each with where it comes from.
+//! The numbers that quadratic programs use, each with its origin.
 
-/// Tolerance of an interior point, whatever that of the answer. Theory: where both variables of a pair vanish it is
-/// good to the root of this, and they must not be taken for some that do not.
+/// Tolerance of an interior point, whatever the tolerance of the answer. Theory: variables of a pair that both vanish
+/// are accurate to the root of this number, and must not be mistaken for variables that do not vanish.
 pub(super) const INTERIOR: f64 = 1e-11;
-/// A run that had half of the digits is on its way away from them once it is this many times farther off. Chosen: where the
-/// tolerance is below what rounding errors allow, the iteration goes on and ends anywhere.
+/// A run whose error was once below half of the digits diverges once the error is this many times larger. Chosen: the
+/// iteration goes on and ends anywhere if the tolerance is below the rounding errors.
 pub(super) const WORSE: f64 = 10.0;
-/// Rounds without progress after which it is asked whether there is a solution at all, and times that larger bounds are
-/// tried where none were large enough yet. Times that soft springs are centred anew and let go of nothing, after which they stay.
-/// Chosen.
+/// Rounds without progress before the search for a proof that there is no solution; number of increases of bounds that
+/// are too small; and number of re-centrings of soft springs without progress, after which the springs stay. Chosen.
 pub(super) const DOUBTS: usize = 4;
-/// Rounds without progress after which there is no hope. Chosen.
+/// Rounds without progress after which the method stops. Chosen.
 pub(super) const IDLE: usize = 20;

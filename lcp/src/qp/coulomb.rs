@@ -7,9 +7,9 @@ use super::program::ProgramRun;
 use crate::states::{PointRef, Scaled};
 use crate::{Status, active};
 
-/// Solves the program, and if there is friction the sequence of programs whose bounds are `mu` times the
-/// normal forces of the one before. The states of the contacts of every solution are solved with Coulomb's
-/// law, which ends the sequence as soon as they are right. `to_scaled` gives the displacements and forces of a point.
+/// Solves the program, and if there is friction the sequence of programs whose bounds are `mu` times the normal
+/// forces of the one before. The states of the contacts of every solution are solved with Coulomb's law, which ends
+/// the sequence as soon as the states are right. `to_scaled` returns the displacements and forces of a point.
 ///
 /// # Errors
 /// The status if the best point is not good enough.
@@ -62,7 +62,7 @@ pub(super) fn solve_programs(
         if idle > IDLE || (idle >= DOUBTS && run.proof().is_some()) {
             break Err(Status::Stalled);
         }
-        // The first bounds are a guess, and nothing of them is kept. Later whole steps would oscillate: load that
+        // The first bounds are a guess, and no part of them is kept. Later whole steps would oscillate: load that
         // friction takes at one place is missing at others.
         let next = if last.is_none() { image } else { halfway(&limits, &image) };
         last = Some(std::mem::replace(&mut limits, next));

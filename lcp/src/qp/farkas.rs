@@ -9,8 +9,8 @@ use crate::scaling::equilibrate;
 use crate::vector::max_abs;
 use crate::{HorizontalLcp, InteriorPoint, InteriorPointSettings, Matrix, Status};
 
-/// A checked Farkas vector with a largest entry of one, if one is found: by the nonnegative values of least size for
-/// which the rows hold, which there are none of.
+/// A checked Farkas vector with a largest entry of one, if one is found: from the problem of nonnegative values of
+/// least size for which the rows hold, if no such values exist.
 pub(super) fn farkas_vector(
     problem: &HorizontalLcp,
     max_iterations: usize,

@@ -4,15 +4,15 @@ use faer::sparse::SparseColMat;
 
 use crate::matrix::add_image;
 
-/// What a multiplier may be.
+/// The values that a multiplier may have.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Bounds {
-    /// Anything; the slack is zero.
+    /// Any value; the slack is zero.
     Free,
     /// Not negative, complementary to the slack.
     Nonnegative,
-    /// Within `mu` times the multiplier of another row, in size; at the lower end where the slack is
-    /// positive, at the upper end where it is negative.
+    /// Within `mu` times the multiplier of another row, in size; at the lower end if the slack is
+    /// positive, at the upper end if the slack is negative.
     Cone {
         /// The other row.
         normal: usize,
@@ -22,9 +22,9 @@ pub(super) enum Bounds {
 }
 
 /// Stationarity `P x + linear = D^T lambda` and slacks `w = D x + S lambda + offset`, with symmetric
-/// positive semidefinite `P` and `S`, where every multiplier and its slack obey their [`Bounds`].
+/// positive semidefinite `P` and `S`. Every multiplier and its slack obey their [`Bounds`].
 ///
-/// Without cones these are the conditions of a convex quadratic program.
+/// A form without cones has the conditions of a convex quadratic program.
 #[derive(Debug, Clone)]
 pub(super) struct Form {
     pub(super) p: SparseColMat<usize, f64>,

@@ -1,5 +1,4 @@
-//! The interior-point method of Clarabel on a form whose cones are frozen: the only place that knows
-//! that crate.
+//! The interior-point method of Clarabel on a form whose cones are frozen: the only module that uses that crate.
 
 use std::time::Duration;
 
@@ -15,7 +14,7 @@ use crate::Matrix;
 use crate::problem::column_of;
 use crate::vector::{HALF_DIGITS, max_abs};
 
-/// How a run of the interior-point method ended.
+/// The ending of a run of the interior-point method.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum End {
     /// A point was found, more or less exact.
@@ -30,17 +29,17 @@ pub(super) enum End {
     Failed,
 }
 
-/// What the interior-point method found.
+/// The result of the interior-point method.
 pub(super) struct Found {
     pub(super) end: End,
     pub(super) point: ProgramPoint,
     pub(super) iterations: usize,
 }
 
-/// A form handed over to Clarabel, to be solved for several bounds of its cones: minimise
-/// `x P x / 2 + v S v / 2 + linear x + sum g_i |w_i|` subject to `w_i >= 0` in the rows of nonnegative multipliers, where
-/// `w = D x + S v + offset` and the sum goes over the cones. There `g |w|` is `g w + 2 g e` with the least `e >= 0` for which
-/// `w + e >= 0`, and the multiplier is that of this condition less `g`.
+/// A form in terms of Clarabel, to be solved for several bounds of its cones: minimise `x P x / 2 + v S v / 2 + linear
+/// x + sum g_i |w_i|` subject to `w_i >= 0` in the rows of nonnegative multipliers, with `w = D x + S v + offset` and a
+/// sum over the cones. `g |w|` is written as `g w + 2 g e` with the least `e >= 0` for which `w + e >= 0`, and the
+/// multiplier of the cone is the multiplier of this condition less `g`.
 ///
 /// Clarabel's variables are `x`, then those of the rows with a diagonal entry of `S`, then one for every cone.
 pub(super) struct Interior {
@@ -65,7 +64,7 @@ fn csc(rows: usize, cols: usize, entries: Vec<(usize, usize, f64)>) -> CscMatrix
 }
 
 impl Interior {
-    /// None where Clarabel refuses the form.
+    /// The form in terms of Clarabel; `None` if Clarabel refuses it.
     pub(super) fn new(form: Form, max_iterations: usize) -> Option<Self> {
         let settings = settings(max_iterations)?;
         let (n, m) = (form.unknowns(), form.rows());
@@ -113,7 +112,7 @@ impl Interior {
         Some(Self { form, solver, settings, row, linear, curved, cones })
     }
 
-    /// Solves for these bounds of the multipliers of cones, one for every row of the form, within a time.
+    /// Solves for these bounds of the multipliers of cones, one for every row of the form, within a time limit.
     pub(super) fn solve(&mut self, limits: &[f64], time: Option<Duration>) -> Found {
         // A bound of zero leaves the program without an interior. The exchange of states corrects the change.
         let largest = max_abs(limits);
@@ -146,7 +145,7 @@ impl Interior {
         Found { end, point, iterations }
     }
 
-    /// Puts in the bounds of the cones and the time; if that fails the former ones would be meant.
+    /// Sets the bounds of the cones and the time limit; `None` if Clarabel refuses them and would keep the former ones.
     fn update(&mut self, limits: &[f64], time: Option<Duration>) -> Option<()> {
         if let Some(time) = time {
             self.settings.time_limit = time.as_secs_f64();
@@ -174,8 +173,8 @@ impl Interior {
     }
 }
 
-/// Whether a run was near a solution once and now diverges from it: an iteration whose tolerance is below the
-/// rounding errors of the program goes on and ends anywhere.
+/// Whether a run was near a solution once and now diverges: an iteration whose tolerance is below the rounding errors
+/// of the program goes on and ends anywhere.
 fn is_past_best() -> impl FnMut(&DefaultInfo<f64>) -> bool {
     let mut best = f64::INFINITY;
     move |info| {

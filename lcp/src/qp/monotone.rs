@@ -8,8 +8,8 @@ use crate::problem::{Groups, column_of};
 use crate::states::Scaled;
 use crate::{Matrix, MixedLcp};
 
-/// A mixed problem `[P, -G^T; G, S]` as a form, with the variables that are its `x` and its rows. One that is not free
-/// among the `x` has a further row, which is the variable itself.
+/// A mixed problem `[P, -G^T; G, S]` as a form, with the variables that are its `x` and its rows. A bounded variable
+/// among the `x` has a further row, the variable itself.
 #[derive(Debug)]
 pub(super) struct MixedProgram {
     pub(super) form: Form,
@@ -20,7 +20,7 @@ pub(super) struct MixedProgram {
 }
 
 impl MixedProgram {
-    /// The form in scaled units, or what is in the way of the blocks being as they must.
+    /// The form in scaled units, or the reason for which the blocks do not have the required properties.
     pub(super) fn new(mixed: &MixedLcp, scaled: &Scaled) -> Result<Self, String> {
         let (m, free) = (mixed.m(), mixed.free());
         let Groups { is_x, sign } = mixed.groups().map_err(|(i, j)| no_groups(m, i, j))?;
@@ -64,7 +64,7 @@ impl MixedProgram {
         Ok(Self { form: Form { p, d, s, linear, offset, bounds }, x, rows, bounded })
     }
 
-    /// Displacements and forces of the scaled problem: the variables, and what bounds exert on them.
+    /// Displacements and forces of the scaled problem: the variables, and the forces of their bounds.
     pub(super) fn to_scaled(
         &self,
         scaled: &Scaled,
@@ -89,7 +89,7 @@ impl MixedProgram {
     }
 }
 
-/// That there are no groups within which `M` is symmetric, and between which it is skew.
+/// The message that there are no groups within which `M` is symmetric, and between which it is skew.
 fn no_groups(m: &Matrix, i: usize, j: usize) -> String {
     format!(
         "M must be symmetric within the variables and within the multipliers of a program, and skew between them, but \

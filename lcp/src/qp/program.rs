@@ -1,4 +1,4 @@
-//! A problem while it is solved: interior points of programs, and the exact states that they lead to.
+//! A problem during its solution: interior points of programs, and the exact states that follow from them.
 
 use std::cell::OnceCell;
 use web_time::{Duration, Instant};
@@ -12,7 +12,7 @@ use crate::solve::Monitor;
 use crate::states::PointRef;
 use crate::{Certificate, Error, HorizontalLcp, Method, Observer, Solution, Status};
 
-/// The best point so far, what it cost, and the proof that there is none.
+/// The best point so far, its cost, and the proof that there is no solution.
 pub(super) struct ProgramRun<'a> {
     pub(super) settings: &'a QuadraticProgramSettings,
     pub(super) search: Search<'a>,
@@ -38,19 +38,19 @@ impl<'a> ProgramRun<'a> {
         Ok(Self { settings, search, monitor, general, proof: OnceCell::new(), steps: 0 })
     }
 
-    /// What is left of the time.
+    /// The time left.
     pub(super) fn time(&self) -> Option<Duration> {
         self.monitor.deadline().map(|end| end.saturating_duration_since(Instant::now()))
     }
 
-    /// The proof that there is no solution, which is looked for at most once.
+    /// The proof that there is no solution, which is searched at most once.
     pub(super) fn proof(&self) -> Option<&Vec<f64>> {
         let search = || farkas_vector(&(self.general)(), self.settings.max_iterations, self.time());
         self.proof.get_or_init(search).as_ref()
     }
 
-    /// Whether there is nothing left for a program: the start of the settings, or the point where nothing moves
-    /// and no force acts, is a solution, or there are nothing but equations.
+    /// Whether no program has to be solved: the start of the settings, or the point without motion and forces,
+    /// is a solution, or the form has only equations.
     pub(super) fn is_tried(&mut self, form: &Form) -> bool {
         let is_solved = self.search.try_start(&self.settings.start) || self.search.try_rest(true);
         let is_linear = form.rows() == 0;
@@ -62,7 +62,7 @@ impl<'a> ProgramRun<'a> {
         is_solved || is_linear
     }
 
-    /// The best point, or the proof that there is none.
+    /// The best point, or the proof that there is no solution.
     pub(super) fn finish(self, end: Result<End, Status>) -> Solution {
         let is_solved = self.search.residual() <= self.settings.tolerance;
         let mut farkas = None;
@@ -70,7 +70,7 @@ impl<'a> ProgramRun<'a> {
             Err(status @ (Status::Cancelled | Status::TimeLimit)) => status,
             Ok(End::TimeLimit) => Status::TimeLimit,
             Ok(End::IterationLimit) => Status::IterationLimit,
-            // Judged by its residuals the point becomes `Solved`.
+            // The status `Solved` follows from the residuals of the point.
             _ if is_solved => Status::Stalled,
             Ok(End::ProgramPoint | End::NoPoint | End::Failed) | Err(_) => {
                 farkas = self.proof().cloned();

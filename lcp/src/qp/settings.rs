@@ -35,19 +35,19 @@ pub struct QuadraticProgramSettings {
     /// Largest residual, dimensionless, of a solution with status `Solved`. In `(0, 1)`. The exchange of states
     /// usually reaches 1e-14, so a tolerance of 1e-12 costs nothing.
     pub tolerance: f64,
-    /// Iterations of one run of Clarabel's interior-point method, that is, within one program. Their number is
-    /// not in [`Info::iterations`](crate::Info::iterations), which counts programs, but they are among
+    /// Largest number of iterations of one run of Clarabel's interior-point method, that is, within one program.
+    /// These iterations are not in [`Info::iterations`](crate::Info::iterations), which counts programs, but among
     /// [`Info::factorisations`](crate::Info::factorisations). At least 1.
     pub max_iterations: usize,
-    /// Limit on rounds of the fixed-point iteration for Coulomb friction. Each is a program, as counted by
-    /// [`Info::iterations`](crate::Info::iterations). At least 1.
+    /// Largest number of rounds of the fixed-point iteration for Coulomb friction. Each is a program, as counted
+    /// by [`Info::iterations`](crate::Info::iterations). At least 1.
     pub max_outer: usize,
-    /// Wall-clock time; `None` is no limit. It is checked before every run of the interior-point method and before
-    /// each of its iterations.
+    /// Wall-clock time, checked before every run of the interior-point method and before each of its iterations;
+    /// `None` sets no limit.
     pub time_limit: Option<Duration>,
     /// A point or a basis, in the pairs of the general form, whose states are tried first.
     pub start: WarmStart,
-    /// Springs for contact problems; `None` is none.
+    /// Springs for contact problems; `None` for no springs.
     pub soft: Option<SoftConstraints>,
 }
 

@@ -31,19 +31,19 @@ pub struct SoftSolution {
     /// `sqrt(sum f_j^2 / k_j)`, in which units do not matter.
     pub spring_share: f64,
     /// Estimate of the error of the displacements that the springs cause, relative to the displacements, in the norm
-    /// `sqrt(sum k_j u_j^2)`: the change by re-centring the springs at the solution. Infinite if that problem was not
-    /// solved.
+    /// `sqrt(sum k_j u_j^2)`: the change by re-centring the springs at the solution. Infinite if the re-centred problem
+    /// was not solved.
     #[cfg_attr(feature = "serde", serde(with = "crate::json_numbers::infinity"))]
     pub displacement_error: f64,
 }
 
 impl QuadraticProgram {
-    /// The problem with a spring of stiffness `epsilon k_j` on every displacement, with `k_j` as [`Bedding`] says, whose `K` is
-    /// positive definite. Without friction its only solution differs from that of the problem by `O(epsilon)`.
+    /// The problem with a spring of stiffness `epsilon k_j` on every displacement, with the `k_j` of [`Bedding`], whose
+    /// `K` is positive definite. Its only solution without friction differs from that of the problem without springs by
+    /// `O(epsilon)`.
     ///
     /// # Errors
-    /// [`Error::Setting`] for an `epsilon` outside `(0, 1]`, and as
-    /// [`Solver::solve`](crate::Solver::solve).
+    /// [`Error::Setting`] for an `epsilon` outside `(0, 1]`, and the errors of [`Solver::solve`](crate::Solver::solve).
     pub fn solve_soft(&self, contact: &Contact2d, epsilon: f64) -> Result<SoftSolution, Error> {
         self.settings.validate(contact.order())?;
         let springs = Bedding::new(contact, epsilon)?;

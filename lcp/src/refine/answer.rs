@@ -31,24 +31,24 @@ pub struct Refined {
     pub t_n: Vec<Extended>,
     /// The tangential forces.
     pub t_t: Vec<Extended>,
-    /// The forces of all contacts on the displacements, `C^T t`: unique where single forces are not.
+    /// The forces of all contacts on the displacements, `C^T t`: unique even if single forces are not.
     pub on_bodies: Vec<Extended>,
     /// The largest residual of an equation, relative to the terms of its row, computed in [`Extended`]: of
-    /// equilibrium, and of gap and slip where the states require them to be zero.
+    /// equilibrium, and of gap and slip if the states require them to be zero.
     pub residual: f64,
-    /// The change of the data, relative to the terms of their row. It removes the contradiction between redundant
-    /// contacts, and the stiffness due to rounding errors of the data against motions of free bodies. Zero if neither
-    /// occurs.
+    /// The change of the data, relative to the terms of their row. The change removes the contradiction between
+    /// redundant contacts, and the stiffness due to rounding errors of the data against motions of free bodies. Zero
+    /// if neither occurs.
     pub shift: f64,
     /// The change of `on_bodies` by the last pass, relative to the largest: the remaining error is smaller. If the
     /// data were changed, the largest change by a pass just before.
     pub correction: f64,
-    /// How well the inequalities of the contact law hold.
+    /// The margin by which the inequalities of the contact law hold.
     pub margin: Margin,
-    /// Solves with the factors.
+    /// Number of solves with the factors.
     pub passes: usize,
-    /// Number of displacements of bodies without loads that no contact presses: they stay where they were. Their gaps
-    /// are in the margin only if they are more negative than rounding errors.
+    /// Number of displacements of bodies without loads that no contact presses: these bodies stay in place. Their
+    /// gaps are in the margin only if they are more negative than rounding errors.
     pub floating: usize,
     /// Wall-clock time of analysis, factorisation and passes \[s\].
     pub seconds: f64,
@@ -62,8 +62,8 @@ impl Refined {
         problem.state(u, t_n, t_t)
     }
 
-    /// The distance of other forces on the displacements from these: the largest difference, relative to the largest
-    /// of these; `None` if these are all zero.
+    /// The distance of other forces on the displacements from `self.on_bodies`: the largest difference, relative to
+    /// the largest entry of `self.on_bodies`; `None` if all its entries are zero.
     ///
     /// # Panics
     /// If the numbers of displacements differ.

@@ -1,17 +1,17 @@
-//! How far the inequalities of the contact law are from being violated.
+//! The margin of the inequalities of the contact law.
 
 use super::point::ExtendedPoint;
 use crate::extended::Extended;
 use crate::problem::ContactStatus;
 use crate::states::Scaled;
 
-/// How far the inequalities of the contact law are from being violated, at the contact that is nearest to it.
+/// The margin by which the inequalities of the contact law hold, at the contact that is nearest to a violation.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Margin {
-    /// The least of all: of gaps of open contacts and slips of sliding ones, in units of the largest
+    /// The least margin of all: of gaps of open contacts and slips of sliding ones, in units of the largest
     /// displacement; of normal forces of closed contacts and the distance of friction from its bound at sticking
-    /// ones, in units of the largest force. Negative where one is violated; infinite without contacts.
+    /// ones, in units of the largest force. Negative if an inequality is violated; infinite without contacts.
     #[cfg_attr(feature = "serde", serde(with = "crate::json_numbers::infinity"))]
     pub least: f64,
     /// The contact; `None` without contacts.
@@ -27,7 +27,8 @@ impl Margin {
     }
 }
 
-/// The slack of the inequalities of every contact, and the status that takes its place if the slack is negative.
+/// The slack of the inequalities of every contact, and the status that replaces the present one if the slack is
+/// negative.
 pub(super) fn slacks(
     scaled: &Scaled,
     statuses: &[ContactStatus],
@@ -50,7 +51,7 @@ pub(super) fn slacks(
             Forwards => (slip(), Stick),
             Backwards => (-slip(), Stick),
         };
-        // A force that pulls says more than what friction makes of it.
+        // A tensile normal force decides before the friction that follows from it.
         if pressed.0 < 0.0 || pressed.0 < other.0 { pressed } else { other }
     })
 }

@@ -1,4 +1,4 @@
-//! Displacements and forces while they are refined.
+//! Displacements and forces during their refinement.
 
 use crate::ContactState;
 use crate::extended::{Extended, extended};
@@ -26,7 +26,7 @@ impl ExtendedPoint {
         Self { u: extended(u), forces: forces.collect() }
     }
 
-    /// Displacements, and pairs of forces, to the usual digits.
+    /// Displacements, and pairs of forces, rounded to `f64`.
     pub(super) fn rounded(&self) -> (Vec<f64>, Vec<(f64, f64)>) {
         let forces = self.forces.iter().map(|[n, t]| (n.rounded(), t.rounded()));
         (self.u.iter().map(|u| u.rounded()).collect(), forces.collect())

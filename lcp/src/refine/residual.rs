@@ -12,9 +12,9 @@ use crate::vector::{HALF_DIGITS, WEAK, max_abs};
 pub(super) struct EquationResidual {
     /// `f + C^T t - K u`.
     pub(super) unbalanced: Vec<Extended>,
-    /// Gap and slip where the states allow none.
+    /// Gap and slip if the state requires them to be zero.
     pub(super) opened: Vec<[Extended; 2]>,
-    /// The largest, relative to the terms of its row.
+    /// The largest residual, relative to the terms of its row.
     pub(super) largest: f64,
 }
 
@@ -23,18 +23,18 @@ pub(super) struct EquationResidual {
 pub(super) struct Shifts {
     loads: Vec<Extended>,
     gaps: Vec<[Extended; 2]>,
-    /// The largest, relative to the terms of its row.
+    /// The largest shift, relative to the terms of its row.
     pub(super) largest: f64,
 }
 
 impl Shifts {
-    /// None.
+    /// Shifts of zero.
     pub(super) fn new(scaled: &Scaled) -> Self {
         let gaps = vec![[Extended::ZERO; 2]; scaled.points.len()];
         Self { loads: vec![Extended::ZERO; scaled.order()], gaps, largest: 0.0 }
     }
 
-    /// Takes away what is lacking.
+    /// Adds the residual to the shifts.
     pub(super) fn absorb(&mut self, rest: &EquationResidual) {
         self.largest = self.largest.max(rest.largest);
         self.loads.iter_mut().zip(&rest.unbalanced).for_each(|(load, rest)| *load += -*rest);
@@ -45,7 +45,7 @@ impl Shifts {
 }
 
 impl EquationResidual {
-    /// Computed to twice the usual digits.
+    /// The residual in double-double arithmetic.
     pub(super) fn extended(
         scaled: &Scaled,
         statuses: &[ContactStatus],
@@ -89,7 +89,7 @@ impl EquationResidual {
         Self { unbalanced, opened, largest }
     }
 
-    /// Computed to the usual digits; the residual is not compared with terms.
+    /// The residual in `f64`, without a comparison with terms.
     pub(super) fn usual(
         scaled: &Scaled,
         statuses: &[ContactStatus],
@@ -123,13 +123,15 @@ pub(super) fn on_bodies(scaled: &Scaled, forces: &[[Extended; 2]]) -> Vec<Extend
     sum
 }
 
-/// Displacements of bodies without loads that no closed contact touches: nothing says where they are.
+/// Displacements of bodies without loads that no closed contact touches: their position is not
+/// determined.
 pub(super) fn floating(scaled: &Scaled, statuses: &[ContactStatus]) -> Vec<bool> {
     let closed = |i: usize| statuses[i] != ContactStatus::Open;
     unreached(scaled, closed)
 }
 
-/// The states with contacts open that press, if at all, on bodies without loads that no contact presses.
+/// The states with all contacts opened that press, if at all, on bodies without loads that no contact
+/// presses.
 pub(super) fn without_idle(
     scaled: &Scaled,
     statuses: &[ContactStatus],
@@ -162,7 +164,7 @@ fn unreached(scaled: &Scaled, touches: impl Fn(usize) -> bool) -> Vec<bool> {
     left
 }
 
-/// The displacements that a point sees.
+/// The displacements on which a point depends.
 pub(super) fn touched(point: Point<'_>) -> impl Iterator<Item = usize> {
     let rows = point.columns.iter().zip(point.coefficients);
     let seen = rows.filter(move |(_, [n, t])| *n != 0.0 || point.mu > 0.0 && *t != 0.0);

@@ -1,4 +1,4 @@
-//! Passes with one factorisation, and when they end.
+//! Passes with one factorisation, and the conditions for their end.
 
 use web_time::Instant;
 
@@ -15,7 +15,7 @@ use crate::states::{Condensed, PointRef, Scaled, Springs};
 use crate::vector::{HALF_DIGITS, max_abs};
 use crate::{ContactState, Error};
 
-/// The answer, and what the inequalities of every contact leave.
+/// The answer, and the slacks of the inequalities of every contact.
 pub(super) fn solved(
     scaled: &Scaled,
     state: &ContactState,
@@ -32,7 +32,7 @@ pub(super) fn solved(
         (solve.rest().largest, solve.finish(began.elapsed().as_secs_f64()))
     };
     let (residual, answer) = solved(WEIGHTS[0], 0);
-    // Where less than three quarters of all digits are right, other weights are tried.
+    // Other weights are tried if less than three quarters of all digits are right.
     if refinement == Refinement::Extended && residual > HALF_DIGITS.powi(3) {
         let (other_residual, other) = solved(WEIGHTS[1], answer.0.passes);
         if other_residual < residual {
@@ -45,8 +45,8 @@ pub(super) fn solved(
 /// Displacements in units of the data, and forces in those of the scaled problem.
 pub(crate) type Exact = (Vec<Extended>, Vec<[Extended; 2]>);
 
-/// Where the equations of the states lead to from a scaled point, as far as one does: to a residual that is enough, be
-/// it [`ALL_DIGITS`](super::ALL_DIGITS) or [`ROUNDED`](super::ROUNDED).
+/// The solutions of the equations of the states from a scaled point, one for each of the weights, refined to a
+/// residual of `enough`, such as [`ALL_DIGITS`](super::ALL_DIGITS) or [`ROUNDED`](super::ROUNDED).
 pub(crate) fn refined_states(
     scaled: &Scaled,
     condensed: &mut Condensed,
@@ -73,7 +73,7 @@ struct Solve<'a> {
     statuses: &'a [ContactStatus],
     springs: Vec<Springs>,
     condensed: &'a mut Condensed,
-    /// Displacements that stay where they are.
+    /// Displacements that are not changed.
     floating: Vec<bool>,
     shifts: Shifts,
     at: ExtendedPoint,
@@ -146,7 +146,7 @@ impl<'a> Solve<'a> {
                 }
                 break;
             }
-            // No displacements and forces reduce the rest; they would only grow.
+            // The rest cannot be reduced by displacements and forces, which would only grow.
             self.shifts.absorb(&rest);
             self.shifted = self.shifted.max(self.correction);
             self.at = given.clone();
@@ -159,7 +159,7 @@ impl<'a> Solve<'a> {
         EquationResidual::extended(scaled, statuses, at, shifts, floating)
     }
 
-    /// Solves for what is lacking.
+    /// Solves for the corrections that remove the residual.
     fn pass(&mut self, rest: &EquationResidual) {
         let unbalanced = rest.unbalanced.iter().map(|v| v.rounded()).collect();
         let opened = rest.opened.iter().map(|[gap, slip]| (gap.rounded(), slip.rounded()));
@@ -170,7 +170,7 @@ impl<'a> Solve<'a> {
             let forces = &mut self.at.forces[i];
             forces[0] += change.0.into();
             forces[1] += change.1.into();
-            // On the edge of the cone to the last digit.
+            // The forces are on the edge of the cone to the last digit.
             *forces = self.statuses[i].on_cone(point.mu, *forces);
             point.add_forces(forces[0].rounded(), forces[1].rounded(), &mut size);
         }
@@ -187,7 +187,7 @@ impl<'a> Solve<'a> {
         let floats = |i: usize| residual::touched(scaled.points.get(i)).any(|j| floating[j]);
         let slacks: Vec<(f64, ContactStatus)> = law::slacks(scaled, statuses, &at)
             .enumerate()
-            // A body that floats can be moved aside by a rounding error.
+            // A floating body can be moved aside by a rounding error.
             .map(|(i, (slack, next))| {
                 let is_free = slack > -HALF_DIGITS && floats(i);
                 (if is_free { f64::INFINITY } else { slack }, next)

@@ -9,12 +9,12 @@ use crate::problem::column_of;
 /// Springs on every displacement that keep bodies without contact in place during a step, relative to the stiffness.
 /// Measured on walls: floating bricks stay nonsingular.
 pub(crate) const PROXIMAL: f64 = 1e-12;
-/// The residual, relative to the right-hand side, that needs none. Measured on walls: 1e-7 would save a sixth of the
-/// time far from the solution, with the same steps.
+/// The residual, relative to the right-hand side, below which no refinement is needed. Measured on walls: 1e-7 would
+/// save a sixth of the time far from the solution, with the same steps.
 const ENOUGH: f64 = 1e-11;
 
-/// The stiffness `s` with which a contact point answers to changes of its gap and slip:
-/// `dt_n = -nn dg`, `dt_t = -tn dg - tt ds`.
+/// The stiffness `s` of the response of a contact point to changes of its gap and slip: `dt_n = -nn dg`, `dt_t = -tn
+/// dg - tt ds`.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub(crate) struct Springs {
     pub(crate) nn: f64,
@@ -29,7 +29,7 @@ impl Springs {
     }
 }
 
-/// `K + delta 1 + C^T S C` for any springs `S`: its pattern, where its terms go, and its factors.
+/// `K + delta 1 + C^T S C` for any springs `S`: its pattern, the places of its terms, and its factors.
 pub(crate) struct Condensed {
     pattern: Pattern,
     values: Vec<f64>,
@@ -37,7 +37,7 @@ pub(crate) struct Condensed {
     stiffness: Vec<f64>,
     /// Places of the diagonal.
     of_diagonal: Vec<usize>,
-    /// Places of the terms of the points, one after the other, and of each columns one after the other.
+    /// Places of the terms of the points, one point after the other, and column by column for each.
     of_points: Vec<u32>,
     factors: SupernodalLu,
     pub(crate) factorisations: usize,
@@ -93,14 +93,14 @@ impl Condensed {
         self.factorisations += 1;
     }
 
-    /// Whether the determinant of the last matrix is negative, and with it that of Newton's equations: what
-    /// was eliminated is positive.
+    /// Whether the determinant of the last matrix is negative, and with it the determinant of Newton's equations:
+    /// the eliminated part is positive.
     pub(crate) fn is_negative(&self) -> bool {
         self.factors.is_negative()
     }
 
-    /// The changes of displacements and forces that the factorised springs make of what is unbalanced, and of
-    /// the gaps and slips that should not be there.
+    /// The changes of displacements and forces by which the factorised springs remove the unbalanced forces, and the
+    /// gaps and slips that should be zero.
     pub(crate) fn step(
         &self,
         problem: &Scaled,

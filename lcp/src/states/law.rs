@@ -1,11 +1,11 @@
-//! The state that a contact is nearest to, and the springs that hold it there.
+//! The nearest state of a contact, and the springs that hold the contact in a state.
 
 use super::condensed::Springs;
 use super::points::Point;
 use super::scaled::Scaled;
 use crate::problem::ContactStatus;
 
-/// The states that displacements and forces are nearest to, wherever they are.
+/// The nearest states for any displacements and forces.
 pub(crate) fn nearest(problem: &Scaled, u: &[f64], forces: &[(f64, f64)]) -> Vec<ContactStatus> {
     let points = problem.points.iter().zip(forces).map(|(point, &forces)| {
         let gap = point.gap(u, forces.0);
@@ -16,7 +16,7 @@ pub(crate) fn nearest(problem: &Scaled, u: &[f64], forces: &[(f64, f64)]) -> Vec
 }
 
 impl ContactStatus {
-    /// The state that is nearest to normal and tangential force, gap, and slips forwards and backwards.
+    /// The nearest state for normal and tangential force, gap, and slips forwards and backwards.
     pub(crate) fn nearest(
         mu: f64,
         [t_n, t_t]: [f64; 2],
@@ -36,14 +36,15 @@ impl ContactStatus {
         }
     }
 
-    /// Gap and slip of a point with these forces where the state allows none.
+    /// Gap and slip of a point with these forces if the state requires them to be zero, else zero.
     pub(crate) fn opened(self, point: Point<'_>, u: &[f64], [t_n, t_t]: [f64; 2]) -> (f64, f64) {
         let [gap, slip] = self.is_closed(point.mu);
         let gap = if gap { point.gap(u, t_n) } else { 0.0 };
         (gap, if slip { point.slip(u, t_t) } else { 0.0 })
     }
 
-    /// Springs of this stiffness, in series with those of the point, against what the state does not allow.
+    /// Springs of this stiffness, in series with those of the point, against gaps and slips that the state
+    /// does not allow.
     pub(crate) fn springs(self, point: Point<'_>, stiffness: f64) -> Springs {
         let Point { mu, .. } = point;
         let [nn, tt] = point.in_series([stiffness, if mu > 0.0 { stiffness } else { 0.0 }]);

@@ -1,19 +1,19 @@
-//! Contact points and the displacements that they depend on.
+//! Contact points and the displacements on which they depend.
 
-/// All contact points; what they depend on stands in one place, one point after the other.
+/// All contact points; their displacements are stored in one place, one point after the other.
 pub(crate) struct Points {
-    /// Where the displacements of a point start, and where those of the last one end.
+    /// The first place of the displacements of every point, and the end of those of the last one.
     starts: Vec<usize>,
     columns: Vec<usize>,
     coefficients: Vec<[f64; 2]>,
     pub(crate) x_0: Vec<f64>,
     pub(crate) s_0: Vec<f64>,
     pub(crate) mu: Vec<f64>,
-    /// Normal and tangential; without friction the second is zero.
+    /// Normal and tangential compliance; the second is zero without friction.
     pub(crate) compliance: Vec<[f64; 2]>,
 }
 
-/// A contact point: the displacements that it depends on, with their coefficients in gap and slip.
+/// A contact point: the displacements on which it depends, with their coefficients in gap and slip.
 #[derive(Clone, Copy)]
 pub(crate) struct Point<'a> {
     pub(crate) columns: &'a [usize],
@@ -25,7 +25,7 @@ pub(crate) struct Point<'a> {
 }
 
 impl Points {
-    /// Hard, and without displacements until these are [added](Self::close), point by point.
+    /// Hard points, without displacements until these are [added](Self::close), point by point.
     pub(crate) fn new(x_0: Vec<f64>, s_0: Vec<f64>, mu: Vec<f64>) -> Self {
         let compliance = vec![[0.0; 2]; mu.len()];
         let (columns, coefficients) = (Vec::new(), Vec::new());
@@ -81,12 +81,13 @@ impl<'a> Point<'a> {
         self.s_0 + self.moved(u).1 + self.compliance[1] * t_t
     }
 
-    /// The stiffnesses that the compliances leave of these, in series with them.
+    /// The stiffnesses of these springs in series with the compliances.
     pub(crate) fn in_series(&self, stiffness: [f64; 2]) -> [f64; 2] {
         [0, 1].map(|k| stiffness[k] / (1.0 + self.compliance[k] * stiffness[k]))
     }
 
-    /// The changes of gap and slip by a step of the displacements, which may be far smaller than both.
+    /// The changes of gap and slip by a step of the displacements, which may be far smaller than gap
+    /// and slip.
     pub(crate) fn moved(&self, u: &[f64]) -> (f64, f64) {
         let terms = self.columns.iter().zip(self.coefficients);
         terms.fold((0.0, 0.0), |(gap, slip), (&j, [n, t])| (gap + n * u[j], slip + t * u[j]))

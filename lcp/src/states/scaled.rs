@@ -36,7 +36,7 @@ impl Scaled {
         let load = (0..n).fold(0.0_f64, |max, j| max.max((problem.loads()[j] * column[j]).abs()));
         let gap = max_abs(problem.initial_gaps()).max(max_abs(problem.initial_slips()));
         let stiffness = median(&mut stiff);
-        // Without loads only gaps move anything, without stiffness only they have a length.
+        // Only gaps move anything without loads; only gaps have a length without stiffness.
         let (force, length) = match stiffness {
             Some(k) if load > 0.0 => (load, load / k),
             Some(k) if gap > 0.0 => (gap * k, gap),
@@ -77,14 +77,14 @@ impl Scaled {
         Self { k, f, points, column, force, length, idle }
     }
 
-    /// A mixed problem as one of contact without friction: stiffness `M`, loads `-q`, and a contact for
-    /// every variable that is not free, whose gap it is.
+    /// A mixed problem as a contact problem without friction: stiffness `M`, loads `-q`, and a contact for every
+    /// bounded variable, which is the gap.
     pub(crate) fn of_mixed(problem: &MixedLcp) -> Self {
         let mut m = problem.m().clone().into_sparse();
         let n = problem.order();
         let diagonal = diagonal(&m);
         let mut largest: Vec<f64> = diagonal.iter().map(|v| v.abs()).collect();
-        // Without a diagonal entry the others have to do.
+        // The other entries serve for a column without a diagonal entry.
         for j in 0..n {
             for (i, v) in column_of(&m, j) {
                 for k in [i, j].into_iter().filter(|&k| diagonal[k] == 0.0) {
@@ -92,7 +92,7 @@ impl Scaled {
                 }
             }
         }
-        // One stiffness for all, so that the unit of `M` does not change the scaled problem.
+        // One stiffness is used for all, so that the unit of `M` does not change the scaled problem.
         let stiffness = power_of_two(max_abs(&largest).max(f64::MIN_POSITIVE));
         let factor = |v: &f64| if *v > 0.0 { power_of_two((stiffness / v).sqrt()) } else { 1.0 };
         let column: Vec<f64> = largest.iter().map(factor).collect();
@@ -134,7 +134,7 @@ impl Scaled {
         u.iter().zip(&self.column).map(|(u, d)| u / d / self.length).collect()
     }
 
-    /// Normal and tangential forces of the points from those along the edges of their cones.
+    /// Normal and tangential forces of the points from their forces along the edges of their cones.
     pub(crate) fn of_edges(&self, mut parts: impl Iterator<Item = f64>) -> Vec<(f64, f64)> {
         let mut part = || parts.next().unwrap_or(0.0);
         let force = |mu: &f64| {
@@ -156,7 +156,7 @@ impl Scaled {
         (self.of_displacements(&state.u), forces.collect())
     }
 
-    /// Sets to zero what moves nothing and is moved by nothing.
+    /// Sets the [`idle`] displacements and forces to zero.
     pub(crate) fn settle(&self, u: &mut [f64], forces: &mut [(f64, f64)]) {
         if let Some((at_rest, without_force)) = &self.idle {
             u.iter_mut().zip(at_rest).filter(|(_, is)| **is).for_each(|(u, _)| *u = 0.0);
@@ -199,9 +199,9 @@ impl Scaled {
     }
 }
 
-/// The displacements that are zero and the points without force: in connected parts without loads, initial gaps and
-/// slips all of them, and in parts without stiffness, gaps and slips the displacements, which have no size there; and those that act on nothing. `None` if there
-/// are none.
+/// The displacements that are zero and the points without force: all those of connected parts without loads, initial
+/// gaps and slips; the displacements of parts without stiffness, gaps and slips, since they have no size there; and
+/// those without effect. `None` if there are none.
 fn idle(
     k: &SparseColMat<usize, f64>,
     f: &[f64],

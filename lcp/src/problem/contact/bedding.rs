@@ -7,11 +7,11 @@ use crate::{Error, Matrix};
 
 /// Soft springs that hold all displacements of a [`Contact2d`].
 ///
-/// Every displacement has a spring of the stiffness `epsilon k_j`, with `k_j = K_jj` if that is not zero. Where `K`
-/// has no stiffness, as for rigid bodies, `k_j = k c_j^2`. Here `c_j` is the norm of the column `j` of `[C_n; C_t]`,
-/// and `k` is the geometric mean of `K_jj / c_j^2` over the other displacements, and of the stiffnesses of compliant
-/// contacts. If there are none, `k` is the largest `|f_j| / c_j` over the largest initial gap or slip (over one, if there
-/// are none: then the stiffness only sets the unit of the displacements). So units do not matter.
+/// Every displacement has a spring of the stiffness `epsilon k_j`, with `k_j = K_jj` if that is not zero. If `K` has no
+/// stiffness, as for rigid bodies, `k_j = k c_j^2`. Here `c_j` is the norm of the column `j` of `[C_n; C_t]`, and `k`
+/// is the geometric mean of `K_jj / c_j^2` over the other displacements, and of the stiffnesses of compliant contacts.
+/// If there are no such stiffnesses, `k` is the largest `|f_j| / c_j` divided by the largest initial gap or slip (by
+/// one, if all are zero: the stiffness then only sets the unit of the displacements). So units do not matter.
 ///
 /// ```
 /// use faer::mat;

@@ -4,10 +4,10 @@ use super::Contact2d;
 use crate::vector::{check_points, check_sizes};
 use crate::{Error, Matrix, Vector};
 
-/// A contact point with the displacements that open it and make it slip. A row is a list of pairs
+/// A contact point with its gap and slip as functions of the displacements. A row is a list of pairs
 /// `(displacement, coefficient)`; coefficients of the same displacement are added.
 ///
-/// Without `tangent`, `gap`, `slip`, `mu` and `compliance` it is a hard closed point without friction:
+/// A point without `tangent`, `gap`, `slip`, `mu` and `compliance` is hard, closed and without friction:
 ///
 /// ```
 /// use lcp::ContactPoint;
@@ -20,7 +20,7 @@ pub struct ContactPoint<'a> {
     pub normal: &'a [(usize, f64)],
     /// The row of `C_t`: the change of the slip for unit displacements.
     pub tangent: &'a [(usize, f64)],
-    /// The gap without displacements; negative where the bodies overlap.
+    /// The gap without displacements; negative if the bodies overlap.
     pub gap: f64,
     /// The slip without displacements.
     pub slip: f64,
@@ -80,11 +80,11 @@ impl Contact2dBuilder {
         number
     }
 
-    /// The problem.
+    /// Builds the problem.
     ///
     /// # Errors
-    /// [`Error::PointEntry`] or [`Error::PointValue`] with the number of a point whose data are wrong, and those
-    /// of [`Contact2d::new`] for `K` and `f`.
+    /// [`Error::PointEntry`] or [`Error::PointValue`] with the number of a point whose data are wrong, and the
+    /// errors of [`Contact2d::new`] for `K` and `f`.
     pub fn build(self) -> Result<Contact2d, Error> {
         let Self { k, f, normal, tangent, points } = self;
         let (n, m) = (f.len(), points.len());

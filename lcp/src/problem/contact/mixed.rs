@@ -6,11 +6,10 @@ use crate::vector::in_units_of_largest;
 use crate::{Basis, Matrix, MixedLcp, Side, WarmStart};
 
 impl Contact2d {
-    /// The mixed problem with the variables `u` (free), `t_n` and, for every point with friction, the
-    /// parts `b+`, `b-` of `t_t = b+ - b-` and the slip `l` to either side (Stewart and Trinkle 1996):
-    /// `w = (g, l + s, l - s, mu t_n - b+ - b-)`, where `g` and `s` depend on `u` and, with compliance, on the
-    /// forces. It is copositive, which makes Lemke's method safer on
-    /// it than on the general problem, and larger by a pair for every point with friction.
+    /// The mixed problem with the variables `u` (free), `t_n` and, for every point with friction, the parts `b+`, `b-`
+    /// of `t_t = b+ - b-` and the slip `l` to either side (Stewart and Trinkle 1996): `w = (g, l + s, l - s, mu t_n -
+    /// b+ - b-)`; `g` and `s` depend on `u` and, with compliance, on the forces. The problem is copositive, which makes
+    /// Lemke's method safer than on the general problem, and larger by a pair for every point with friction.
     pub fn to_mixed(&self) -> MixedLcp {
         let (n, m, count) = (self.displacements(), self.points(), self.friction.len());
         let order = n + m + 3 * count;
@@ -60,14 +59,14 @@ impl Contact2d {
         self.state(z[..n].to_vec(), z[n..n + m].to_vec(), t_t)
     }
 
-    /// A start in the pairs of the mixed problem from one in those of the general problem.
+    /// A start in the pairs of the mixed problem from a start in the pairs of the general problem.
     pub(crate) fn mixed_start(&self, mixed: &MixedLcp, start: &WarmStart) -> WarmStart {
         match start {
             WarmStart::None => WarmStart::None,
             WarmStart::Point { t, y } => {
                 let z = self.mixed_variables(&self.recover(t, y));
                 let w = mixed.boxed().image(&z);
-                // Beyond the range of numbers there is nothing to start from.
+                // Numbers that are not finite cannot be a start.
                 if z.iter().chain(&w).any(|v| !v.is_finite()) {
                     return WarmStart::None;
                 }
@@ -87,8 +86,8 @@ impl Contact2d {
         z
     }
 
-    /// Where a point slides forwards, `b-` is the friction and `l` the slip; backwards `b+`. Where it sticks,
-    /// one part of the friction is as good as the other.
+    /// The basis of the mixed problem. `b-` is the friction and `l` the slip of a point that slides forwards; `b+` is
+    /// the friction of a point that slides backwards. Either part of the friction serves for a point that sticks.
     fn mixed_basis(&self, basis: &Basis) -> Basis {
         let (n, m, count) = (self.displacements(), self.points(), self.friction.len());
         let sides = basis.sides();
@@ -101,7 +100,7 @@ impl Contact2d {
         Basis::new(mixed)
     }
 
-    /// The vector in the rows of the general problem that belongs to a motion of the bodies. It is a Farkas vector if the
+    /// The vector in the rows of the general problem that belongs to a motion of the bodies: a Farkas vector if the
     /// motion deforms no body, opens every contact by at least `mu` times its slip, and the loads do work on it.
     pub(crate) fn farkas_of_motion(&self, motion: &[f64]) -> Vec<f64> {
         let mut slips = vec![0.0; self.points()];
@@ -111,7 +110,7 @@ impl Contact2d {
         in_units_of_largest(motion.iter().copied().chain(zeros).chain(bounds))
     }
 
-    /// A Farkas vector of the general problem from one of the mixed problem in its general form.
+    /// A Farkas vector of the general problem from a Farkas vector of the mixed problem in its general form.
     pub(crate) fn farkas_of_mixed(&self, pi: &[f64]) -> Vec<f64> {
         let (n, m, count) = (self.displacements(), self.points(), self.friction.len());
         let balance = pi[..n].iter().map(|pi| -pi);

@@ -17,12 +17,12 @@ pub enum ContactStatus {
 }
 
 impl ContactStatus {
-    /// Whether it allows no gap, and no slip.
+    /// Whether the state requires a gap of zero, and a slip of zero.
     pub(crate) fn is_closed(self, mu: f64) -> [bool; 2] {
         [self != Self::Open, self == Self::Stick && mu > 0.0]
     }
 
-    /// The normal and the tangential force that it allows, from any.
+    /// The normal and the tangential force cut to those that the state allows.
     pub(crate) fn on_cone<T>(self, mu: f64, [t_n, t_t]: [T; 2]) -> [T; 2]
     where
         T: Copy + Default + Neg<Output = T> + Mul<f64, Output = T>,

@@ -4,8 +4,8 @@ use super::Contact2d;
 use crate::matrix::{column_of, diagonal};
 use crate::scaling::power_of_two;
 
-/// Factors that bring the largest coefficient of every displacement in a gap or a slip near one; those of
-/// displacements that no contact sees bring their stiffness to that of the others.
+/// Factors that bring the largest coefficient of every displacement in a gap or a slip near one;
+/// displacements without contacts have factors that bring their stiffness to that of the others.
 pub(crate) fn column_factors(problem: &Contact2d) -> Vec<f64> {
     let n = problem.displacements();
     let diagonal = diagonal(problem.stiffness());
@@ -46,7 +46,7 @@ impl Contact2d {
     }
 }
 
-/// The middle one by size, if there is any.
+/// The median, if there are any values.
 pub(crate) fn median(values: &mut [f64]) -> Option<f64> {
     let middle = values.len() / 2;
     (!values.is_empty()).then(|| *values.select_nth_unstable_by(middle, f64::total_cmp).1)
