@@ -37,12 +37,12 @@ use crate::{Contact2d, Error, Method, Observer, Solution, Status};
 /// An interior-point method for large sparse problems: contact with Coulomb's friction
 /// ([`Contact2d`](crate::Contact2d)), and mixed and standard problems.
 ///
-/// Newton's method on `K u = f + C^T t`, the gaps and slips of `u`, and for every point `t_n g = (mu t_n + t_t) s+ =
-/// (mu t_n - t_t) s- = m` with the slip `s+ - s-`. The mean product `m` is driven to zero by Mehrotra's predictor and
-/// corrector (1992) and Gondzio's correctors of centrality (1996). All variables except the displacements are
-/// eliminated point by point, so every step factorises one matrix with the pattern of `K + C^T C`. The central path
-/// (the points with equal products) can turn back if there is friction, and steps then follow it (Allgower and Georg
-/// 1990). The page `docs/methods/interior_point.md` has the details.
+/// Newton's method on `K u = f + C^T t`, the gaps and slips of `u`, and for every point
+/// `t_n g = (mu t_n + t_t) s+ = (mu t_n - t_t) s- = m` with the slip `s+ - s-`. The mean product `m` is driven to zero
+/// by Mehrotra's predictor and corrector (1992) and Gondzio's correctors of centrality (1996). All variables except the
+/// displacements are eliminated point by point, so every step factorises one matrix with the pattern of `K + C^T C`.
+/// The central path (the points with equal products) can turn back if there is friction, and steps then follow it
+/// (Allgower and Georg 1990). The page `docs/methods/interior_point.md` has the details.
 ///
 /// The crossover follows near the solution: the state of every contact (open, sticking, sliding) is read off, the
 /// equations of these states are solved to the last digit, and contacts with contradictions are exchanged. The result

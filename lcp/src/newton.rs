@@ -63,9 +63,10 @@ impl SemismoothNewtonSettings {
 /// The primal-dual active set method for `w = M z + q`, `z >= 0`, `w >= 0`, `z.w = 0`.
 ///
 /// One variable of every pair is zero. The method solves `M_FF z_F = -q_F` for the free `z`, computes the other `w`,
-/// and exchanges all pairs whose variable is negative, until there is none. This is Newton's method for `min(z, w) =
-/// 0`, which ends with the exact solution after finitely many steps. A symmetric positive definite `M_FF` is factorised
-/// by Cholesky's method, any other one by LU, dense or sparse like `M`. Solves are followed by iterative refinement.
+/// and exchanges all pairs whose variable is negative, until there is none. This is Newton's method for
+/// `min(z, w) = 0`, which ends with the exact solution after finitely many steps. A symmetric positive definite `M_FF`
+/// is factorised by Cholesky's method, any other one by LU, dense or sparse like `M`. Solves are followed by iterative
+/// refinement.
 ///
 /// While the number of negative variables does not decrease, fewer pairs are exchanged, down to single ones, until that number
 /// reaches a new minimum (Júdice and Pires 1994, after Murty 1974).

@@ -2,9 +2,9 @@
 //!
 //! `min |sum x_j a_j - c|` over `x >= 0` by the active set method of Lawson and Hanson (*Solving Least
 //! Squares Problems*, 1974, chapter 23). The columns with `x_j > 0` are independent throughout, whatever
-//! the rank of all, and every step lowers the residual, so that the method ends. The residual `r = c -
-//! sum x_j a_j` at the minimum has `r . a_j <= 0` for all columns and `r . c = |r|^2`: a nonzero `r`
-//! proves that `c` is not a nonnegative combination of the columns.
+//! the rank of all, and every step lowers the residual, so that the method ends. The residual
+//! `r = c - sum x_j a_j` at the minimum has `r . a_j <= 0` for all columns and `r . c = |r|^2`: a nonzero
+//! `r` proves that `c` is not a nonnegative combination of the columns.
 
 use std::cell::Cell;
 

@@ -21,12 +21,12 @@ use crate::{Error, Info, Method, Observer, Residuals, Solution, Status, WarmStar
 /// Projected Gauss-Seidel, with over-relaxation: for `w = M z + q` with bounds on `z`, and for contact
 /// with friction.
 ///
-/// A sweep solves each row in turn for its own variable and projects the variable onto its bounds, `z_i <- mid(lower_i,
-/// z_i - omega w_i / M_ii, upper_i)`, with `w_i` from the newest `z`. The normal and the tangential row of a contact
-/// with friction are solved together, as an exact 2 x 2 problem with Coulomb's law: open, sticking, or sliding to
-/// either side. If none of these states applies, which requires a coefficient of friction above `W_NN / |W_NT|` or an
-/// indefinite block, the normal force is corrected first, then the tangential one. Over-relaxation divides the diagonal
-/// block by `omega`, so that forces within the cone stay there.
+/// A sweep solves each row in turn for its own variable and projects the variable onto its bounds,
+/// `z_i <- mid(lower_i, z_i - omega w_i / M_ii, upper_i)`, with `w_i` from the newest `z`. The normal and the
+/// tangential row of a contact with friction are solved together, as an exact 2 x 2 problem with Coulomb's law: open,
+/// sticking, or sliding to either side. If none of these states applies, which requires a coefficient of friction above
+/// `W_NN / |W_NT|` or an indefinite block, the normal force is corrected first, then the tangential one.
+/// Over-relaxation divides the diagonal block by `omega`, so that forces within the cone stay there.
 ///
 /// The point `z` with the part of `w` that its bounds allow is always feasible and complementary, so all of the error
 /// is in the equation; for [`Contact2d`](crate::Contact2d) the error is in the gaps and slips of the displacements that
@@ -41,10 +41,10 @@ use crate::{Error, Info, Method, Observer, Residuals, Solution, Status, WarmStar
 /// [`Error::NotTreated`].
 ///
 /// # Guarantee
-/// The method converges linearly, if diagonals are positive, for symmetric positive definite `M` with `omega` in `(0,
-/// 2)`, and for strictly diagonally dominant `M` with `omega` in `(0, 1]` (Cryer 1971; Cottle, Pang and Stone 1992,
-/// section 5.2). It converges for symmetric positive semidefinite `M` if there is a solution (Luo and Tseng 1991).
-/// These results hold for contact without friction.
+/// The method converges linearly, if diagonals are positive, for symmetric positive definite `M` with `omega` in
+/// `(0, 2)`, and for strictly diagonally dominant `M` with `omega` in `(0, 1]` (Cryer 1971; Cottle, Pang and Stone
+/// 1992, section 5.2). It converges for symmetric positive semidefinite `M` if there is a solution (Luo and Tseng
+/// 1991). These results hold for contact without friction.
 ///
 /// # Failure
 /// There is no guarantee with friction, nor for skew or indefinite parts: the iteration may cycle or diverge, and end

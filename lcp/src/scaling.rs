@@ -13,9 +13,9 @@ use crate::matrix::Column;
 
 /// Row and column factors, all powers of two, that bring the entries of a matrix, given by its columns, near one.
 ///
-/// The largest entries of rows and columns alone (Ruiz 2001) do not determine the factors: the size of `A` in `[A,
-/// -R^T; R, 0]`, and with it the units of the problem, would remain. So the logarithms of all entries are balanced in
-/// between (Curtis and Reid 1972). A row or column of zeros keeps the factor one.
+/// The largest entries of rows and columns alone (Ruiz 2001) do not determine the factors: the size of `A` in
+/// `[A, -R^T; R, 0]`, and with it the units of the problem, would remain. So the logarithms of all entries are balanced
+/// in between (Curtis and Reid 1972). A row or column of zeros keeps the factor one.
 pub(crate) fn equilibrate(rows: usize, columns: &[Column<'_>]) -> (Vec<f64>, Vec<f64>) {
     let mut factors = Equilibration::ones(rows, columns.len());
     factors.damp_largest(columns);

@@ -34,9 +34,9 @@
 //! # Siconos
 //! The `.dat` files of that library for linear complementarity problems, mixed ones, relays (variables between bounds,
 //! `inf` for no bound: the problem is a [`BoxedLcp`]), and plane contact with friction, reduced to the contacts
-//! (`FrictionContactProblem`) or with the velocities of the bodies (`GlobalFrictionContactProblem`, `M v = q + H r`, `u
-//! = H^T v + b`: the problem is a [`Contact2d`] of velocities and impulses); dense, in sparse blocks, or sparse. Text
-//! may follow the last number, except for contact problems.
+//! (`FrictionContactProblem`) or with the velocities of the bodies (`GlobalFrictionContactProblem`, `M v = q + H r`,
+//! `u = H^T v + b`: the problem is a [`Contact2d`] of velocities and impulses); dense, in sparse blocks, or sparse.
+//! Text may follow the last number, except for contact problems.
 //!
 //! # Matrix Market
 //! [`market`] reads the matrices and vectors of a problem one by one.

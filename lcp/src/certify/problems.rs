@@ -77,9 +77,9 @@ impl BoxedLcp {
 
 impl Friction2d {
     /// Residuals of forces, dimensionless, from the data as given. The velocities `v = W r + q` follow from the forces,
-    /// so that no equation is left; pairs are the normal force with the normal velocity, and the two distances `mu r_N
-    /// + r_T` and `mu r_N - r_T` to the borders of the friction cone with the sliding forwards and backwards. See
-    /// [`HorizontalLcp::residuals`](crate::HorizontalLcp::residuals).
+    /// so that no equation is left; pairs are the normal force with the normal velocity, and the two distances
+    /// `mu r_N + r_T` and `mu r_N - r_T` to the borders of the friction cone with the sliding forwards and backwards.
+    /// See [`HorizontalLcp::residuals`](crate::HorizontalLcp::residuals).
     ///
     /// ```
     /// use faer::mat;

@@ -41,8 +41,8 @@ pub(super) struct End {
 /// t y = 0,   tau kappa = 0,   t, y, tau, kappa >= 0.
 /// ```
 ///
-/// `u / tau` and `t / tau` are a solution of the problem if `tau > 0`; `u` and `t` prove that there is none if `kappa >
-/// 0`.
+/// `u / tau` and `t / tau` are a solution of the problem if `tau > 0`; `u` and `t` prove that there is none if
+/// `kappa > 0`.
 pub(super) struct Homogeneous<'a> {
     program: &'a Program,
     pub(super) at: Variables,

@@ -63,8 +63,8 @@ impl<'a> NewtonSystem<'a> {
         self.step(&Defect { balance, gaps: vec![(0.0, 0.0); targets.len()] }, targets)
     }
 
-    /// The step that removes the defect and changes the products of the pairs by `targets`, to first order: `y
-    /// dt + t dy = target`.
+    /// The step that removes the defect and changes the products of the pairs by `targets`, to first order:
+    /// `y dt + t dy = target`.
     pub(super) fn step(&self, defect: &Defect, targets: &[[f64; 3]]) -> Iterate {
         let points = self.problem.points.iter().zip(&self.at.points).zip(targets).zip(&defect.gaps);
         let opened = points.clone().map(|(((point, at), targets), gaps)| {

@@ -9,13 +9,14 @@ pub(super) struct Coulomb {
 }
 
 impl Coulomb {
-    /// Forces within the friction cone that satisfy Coulomb's law together with the velocities `W r +
-    /// p`; `None` if no state of the contact does.
+    /// Forces within the friction cone that satisfy Coulomb's law together with the velocities
+    /// `W r + p`; `None` if no state of the contact does.
     ///
     /// If the contact closes without forces, `p_N < 0`, sticking gives the forces `(n, t) / det W`. The
-    /// tangential velocity for sliding to either side, `r_T = +-mu r_N`, is `-(t -+ mu n) / (W_NN +-
-    /// W_NT mu)`: the same two numbers `t -+ mu n` decide whether the contact sticks, and the direction
-    /// of sliding. If `det W` and both denominators are positive, exactly one state fits.
+    /// tangential velocity for sliding to either side, `r_T = +-mu r_N`, is
+    /// `-(t -+ mu n) / (W_NN +- W_NT mu)`: the same two numbers `t -+ mu n` decide whether the contact
+    /// sticks, and the direction of sliding. If `det W` and both denominators are positive, exactly one
+    /// state fits.
     pub(super) fn forces(&self, p: [f64; 2]) -> Option<[f64; 2]> {
         let Self { w: [[nn, nt], [tn, tt]], mu } = *self;
         if p[0] >= 0.0 {

@@ -38,8 +38,8 @@ pub struct ErrorBound {
 }
 
 impl Lcp {
-    /// The monotonicity of the problem, from the eigenvalues of the symmetric part of `M`. An eigenvalue within `n
-    /// eps` of zero, relative to the largest, counts as zero.
+    /// The monotonicity of the problem, from the eigenvalues of the symmetric part of `M`. An eigenvalue within
+    /// `n eps` of zero, relative to the largest, counts as zero.
     ///
     /// The cost is `O(n^3)`, and memory for a dense matrix.
     pub fn monotonicity(&self) -> Monotonicity {

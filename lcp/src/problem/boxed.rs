@@ -7,8 +7,8 @@ use crate::matrix::check_sums;
 use crate::vector::{check_bounds, check_length, check_vector};
 use crate::{Error, Matrix, Vector};
 
-/// The problem `w = M z + q`, `lower <= z <= upper` of order `n`, with `w_i >= 0` if `z_i` is at its lower bound, `w_i
-/// <= 0` if `z_i` is at its upper one, and `w_i = 0` in between.
+/// The problem `w = M z + q`, `lower <= z <= upper` of order `n`, with `w_i >= 0` if `z_i` is at its lower bound,
+/// `w_i <= 0` if `z_i` is at its upper one, and `w_i = 0` in between.
 ///
 /// Bounds may be infinite. The problem is the standard one for `lower = 0` and `upper = inf`, and a system of equations
 /// without bounds.
@@ -108,9 +108,9 @@ impl BoxedLcp {
         &self.upper
     }
 
-    /// The general problem: `n` pairs, and one more for every variable with two finite, different bounds. Row `i` is `w
-    /// - M z = q` for variable `i`, with `z` as its distance from the bound nearer to zero; the additional rows are the
-    /// distances between the two bounds.
+    /// The general problem: `n` pairs, and one more for every variable with two finite, different bounds. Row `i` is
+    /// `w - M z = q` for variable `i`, with `z` as its distance from the bound nearer to zero; the additional rows are
+    /// the distances between the two bounds.
     pub fn to_general(&self) -> HorizontalLcp {
         let mut c = self.q.clone();
         let (mut a, mut b) = (Vec::new(), Vec::new());

@@ -4,8 +4,8 @@ use super::{BoxedLcp, HorizontalLcp, Lcp};
 use crate::vector::check_length;
 use crate::{Error, Matrix, Vector};
 
-/// The mixed problem `w = M z + q` of order `n`. Every `z_i` is either free, with `w_i = 0`, or complementary: `z_i >=
-/// 0`, `w_i >= 0`, `z_i w_i = 0`.
+/// The mixed problem `w = M z + q` of order `n`. Every `z_i` is either free, with `w_i = 0`, or complementary:
+/// `z_i >= 0`, `w_i >= 0`, `z_i w_i = 0`.
 ///
 /// The block of the free variables may be singular: its inverse is not used.
 ///

@@ -36,10 +36,10 @@ pub(super) struct Found {
     pub(super) iterations: usize,
 }
 
-/// A form in terms of Clarabel, to be solved for several bounds of its cones: minimise `x P x / 2 + v S v / 2 + linear
-/// x + sum g_i |w_i|` subject to `w_i >= 0` in the rows of nonnegative multipliers, with `w = D x + S v + offset` and a
-/// sum over the cones. `g |w|` is written as `g w + 2 g e` with the least `e >= 0` for which `w + e >= 0`, and the
-/// multiplier of the cone is the multiplier of this condition less `g`.
+/// A form in terms of Clarabel, to be solved for several bounds of its cones: minimise
+/// `x P x / 2 + v S v / 2 + linear x + sum g_i |w_i|` subject to `w_i >= 0` in the rows of nonnegative multipliers,
+/// with `w = D x + S v + offset` and a sum over the cones. `g |w|` is written as `g w + 2 g e` with the least `e >= 0`
+/// for which `w + e >= 0`, and the multiplier of the cone is the multiplier of this condition less `g`.
 ///
 /// Clarabel's variables are `x`, then those of the rows with a diagonal entry of `S`, then one for every cone.
 pub(super) struct Interior {

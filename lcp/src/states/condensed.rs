@@ -13,8 +13,8 @@ pub(crate) const PROXIMAL: f64 = 1e-12;
 /// save a sixth of the time far from the solution, with the same steps.
 const ENOUGH: f64 = 1e-11;
 
-/// The stiffness `s` of the response of a contact point to changes of its gap and slip: `dt_n = -nn dg`, `dt_t = -tn
-/// dg - tt ds`.
+/// The stiffness `s` of the response of a contact point to changes of its gap and slip: `dt_n = -nn dg`,
+/// `dt_t = -tn dg - tt ds`.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub(crate) struct Springs {
     pub(crate) nn: f64,

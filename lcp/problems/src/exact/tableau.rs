@@ -2,9 +2,9 @@
 
 use dashu_int::IBig;
 
-/// Rows of integers over one positive denominator, the determinant of the pivots so far: `entry /
-/// determinant` is the entry of elimination with fractions (Bareiss, Mathematics of Computation 22,
-/// 1968). A pivot column becomes `determinant` times a unit vector.
+/// Rows of integers over one positive denominator, the determinant of the pivots so far:
+/// `entry / determinant` is the entry of elimination with fractions (Bareiss, Mathematics of
+/// Computation 22, 1968). A pivot column becomes `determinant` times a unit vector.
 #[derive(Debug, Clone)]
 pub(super) struct Tableau {
     pub(super) rows: Vec<Vec<IBig>>,

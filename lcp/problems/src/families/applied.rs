@@ -45,9 +45,9 @@ pub fn control(steps: usize, seed: u64) -> Instance<BoxedLcp> {
 /// the value of the option beyond its payoff. `M` is an M-matrix and not symmetric.
 ///
 /// `r V - (r - s^2/2) V' - s^2/2 V'' >= 0` and `V >= 1 - S`, one of them with equality, for the interest `r` and the
-/// volatility `s`. The option is exercised at prices up to `S* = g / (1 + g)`, with `g = 2 r / s^2`, and is worth `(1 -
-/// S*) (S / S*)^-g` above (Merton 1973). The grid goes from `ln S*  - 1` to `ln S* + 4`, at which `V` is set to this
-/// value.
+/// volatility `s`. The option is exercised at prices up to `S* = g / (1 + g)`, with `g = 2 r / s^2`, and is worth
+/// `(1 - S*) (S / S*)^-g` above (Merton 1973). The grid goes from `ln S*  - 1` to `ln S* + 4`, at which `V` is set to
+/// this value.
 pub fn perpetual_option(points: usize, interest: f64, volatility: f64) -> Instance<Lcp> {
     let variance = volatility * volatility;
     let g = 2.0 * interest / variance;

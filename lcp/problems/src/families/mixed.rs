@@ -5,9 +5,9 @@ use faer::Mat;
 use super::{Instance, Integers, KnownAnswer, Planting};
 use lcp::MixedLcp;
 
-/// The conditions of a convex quadratic program with equations, with a planted solution: `M = [0 E;
-/// -E^T C C^T]`, monotone and with a zero block for the free variables, its multipliers. About a
-/// third of the variables is free; `E` has full rank.
+/// The conditions of a convex quadratic program with equations, with a planted solution:
+/// `M = [0 E; -E^T C C^T]`, monotone and with a zero block for the free variables, its multipliers.
+/// About a third of the variables is free; `E` has full rank.
 pub fn mixed_monotone(n: usize, seed: u64) -> Instance<MixedLcp> {
     let mut random = Integers::new(seed);
     let free = n / 3;

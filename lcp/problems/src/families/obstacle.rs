@@ -10,8 +10,8 @@ use lcp::{Basis, Error, Lcp, Side, WarmStart};
 #[non_exhaustive]
 pub enum Ground {
     /// Flat ground, onto which a uniform load presses the membrane. The frame is held such that the contact region is
-    /// a disc of this radius, between 0 and 1, and the gap is known: `r^2 - a^2 - 2 a^2 ln(r / a)` at the distance `r
-    /// > a` from the middle.
+    /// a disc of this radius, between 0 and 1, and the gap is known: `r^2 - a^2 - 2 a^2 ln(r / a)` at the distance
+    /// `r > a` from the middle.
     Disc {
         /// Radius `a` of the contact region.
         radius: f64,

@@ -7,9 +7,10 @@ use crate::{Basis, Matrix, MixedLcp, Side, WarmStart};
 
 impl Contact2d {
     /// The mixed problem with the variables `u` (free), `t_n` and, for every point with friction, the parts `b+`, `b-`
-    /// of `t_t = b+ - b-` and the slip `l` to either side (Stewart and Trinkle 1996): `w = (g, l + s, l - s, mu t_n -
-    /// b+ - b-)`; `g` and `s` depend on `u` and, with compliance, on the forces. The problem is copositive, which makes
-    /// Lemke's method safer than on the general problem, and larger by a pair for every point with friction.
+    /// of `t_t = b+ - b-` and the slip `l` to either side (Stewart and Trinkle 1996):
+    /// `w = (g, l + s, l - s, mu t_n - b+ - b-)`; `g` and `s` depend on `u` and, with compliance, on the forces. The
+    /// problem is copositive, which makes Lemke's method safer than on the general problem, and larger by a pair for
+    /// every point with friction.
     pub fn to_mixed(&self) -> MixedLcp {
         let (n, m, count) = (self.displacements(), self.points(), self.friction.len());
         let order = n + m + 3 * count;
