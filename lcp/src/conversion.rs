@@ -109,8 +109,8 @@ impl General for Contact2d {
 /// Solves a problem by its general form with `solve`, whose second argument is `false`. A second call, with `true`,
 /// may follow for the equations of a problem with bounds.
 ///
+/// # Errors
 /// The errors of the method.
-/// Those of the method.
 pub(crate) fn solve_in_general_form<P: Converted>(
     problem: &P,
     tolerance: f64,

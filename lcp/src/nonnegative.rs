@@ -272,7 +272,7 @@ mod tests {
         assert_eq!((x, residual), (vec![0.0, 0.0, 0.0, 2.0, 0.0], vec![0.0, 0.0]));
     }
 
-    /// Nearly parallel columns, whose difference gives `c`, and a residual of 1e-9 of it.
+    /// Nearly parallel columns, whose difference is `c`, and a residual of 1e-9 of `c`.
     #[test]
     fn small_differences_are_seen() {
         let near = 1.0 + f64::EPSILON;

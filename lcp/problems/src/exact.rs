@@ -34,7 +34,7 @@ pub struct ExactPoint {
 }
 
 impl ExactPoint {
-    /// The nearest floating-point numbers, `t` and `y`; infinite where a number exceeds their range.
+    /// The nearest floating-point numbers, `t` and `y`; infinite if a number exceeds their range.
     pub fn rounded(&self) -> (Vec<f64>, Vec<f64>) {
         (rounded(&self.t), rounded(&self.y))
     }

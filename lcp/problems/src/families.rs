@@ -48,7 +48,7 @@ use faer::Mat;
 use lcp::SplitMix;
 use lcp::{HorizontalLcp, Lcp, Matrix};
 
-/// A problem and what is known about it.
+/// A problem and the known facts about it.
 #[derive(Debug, Clone)]
 pub struct Instance<P = HorizontalLcp> {
     /// The problem.

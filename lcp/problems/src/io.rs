@@ -27,9 +27,8 @@
 //! Convex quadratic programs, in free or fixed format: the sections `NAME`, `OBJSENSE` (`MIN`), `ROWS`, `COLUMNS`, `RHS`,
 //! `RANGES`, `BOUNDS`, and `QUADOBJ` or `QSECTION` (one triangle of `P`) or `QMATRIX` (all its entries). The objective has
 //! minus its right-hand side as constant. Lines of `RHS`, `RANGES` and `BOUNDS` may leave out the name of the set.
-//! Bounds
-//! from 1e20 on count as infinite. A negative `UP` without `LO` frees its variable below; `BV` is between 0 and 1,
-//! integer or not.
+//! Bounds from 1e20 on count as infinite. A negative `UP` without `LO` frees its variable below; `BV` is between 0 and
+//! 1, integer or not.
 //!
 //! # Siconos
 //! The `.dat` files of that library for linear complementarity problems, mixed ones, relays (variables between bounds,

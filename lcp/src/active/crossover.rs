@@ -34,9 +34,9 @@ pub(crate) struct Effort {
 }
 
 impl Effort {
-    /// For an iteration that converges, when few contacts are left to exchange.
+    /// Effort for an iteration that converges, when few contacts are left to exchange.
     pub(crate) const QUICK: Self = Self { rounds: 8, patience: 2, points: 400, ..Self::THOROUGH };
-    /// For an iteration that does not converge any further.
+    /// Effort for an iteration that does not converge any further.
     pub(crate) const THOROUGH: Self = Self {
         rounds: 60,
         patience: 10,
@@ -45,14 +45,14 @@ impl Effort {
         all_at_once: false,
         proximal: PROXIMAL,
     };
-    /// For given states, of which any number may be wrong.
+    /// Effort for given states; any number of them may be wrong.
     pub(crate) const START: Self =
         Self { patience: 3, points: 1, all_at_once: true, ..Self::THOROUGH };
-    /// For a point amid all solutions of a convex problem.
+    /// Effort for a point amid all solutions of a convex problem.
     #[cfg(feature = "clarabel")]
     pub(crate) const ANCHORED: Self = Self { anchored: true, ..Self::THOROUGH };
 
-    /// For a point that is right except for the last digits: unknowns that the states leave free are held there.
+    /// Effort for a point that is right except for its last digits: unknowns that the states leave free are held.
     pub(crate) const fn held(proximal: f64) -> Self {
         Self { rounds: 3, anchored: true, proximal, ..Self::THOROUGH }
     }

@@ -41,13 +41,13 @@ pub(crate) struct RowJudge<R> {
 /// The arithmetic in which the rows of a point are computed, and the part of the loads that rounding may excuse.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Precision {
-    /// For points on the way: `f64`, less the possible rounding errors of the sums; rows that matter to no load count
+    /// `f64`, less the possible rounding errors of the sums, for points on the way; rows that matter to no load count
     /// like all others.
     Quick,
-    /// For answers: twice the digits if that may matter, less the rounding error of a point that is exact except for
-    /// the last digit of its numbers.
+    /// Twice the digits if that may matter, less the rounding error of a point that is exact except for the last digit
+    /// of its numbers, for answers.
     Rounded,
-    /// For points about to be called solved, and for points with twice the digits: twice the digits if that may matter.
+    /// Twice the digits if that may matter, for points about to be called solved and for points with such digits.
     Exact,
 }
 

@@ -43,7 +43,7 @@ pub(super) fn significance(
         if sources[row] >= 1.0 {
             worth[variable] = share.max(worth[variable]);
         } else {
-            // Every variable that is not weak gives its row its weight.
+            // Every variable that is not weak passes its weight to its row.
             links.extend([(row, variable, share), (variable, row, (share / WEAK).min(1.0))]);
         }
     }

@@ -35,8 +35,6 @@ impl InteriorPoint {
     /// such `t` (Farkas 1902). Newton's method on the dual function of `u` comes first (Mangasarian 2004); if its steps become
     /// short, the homogeneous problem of Andersen and Ye (1999) follows. Uses the tolerance and the limits of the settings.
     ///
-    /// The iteration ends where the balance holds to the tolerance, relative to the largest force, and to a hundred times it
-    /// relative to the largest load, or to rounding errors of the forces (64 eps of the largest) where forces are so much larger
     /// The iteration ends if the balance holds to the tolerance, relative to the largest force, and to a hundred times
     /// the tolerance relative to the largest load, or to rounding errors of the forces (64 eps of the largest) if
     /// forces are so much larger than the loads. The remaining residual is distributed, so that every row is balanced

@@ -17,7 +17,6 @@ impl Trial {
     /// followed by attempts from that basis and, in turn, from the first start with random covering vectors, since
     /// paths from that basis may return to it. A ray is followed by another covering vector, another start basis, a
     /// pair in place of the artificial variable, then more start bases. The pair comes before the others if `is_game`.
-    /// bases. `is_game` says that the pair is worth a try before the others.
     pub(super) fn after(
         last: &Self,
         end: AttemptEnd,

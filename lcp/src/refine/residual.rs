@@ -34,7 +34,7 @@ impl Shifts {
         Self { loads: vec![Extended::ZERO; scaled.order()], gaps, largest: 0.0 }
     }
 
-    /// Adds the residual to the shifts.
+    /// Subtracts the residual from the shifts.
     pub(super) fn absorb(&mut self, rest: &EquationResidual) {
         self.largest = self.largest.max(rest.largest);
         self.loads.iter_mut().zip(&rest.unbalanced).for_each(|(load, rest)| *load += -*rest);

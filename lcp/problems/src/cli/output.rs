@@ -1,4 +1,4 @@
-//! How commands end, and what they print.
+//! The results and the output of commands.
 
 use std::fmt::Write as _;
 use std::io::{ErrorKind, Write};

@@ -47,7 +47,7 @@ fn counted(count: usize, what: &str) -> String {
     format!("{count} {what}{}", if count == 1 { "" } else { "s" })
 }
 
-/// The meaning of a status for the user, if its name does not say it.
+/// The meaning of a status for the user, if its name does not make it clear.
 fn meaning(answer: &Answer<'_>) -> Option<&'static str> {
     let is_auto = !answer.runs.is_empty();
     Some(match answer.status {

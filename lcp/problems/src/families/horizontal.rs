@@ -66,7 +66,7 @@ pub fn infeasible(n: usize, seed: u64) -> Instance {
     };
     let (a, b) = (matrix(true), matrix(false));
     let mut c = random.vector(n, -3, 3);
-    // `farkas[0]` is one: the first entry makes up for what the others lack.
+    // `farkas[0]` is one: the first entry compensates the deficit of the others.
     c[0] += (1.0 - value(&c)).max(0.0);
     Instance { problem: general(a, b, c), known: KnownAnswer::Infeasible { farkas } }
 }

@@ -86,7 +86,7 @@ pub enum ReadError {
         /// The name.
         name: String,
     },
-    /// A Matrix Market file, which holds one matrix, where a problem is expected.
+    /// A Matrix Market file, which holds one matrix, instead of a problem.
     #[error(
         "a Matrix Market file holds one matrix and no problem: name the file of every part, as in \
          --m M.mtx --q q.mtx or --a A.mtx --b B.mtx --c c.mtx"
