@@ -23,7 +23,7 @@ use crate::{Error, Method, Observer, Solution, Solver};
 /// Chooses the methods for a problem by its class and size, and runs one after the other until one finds a solution.
 /// Every method checks the residuals in the given data.
 ///
-/// The choice needs no factorisation. It depends on the order, whether matrices are stored sparse, signs, and the
+/// The choice needs no factorisation and depends on the order, whether matrices are stored sparse, signs, and the
 /// number of contact points, not on units. [`plan`](Self::plan) returns the choice and the reasons, and
 /// [`Info::runs`](crate::Info::runs) lists the methods that were tried and their endings.
 ///
@@ -41,7 +41,7 @@ use crate::{Error, Method, Observer, Solution, Solver};
 /// programs and sweeps are in no chain: no case of the bench `corpus` is decided by them alone.
 ///
 /// Problems of up to 100 pairs have enumeration as well: branching over the sides of pairs, with a solution or a proof
-/// for each choice. It comes last, with the work of one or two seconds, except if the largest block of mutually
+/// for each choice. Enumeration comes last, with the work of one or two seconds, except if the largest block of mutually
 /// dependent pairs has at most 18 (each pair of a triangular matrix is a block by itself, since its sides follow one
 /// from another). In that case enumeration follows 40 attempts of Lemke's method, and more attempts come at the end if
 /// there are more than 18 pairs in all.

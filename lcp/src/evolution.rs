@@ -51,7 +51,7 @@ use target::{Course, Data, Rest, Taken, Target, close};
 /// Every solution of a fixed step that is called solved obeys Coulomb's law on the increment: friction dissipates as
 /// much as it can in every slip, and no energy is created ([`Account`]). As steps become shorter, solutions of such
 /// schemes converge to one of the differential inclusion of bodies with mass (Anitescu 2006, for the scheme with
-/// associated flow). That solution need not be unique: it depends on the path of the loads if there is friction, and
+/// associated flow). The solution need not be unique: it depends on the path of the loads if there is friction, and
 /// may depend on the drag.
 ///
 /// # References
@@ -98,7 +98,7 @@ pub struct Evolution {
 }
 
 impl Evolution {
-    /// Bodies at rest without displacements and without contact forces, under the loads and gaps of a problem. Its `K` is the
+    /// Bodies at rest without displacements and without contact forces, under the loads and gaps of a problem. `K` is the
     /// stiffness of the bodies, `mass` their mass (symmetric, positive semidefinite).
     ///
     /// # Errors
@@ -129,7 +129,7 @@ impl Evolution {
         })
     }
 
-    /// These bodies with other velocities.
+    /// The same bodies with other velocities.
     ///
     /// # Errors
     /// [`Error::Length`] or [`Error::NotFinite`].
@@ -139,7 +139,7 @@ impl Evolution {
         Ok(Self { velocity, ..self })
     }
 
-    /// These bodies at rest in another state of the [problem](Self::new), with the slip of every point.
+    /// The same bodies at rest in another state of the [problem](Self::new), with the slip of every point.
     ///
     /// # Errors
     /// [`Error::Length`] or [`Error::NotFinite`].

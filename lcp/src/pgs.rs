@@ -43,7 +43,7 @@ use crate::{Error, Info, Method, Observer, Residuals, Solution, Status, WarmStar
 /// # Guarantee
 /// The method converges linearly, if diagonals are positive, for symmetric positive definite `M` with `omega` in
 /// `(0, 2)`, and for strictly diagonally dominant `M` with `omega` in `(0, 1]` (Cryer 1971; Cottle, Pang and Stone
-/// 1992, section 5.2). It converges for symmetric positive semidefinite `M` if there is a solution (Luo and Tseng
+/// 1992, section 5.2), and converges for symmetric positive semidefinite `M` if there is a solution (Luo and Tseng
 /// 1991). These results hold for contact without friction.
 ///
 /// # Failure
@@ -80,7 +80,7 @@ pub struct ProjectedGaussSeidel {
 pub struct RowsSolution {
     /// The status of the iteration at its end.
     pub status: Status,
-    /// The point. It satisfies the constraints exactly.
+    /// The point, which satisfies the constraints exactly.
     pub z: Vec<f64>,
     /// `M z + q`, computed anew.
     pub w: Vec<f64>,

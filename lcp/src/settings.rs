@@ -5,7 +5,7 @@ use std::time::Duration;
 use crate::vector::{check_length, check_vector};
 use crate::{Basis, Error};
 
-/// The covering vector `d > 0` of the artificial variable, in the rows of the start basis. It is zero in rows of free
+/// The covering vector `d > 0` of the artificial variable, in the rows of the start basis; zero in rows of free
 /// variables, which may be negative.
 #[derive(Debug, Clone, PartialEq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]

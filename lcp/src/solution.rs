@@ -227,12 +227,12 @@ impl<P> Solution<P> {
         }
     }
 
-    /// This solution as a solution of the general form of the problem, whose pairs it has.
+    /// The solution as one of the general form of the problem, with the same pairs.
     pub fn of_pairs(self) -> Solution {
         self.of()
     }
 
-    /// This solution as a solution of a problem with this general form.
+    /// The solution as one of a problem with this general form.
     pub(crate) fn of<Q>(self) -> Solution<Q> {
         Solution {
             status: self.status,

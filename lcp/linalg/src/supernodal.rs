@@ -32,7 +32,7 @@ pub struct SupernodalLu {
     exchanges: Vec<usize>,
 }
 
-/// Columns that are eliminated together, and the rows below them, increasing. Both are places of the order.
+/// Columns that are eliminated together, and the rows below them, increasing; places of the order.
 struct Supernode {
     columns: Range<usize>,
     rows: Vec<usize>,

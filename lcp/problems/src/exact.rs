@@ -1,6 +1,6 @@
 //! Exact arithmetic: exact solutions of small problems (feature `exact`).
 //!
-//! Every `f64` is a rational number, so a problem has an exact solution. This module finds it, for tests, for
+//! Every `f64` is a rational number, so a problem has an exact solution. The module finds exact solutions for tests, for
 //! teaching, and to check floating-point solvers:
 //!
 //! * [`verify_basis`] solves one complementary basis, say that of a [`Solution`](lcp::Solution).

@@ -60,21 +60,21 @@ pub struct Instance<P = HorizontalLcp> {
 /// The known facts about a problem. `t` is `z` and `y` is `w` in the standard and in the mixed form.
 #[derive(Debug, Clone, PartialEq)]
 pub enum KnownAnswer {
-    /// It has exactly one solution.
+    /// The problem has exactly one solution.
     Unique {
         /// The first variable of every pair.
         t: Vec<f64>,
         /// The second variable of every pair.
         y: Vec<f64>,
     },
-    /// It has this solution, and perhaps others.
+    /// The problem has this solution, and perhaps others.
     Solution {
         /// The first variable of every pair.
         t: Vec<f64>,
         /// The second variable of every pair.
         y: Vec<f64>,
     },
-    /// It has a solution.
+    /// The problem has a solution.
     Solvable,
     /// The linear conditions alone cannot be met.
     Infeasible {
@@ -86,9 +86,9 @@ pub enum KnownAnswer {
 /// The kind of a planted solution.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Planting {
-    /// Without a degenerate pair, and the only one.
+    /// The only solution, without a degenerate pair.
     Unique,
-    /// Without a degenerate pair.
+    /// A solution without a degenerate pair.
     Strict,
     /// Both variables are zero in half of the pairs.
     Degenerate,

@@ -23,7 +23,7 @@ pub(crate) struct Search<'a> {
 /// The best point so far.
 struct Best {
     point: Judged,
-    /// Its states if it is exact.
+    /// Its states if the point is exact.
     exact: Option<Vec<ContactStatus>>,
 }
 

@@ -39,7 +39,7 @@ pub struct Link {
 #[derive(Debug, Clone, Copy)]
 enum Words {
     These(&'static str),
-    /// This small number of choices of sides in a block of dependent variables.
+    /// The small number of choices of sides in a block of dependent variables.
     Few(usize),
 }
 

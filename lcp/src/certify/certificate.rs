@@ -14,7 +14,7 @@ use crate::{HorizontalLcp, Side};
 #[non_exhaustive]
 pub enum Certificate {
     /// A proof that the linear conditions have no solution: a vector `pi` with one entry per row, with `A^T pi <= 0`,
-    /// `B^T pi <= 0` and `c.pi > 0` (Farkas 1902). Its largest entry is one.
+    /// `B^T pi <= 0` and `c.pi > 0` (Farkas 1902). The largest entry of `pi` is one.
     Farkas {
         /// The vector.
         pi: Vec<f64>,
@@ -25,7 +25,7 @@ pub enum Certificate {
         /// One leaf for every set of choices; together they cover all choices.
         leaves: Vec<Leaf>,
     },
-    /// A secondary ray on which Lemke's method ended. It proves nothing.
+    /// A secondary ray on which Lemke's method ended, which proves nothing.
     Ray(Ray),
 }
 

@@ -18,7 +18,7 @@ pub struct EvolutionSettings {
     /// The drag `c` [1/time]: the force `-c M v` acts on a body of the mass `M` with the velocity `v`. At least zero,
     /// and above zero without inertia.
     pub drag: f64,
-    /// Whether bodies have inertia. Without it they come to rest as soon as nothing moves them any more.
+    /// Whether bodies have inertia. Bodies without inertia come to rest as soon as nothing moves them any more.
     pub inertia: bool,
     /// The largest displacement for which the problem is valid: beyond it [`advance`](crate::Evolution::advance) and
     /// [`settle`](crate::Evolution::settle) end with [`Ending::Left`](crate::Ending::Left), and no state counts as

@@ -52,7 +52,7 @@ pub(super) struct Target<'a> {
 #[derive(Clone, Copy)]
 pub(super) enum Rest {
     Never,
-    /// From the states of the contacts there.
+    /// From the states of the contacts at the end of the step.
     ByStates,
     /// From these states with more patience, and along the path of interior points.
     ByPath,

@@ -20,7 +20,7 @@ pub(super) struct Direction {
     pub(super) kind: StepKind,
 }
 
-/// The variables of a contact point. Those of friction are zero without friction.
+/// The variables of a contact point; the variables of friction are zero without friction.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Pairs {
     /// The coefficient of friction, which belongs to the point.

@@ -3,7 +3,7 @@
 /// Tolerance of an interior point, whatever the tolerance of the answer. Theory: variables of a pair that both vanish
 /// are accurate to the root of this number, and must not be mistaken for variables that do not vanish.
 pub(super) const INTERIOR: f64 = 1e-11;
-/// A run whose error was once below half of the digits diverges once the error is this many times larger. Chosen: the
+/// A run with half of the digits counts as diverging once its error is this many times larger. Chosen: the
 /// iteration goes on and ends anywhere if the tolerance is below the rounding errors.
 pub(super) const WORSE: f64 = 10.0;
 /// Rounds without progress before the search for a proof that there is no solution; number of increases of bounds that

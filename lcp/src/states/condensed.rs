@@ -64,7 +64,7 @@ impl Condensed {
         Ok(planned.reloaded(problem))
     }
 
-    /// This plan for a problem of the same pattern, whose stiffness may have other values.
+    /// The plan for a problem of the same pattern, whose stiffness may have other values.
     pub(crate) fn reloaded(mut self, problem: &Scaled) -> Self {
         self.stiffness.fill(0.0);
         for j in 0..problem.order() {

@@ -7,7 +7,7 @@ use dashu_int::{IBig, UBig};
 
 use lcp::Error;
 
-/// When an enumeration has to end, and how many vertices and rays it may find.
+/// The limits of an enumeration on time and on the number of vertices and rays.
 pub(super) struct Budget {
     pub(super) deadline: Option<Instant>,
     pub(super) generators: usize,

@@ -6,9 +6,9 @@ use crate::io::tokens::{Token, Tokens};
 /// The layout of the words of a line.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Layout {
-    /// Between white space.
+    /// Words between white space.
     Free,
-    /// In columns.
+    /// Words in columns.
     Fixed,
 }
 
