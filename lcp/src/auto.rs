@@ -41,8 +41,8 @@ use crate::{Error, Method, Observer, Solution, Solver};
 /// programs and sweeps are in no chain: no case of the bench `corpus` is decided by them alone.
 ///
 /// Problems of up to 100 pairs have enumeration as well: branching over the sides of pairs, with a solution or a proof
-/// for each choice. Enumeration comes last, with the work of one or two seconds, except if the largest block of mutually
-/// dependent pairs has at most 18 (each pair of a triangular matrix is a block by itself, since its sides follow one
+/// for each choice. Enumeration comes last, with the work of one or two seconds, except if the largest block of
+/// mutually dependent pairs has at most 18 (each pair of a triangular matrix is a block by itself, since its sides follow one
 /// from another). In that case enumeration follows 40 attempts of Lemke's method, and more attempts come at the end if
 /// there are more than 18 pairs in all.
 ///

@@ -98,8 +98,8 @@ pub struct Evolution {
 }
 
 impl Evolution {
-    /// Bodies at rest without displacements and without contact forces, under the loads and gaps of a problem. `K` is the
-    /// stiffness of the bodies, `mass` their mass (symmetric, positive semidefinite).
+    /// Bodies at rest without displacements and without contact forces, under the loads and gaps of a problem. `K`
+    /// is the stiffness of the bodies, `mass` their mass (symmetric, positive semidefinite).
     ///
     /// # Errors
     /// [`Error::Shape`], [`Error::NotFinite`] or [`Error::NotSymmetric`] for the mass, [`Error::Setting`] for the settings.

@@ -53,7 +53,7 @@ use crate::{Contact2d, Error, Method, Observer, Solution, Status};
 /// [`Solution::certificate`].
 ///
 /// # Guarantee
-/// Convergence is not proved in general. The theory of interior-point methods gives convergence for monotone problems
+/// No guarantee is proved. The theory of interior-point methods gives convergence for monotone problems
 /// (no friction, positive semidefinite `M`) with a strictly feasible point. The path need not lead to a solution if
 /// there is friction; walls of 6e4 contact points took 30 to 70 steps for `mu` from 1/2 to 1.
 ///
@@ -193,7 +193,7 @@ impl Run<'_, '_, '_> {
         loop {
             let worst = self.search.judge(&at.u, &at.forces());
             let is_solved = worst <= self.settings.tolerance;
-            // Lengths are measured by at least those of the start: they would be rounding errors if nothing moves.
+            // The unit of length is at least that of the start, since lengths are rounding errors if nothing moves.
             let (force, length) = at.sizes();
             let (force, length) = (force.max(1.0), length.max(first));
             let natural = at.natural(force, length);

@@ -36,8 +36,8 @@ use crate::{
 ///   `u P u / 2 + z S z / 2 + p u` for `G u + S z + r >= 0`, or `= 0` if the variable of the row is free. Such an [`Lcp`] is
 ///   treated, too.
 /// * [`BoxedLcp`] with such an `M`: its bounds become rows of a mixed problem.
-/// * [`Contact2d`]: minimise `u K u / 2 - f u` for gaps `C_n u + x_0 >= 0`. A problem with friction is a sequence of such
-///   programs: the work `g |C_t u + s_0|` of friction forces with fixed bounds `g` (Tresca) is added, and `g` goes half
+/// * [`Contact2d`]: minimise `u K u / 2 - f u` for gaps `C_n u + x_0 >= 0`. A problem with friction is a sequence of
+///   such programs: the work `g |C_t u + s_0|` of friction forces with fixed bounds `g` (Tresca) is added, and `g` goes half
 ///   the way to `mu t_n`, until it converges.
 ///
 /// Symmetry and semidefiniteness are checked. Clarabel's interior-point method finds a point near the solution, which

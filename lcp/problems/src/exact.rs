@@ -1,7 +1,7 @@
 //! Exact arithmetic: exact solutions of small problems (feature `exact`).
 //!
-//! Every `f64` is a rational number, so a problem has an exact solution. The module finds exact solutions for tests, for
-//! teaching, and to check floating-point solvers:
+//! Every `f64` is a rational number, so a problem has an exact solution. The module finds exact solutions for tests,
+//! for teaching, and to check floating-point solvers:
 //!
 //! * [`verify_basis`] solves one complementary basis, say that of a [`Solution`](lcp::Solution).
 //! * [`enumerate`] finds all solutions of a small problem: isolated points, segments, polyhedra.

@@ -63,7 +63,7 @@ impl<'a> Search<'a> {
     }
 
     /// Whether the point without motion and forces is a solution, which iterations only approach without end.
-    /// `crossover`: whether its states are wanted too.
+    /// `crossover` is whether its states are wanted too.
     pub(crate) fn try_rest(&mut self, crossover: bool) -> bool {
         let (u, forces) = self.rest();
         if self.judge(&u, &forces) > self.tolerance {

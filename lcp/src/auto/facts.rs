@@ -32,7 +32,7 @@ mod tests {
 
     use super::*;
 
-    /// Blocks of 3 and 20, each below the diagonal of the other; a cycle of all joins them.
+    /// Blocks of 3 and 20, coupled below the diagonal only; a cycle through both joins them.
     #[test]
     fn blocks_of_a_reducible_matrix() {
         let mut m = Mat::from_fn(23, 23, |i, j| f64::from(u8::from(i >= 3 && j < 3)));

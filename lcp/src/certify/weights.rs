@@ -59,7 +59,7 @@ impl Couplings {
     }
 
     /// Calls `show` with every row and one over the loads that act on it, in units of the row: the largest right-hand
-    /// side of its connected part, and of other parts times their coupling to it. A part without any load takes the
+    /// side of its connected part, or of other parts times their coupling. A part without any load takes the
     /// largest of the others; without any load at all the weights are zero, and only the terms measure. `felt` is
     /// memory; nothing else is allocated if there is one part.
     pub(crate) fn weigh(

@@ -32,7 +32,7 @@ pub struct InteriorPointSettings {
     /// [`MixedLcp`](crate::MixedLcp) of a convex program is then solved by the homogeneous problem, which needs neither
     /// start nor openings and gives proofs by itself.
     pub crossover: bool,
-    /// Whether to test, if the method jams on bodies in contact, that any forces balance the loads at all.
+    /// Whether the existence of forces that balance the loads is tested if the method jams on bodies in contact.
     pub prove_infeasible: bool,
 }
 

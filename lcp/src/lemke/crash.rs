@@ -95,8 +95,8 @@ fn both_sides(preferred: &[Side]) -> impl Iterator<Item = (usize, Side)> + '_ {
     own.clone().chain(own.map(|(pair, side)| (pair, side.complement())))
 }
 
-/// A largest set of independent columns, completed by unit columns, among those found from the preferred sides, all
-/// `t`, or the sides of a matching.
+/// The largest of the sets of independent columns found from the preferred sides, all `t`, or the sides of a matching,
+/// completed by unit columns.
 fn grown(problem: &Equilibrated<'_>, preferred: &[Side], deadline: Option<Instant>) -> Crash {
     let n = preferred.len();
     let all_t = vec![Side::T; n];
