@@ -42,9 +42,9 @@ use crate::{Error, Method, Observer, Solution, Solver};
 ///
 /// Problems of up to 100 pairs have enumeration as well: branching over the sides of pairs, with a solution or a proof
 /// for each choice. Enumeration comes last, with the work of one or two seconds, except if the largest block of
-/// mutually dependent pairs has at most 18 (each pair of a triangular matrix is a block by itself, since its sides follow one
-/// from another). In that case enumeration follows 40 attempts of Lemke's method, and more attempts come at the end if
-/// there are more than 18 pairs in all.
+/// mutually dependent pairs has at most 18 (each pair of a triangular matrix is a block by itself, since its sides
+/// follow one from another). In that case enumeration follows 40 attempts of Lemke's method, and more attempts come at
+/// the end if there are more than 18 pairs in all.
 ///
 /// # Independent parts
 /// Rows and variables that no entry connects are independent problems. Each has its own chain, so a body that touches

@@ -43,10 +43,10 @@ use crate::{Error, HorizontalLcp, LemkeSettings, Method, Solution};
 /// A nonsingular complementary basis, given or found, turns the problem into `w + T z = q`, which is equilibrated by
 /// powers of two. The artificial variable `z0` enters with the covering vector `d`, and complementary pivots follow
 /// until it leaves. If rows tie, `z0` leaves first; otherwise the lexicographic rule decides. The tableau is checked
-/// against the data in every block of pivots and rebuilt if it has drifted. The equations of the final basis are solved with
-/// the original matrices and refined. The status is [`Solved`](crate::Status::Solved) only if the residuals, computed
-/// from the original data, are below the tolerance. A free variable (a pair of opposite columns) is basic from the
-/// start and never leaves.
+/// against the data in every block of pivots and rebuilt if it has drifted. The equations of the final basis are solved
+/// with the original matrices and refined. The status is [`Solved`](crate::Status::Solved) only if the residuals,
+/// computed from the original data, are below the tolerance. A free variable (a pair of opposite columns) is basic from
+/// the start and never leaves.
 ///
 /// # Guarantee
 /// The method in exact arithmetic finds a solution, or a proof that there is none, for copositive-plus `M` (for example

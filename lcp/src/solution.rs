@@ -199,7 +199,7 @@ impl Solution {
         }
     }
 
-    /// The answer with a checked proof, which determines the status before the point does.
+    /// The answer with a checked proof, whose status replaces that of the point.
     pub(crate) fn proved(self, proof: Certificate) -> Self {
         let status = match proof {
             Certificate::Farkas { .. } => Status::Infeasible,

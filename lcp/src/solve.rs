@@ -59,8 +59,8 @@ pub(crate) use named;
 /// # Ok::<(), lcp::Error>(())
 /// ```
 pub trait Solver<P>: Named {
-    /// Solves a problem for the pairs of its general form, the function that a method implements;
-    /// [`solve_observed`](Self::solve_observed) returns the result as a solution of the problem.
+    /// Solves a problem for the pairs of its general form. Methods implement this function, and
+    /// [`solve_observed`](Self::solve_observed) returns its result as a solution of the problem.
     ///
     /// # Errors
     /// As for [`solve_observed`](Self::solve_observed).

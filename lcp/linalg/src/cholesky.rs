@@ -15,8 +15,8 @@ use crate::VANISHING;
 
 /// Number of operations for each stored number, relative to faer's choice, from which columns are eliminated together.
 ///
-/// Measured on matrices of walls, with a value far below that choice: a factorisation at 1000 bricks takes a quarter of
-/// the time of one by single columns; at 100 bricks as much; in arches, which are chains, a third more.
+/// Measured on matrices of walls: a factorisation at 1000 bricks, far below that choice, takes a quarter of the time of
+/// one by single columns; at 100 bricks as much; in arches, which are chains, a third more.
 const TOGETHER: SupernodalThreshold = SupernodalThreshold(0.3);
 
 /// Factors of matrices with one pattern, again and again for other values, in an order of approximate minimum degree.

@@ -12,7 +12,7 @@ pub(super) enum Layout {
     Fixed,
 }
 
-/// The first and last columns of the fields of the fixed layout, in characters from 0.
+/// The beginnings and ends of the fields of the fixed layout, in characters from 0.
 const FIELDS: [[usize; 2]; 6] = [[1, 3], [4, 12], [14, 22], [24, 36], [39, 47], [49, 61]];
 
 impl Layout {
