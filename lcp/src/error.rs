@@ -135,7 +135,7 @@ pub enum Error {
         upper: f64,
     },
     /// A program that is not convex.
-    #[error("{reason}: its minimum is beyond methods for convex programs")]
+    #[error("{reason}: methods for convex programs do not find the minimum of such a program")]
     NotConvex {
         /// The reason.
         reason: String,

@@ -151,7 +151,7 @@ impl ProjectedGaussSeidel {
             WarmStart::None => Ok(None),
             WarmStart::Point { t, y } => Ok(Some(z(t, y))),
             WarmStart::Basis(_) => Err(Self::not_treated(
-                "sweeps start from a point, and a basis is none: give a point, or take Lemke's method",
+                "sweeps cannot start from a basis: give a point, or take Lemke's method",
             )),
         }
     }

@@ -70,7 +70,7 @@ pub(super) fn chain_of<P: Planned>(problem: &P, max_attempts: Option<usize>) -> 
     let Some(pivots) = pivots.filter(|_| pairs <= MOST_PAIRS) else { return steps };
     let choices = problem.choices();
     if choices > FEW_PAIRS {
-        let words = "choices of sides are gone through as far as the work allows";
+        let words = "choices of sides are tried as long as the limit of work allows";
         steps.push(Link::new(Method::Enumeration, words));
         return steps;
     }

@@ -88,7 +88,7 @@ impl Planned for HorizontalLcp {
         let storage = if self.is_sparse() { "sparse" } else { "dense" };
         match self.to_standard() {
             Some(standard) => format!("as a standard problem of {}", size(standard.lcp().m())),
-            None => format!("order {}, {storage}, and no standard problem", self.order()),
+            None => format!("order {}, {storage}, not in standard form", self.order()),
         }
     }
 

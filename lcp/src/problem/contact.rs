@@ -111,7 +111,7 @@ impl Contact2d {
         }
         // A tangential force of the size of the normal one cannot be distinguished from zero beside larger friction.
         if let Some(&value) = mu.iter().find(|mu| !(0.0..=1.0 / DATA_ROUNDING).contains(*mu)) {
-            let range = "from 0 to 1e12: a contact with more never slides, and belongs into K";
+            let range = "from 0 to 1e12: a contact with 1e12 never slides";
             return Err(Error::Setting { name: "mu", value, range });
         }
         k.check_symmetric("K")?;

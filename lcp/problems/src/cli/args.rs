@@ -83,7 +83,7 @@ pub(super) struct CheckArgs {
 pub(super) struct EnumerateArgs {
     #[command(flatten)]
     pub(super) input: InputArgs,
-    /// Time limit, in seconds; what was found until then is printed.
+    /// Time limit, in seconds; the best point until then is printed.
     #[arg(long, value_name = "S", allow_negative_numbers = true, value_parser = seconds, default_value = "60")]
     pub(super) time_limit: Duration,
 }

@@ -73,7 +73,8 @@ impl Solutions {
         }
         let isolated = faces.iter().filter(|face| face.dimension == 0).count();
         let _ = writeln!(text, "\nisolated solutions: {isolated}");
-        let _ = writeln!(text, "polyhedra of infinitely many: {}", faces.len() - isolated);
+        let _ =
+            writeln!(text, "polyhedra of infinitely many solutions: {}", faces.len() - isolated);
         let verdict = match (complete, faces.is_empty(), feasible) {
             (false, ..) => &format!(
                 "The search was cut after {seconds} s, so that there may be more; --time-limit raises it."

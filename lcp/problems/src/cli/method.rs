@@ -101,7 +101,7 @@ pub(super) fn solve(
             let solver = iterative!(InteriorPoint, InteriorPointSettings);
             in_a_form!(solver, problem, Lcp | Mixed | Boxed | Friction | Contact)
         }
-        other => return Err(format!("{other} is no method of the command").into()),
+        other => return Err(format!("{other} is not a method of the command").into()),
     };
     Ok(solution?)
 }

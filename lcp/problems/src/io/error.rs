@@ -71,7 +71,7 @@ pub enum ReadError {
     },
     /// No format fits; `format` came furthest.
     #[error(
-        "{source} (none of the known formats fits: {}; {format} comes furthest: name another if that is wrong)",
+        "{source} (none of the known formats fits: {}; {format} fits the longest part: name another format if that is wrong)",
         known()
     )]
     Unrecognised {
@@ -88,7 +88,7 @@ pub enum ReadError {
     },
     /// A Matrix Market file, which holds one matrix, instead of a problem.
     #[error(
-        "a Matrix Market file holds one matrix and no problem: name the file of every part, as in \
+        "a Matrix Market file holds one matrix, not a whole problem: name the file of every part, as in \
          --m M.mtx --q q.mtx or --a A.mtx --b B.mtx --c c.mtx"
     )]
     OneMatrix,

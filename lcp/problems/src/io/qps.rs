@@ -75,8 +75,7 @@ fn section_of(header: &Token<'_>) -> Result<Section, ReadError> {
         _ => {
             let expected = "one of NAME, OBJSENSE, ROWS, COLUMNS, RHS, RANGES, BOUNDS, QUADOBJ, QSECTION, \
                             QMATRIX, ENDATA";
-            let remedy =
-                "of other sections, as those of integers and cones, there are no solvers here";
+            let remedy = "other sections, such as those of integers and cones, have no solver here";
             return Err(header.unexpected(expected, remedy));
         }
     })

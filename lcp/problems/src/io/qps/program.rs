@@ -83,7 +83,7 @@ impl<'a> Program<'a> {
             Section::Sense => match words[0].text {
                 "MIN" | "MINIMIZE" => Ok(()),
                 _ => Err(words[0]
-                    .unexpected("MIN", "write a maximum as the minimum of what is negative")),
+                    .unexpected("MIN", "write a maximum as the minimum of the negative objective")),
             },
             Section::Rows => self.row(words),
             Section::Columns => self.column(words),
