@@ -142,7 +142,7 @@ fn solver(route: Route, form: Form, has_friction: bool) -> (&'static str, &'stat
             ("lemke", "no joint has friction: the normal contacts alone make a symmetric problem")
         }
         (_, Form::Auto) => (
-            "lemke, Coulomb form; mixed form if it ends on rays",
+            "lemke, Coulomb form; if that ends on rays, the mixed form",
             "there may be an equilibrium despite a ray of the Coulomb form, because of friction",
         ),
         (_, Form::Coulomb) => ("lemke, Coulomb form", "solver.form = \"coulomb\""),

@@ -100,7 +100,9 @@ fn read(path: &Path) -> Result<Drawing, Failure> {
     let name = path.display();
     let ending = path.extension().map_or_else(String::new, |it| it.to_string_lossy().into_owned());
     let format = DrawingFormat::of_ending(&ending).ok_or_else(|| {
-        format!("{name}: drawings end in .dxf, .svg, .obj or .json: save it as one of these")
+        format!(
+            "{name}: a drawing must be a .dxf, .svg, .obj or .json file: save it as one of these"
+        )
     })?;
     let bytes =
         read_bounded(path, LARGEST_FILE).map_err(|error| format!("cannot read {name}: {error}"))?;

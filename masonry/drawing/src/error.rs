@@ -79,7 +79,7 @@ pub enum DrawingErrorKind {
         limit: usize,
     },
     /// Blocks are inserted in each other without an end, or too deeply.
-    #[error("blocks are inserted in each other {depth} times: explode them")]
+    #[error("block references are nested more than {depth} deep: explode them")]
     Nested {
         /// The largest depth.
         depth: usize,

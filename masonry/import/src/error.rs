@@ -167,7 +167,7 @@ pub enum ImportErrorKind {
     },
     /// Blocks overlap by more than the tolerance.
     #[error(
-        "the blocks overlap by {depth} m, more than the tolerance of {shown} m closes: {remedy}"
+        "the blocks overlap by {depth} m, which is more than the tolerance of {shown} m: {remedy}"
     )]
     Overlap {
         /// The depth of the overlap \[m\].

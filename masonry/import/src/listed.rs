@@ -31,7 +31,7 @@ pub fn scene_from_toml(text: &str, path: &Path) -> Result<Scene, SceneError> {
 fn drawn(path: &Path, bytes: &[u8], scene: &Scene) -> Result<Drawn, String> {
     let ending = path.extension().map_or_else(String::new, |it| it.to_string_lossy().into_owned());
     let format = DrawingFormat::of_ending(&ending)
-        .ok_or("drawings end in .dxf, .svg, .obj or .json: save it as one of these")?;
+        .ok_or("a drawing must be a .dxf, .svg, .obj or .json file: save it as one of these")?;
     let drawing = Drawing::read(bytes, format).map_err(|error| error.to_string())?;
     let imported = imported(&drawing, scene).map_err(|error| {
         // The remedy of an overlap is an option of `import`.

@@ -139,7 +139,7 @@ impl Compressed<'_> {
 
 fn not_canonical() -> PyErr {
     PyValueError::new_err(
-        "the sparse matrix is not one of compressed columns or rows without duplicates: call tocsc() and sum_duplicates()",
+        "the sparse matrix must be in CSC or CSR format, without duplicate entries: call tocsc() and sum_duplicates()",
     )
 }
 

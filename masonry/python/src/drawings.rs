@@ -105,7 +105,7 @@ pub(crate) fn import_drawing(
     let named = |error: &dyn std::fmt::Display| SceneError::new_err(format!("{name}: {error}"));
     let ending = name.rsplit_once('.').map_or("", |(_, ending)| ending);
     let format = DrawingFormat::of_ending(ending).ok_or_else(|| {
-        named(&"drawings end in .dxf, .svg, .obj or .json: save it as one of these")
+        named(&"a drawing must be a .dxf, .svg, .obj or .json file: save it as one of these")
     })?;
     detached(py, || {
         let drawing = Drawing::read(bytes, format).map_err(|error| named(&error))?;

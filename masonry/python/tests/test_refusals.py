@@ -102,7 +102,7 @@ WRONG = [
     (lambda: block().solve().plot("video"), ValueError, "choose one of"),
     (lambda: masonry.map([block()], workers=0), ValueError, "workers is 0: give at least 1"),
     (lambda: masonry.import_drawing("no.dxf"), OSError, "no.dxf"),
-    (lambda: masonry.import_drawing(__file__), masonry.SceneError, "test_refusals.py: drawings end in"),
+    (lambda: masonry.import_drawing(__file__), masonry.SceneError, "test_refusals.py: a drawing must be"),
     (lambda: masonry.from_compas([1.0]), TypeError, "body 0 is of type float"),
     (lambda: masonry.from_compas([], mu=0.5), masonry.SceneError, "compas.json"),
     (lambda: masonry.from_compas([], colour="red"), TypeError, "no option 'colour'"),

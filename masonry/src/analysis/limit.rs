@@ -293,8 +293,8 @@ fn warnings(model: &Model, laws: Laws) -> Vec<String> {
     let gaps = model.contacts.iter().filter(|contact| contact.gap > 0.0).count();
     if gaps > 0 && laws != Laws::Path {
         list.push(format!(
-            "{gaps} of {} contact points are apart and were taken for closed: the structure may fail earlier, but not \
-             carry more.",
+            "{gaps} of {} contact points have gaps, which count as closed: the structure may fail at a lower load, but \
+             cannot carry a higher one.",
             model.contacts.len()
         ));
     }

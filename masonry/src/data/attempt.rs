@@ -96,9 +96,9 @@ fn forces(status: Status, are_found: bool) -> &'static str {
     match status {
         Status::Solved => "balance the loads of blocks at rest",
         Status::AlmostSolved => "are not exact enough",
-        Status::Infeasible => "that balance the loads do not exist (proved by a motion)",
+        Status::Infeasible => "a motion proves that none balance the loads",
         Status::Cancelled => "were not yet found when the search was cancelled",
-        _ if are_found => "balance the loads; whether displacements fit them is not known",
+        _ if are_found => "balance the loads, but displacements for them were not found",
         _ => "were neither found nor proved not to exist",
     }
 }

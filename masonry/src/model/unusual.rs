@@ -108,7 +108,7 @@ impl Model {
         let units = self.units;
         let sentence = |young: f64| {
             format!(
-                "E = {:e} {}/{}2 is {young:.0e} Pa, which is unusual: masonry has 1e8 to 1e11 Pa. Is it given in \
+                "E = {:e} {}/{}2 is {young:.0e} Pa, which is unusual: E of masonry is 1e8 to 1e11 Pa. Is E given in \
                  the units of the scene?",
                 young / units.stress_to_si(),
                 units.force_name(),

@@ -17,8 +17,8 @@ pub enum ArchError {
     },
     /// A pointed arch has no point at the crown.
     #[error(
-        "a rise of {rise} leaves no point at the crown: a pointed arch of this span rises by more than {least}; give \
-         more, or `shape = \"segmental\"`"
+        "an arch with a rise of {rise} is not pointed: a pointed arch of this span rises by more than {least}; give a \
+         larger rise, or `shape = \"segmental\"`"
     )]
     TooLow {
         /// The rise.

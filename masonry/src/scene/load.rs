@@ -332,8 +332,8 @@ pub enum LoadError {
     Along,
     /// The load of this name inside a wall presses no block.
     #[error(
-        "load \"{0}\" acts on nothing: no block has an edge on its segment that its traction presses: move the segment onto \
-         an edge of a block (in mortar the joint has two), or remove the load"
+        "load \"{0}\" acts on nothing: the traction presses on no block edge along the segment: move the segment onto an edge \
+         of a block (a mortar joint lies between two edges), or remove the load"
     )]
     IdleInside(String),
     /// A fill lies on no edge.

@@ -263,7 +263,10 @@ fn mistakes_in_a_drawing_have_the_entity() {
     fs::write(&bad, text).unwrap();
     fs::write(bad.with_file_name("portal.dwg"), "AC1032").unwrap();
     let bad = message(&bad);
-    assert!(bad.contains("portal.dwg: drawings end in .dxf, .svg, .obj or .json"), "{bad}");
+    assert!(
+        bad.contains("portal.dwg: a drawing must be a .dxf, .svg, .obj or .json file"),
+        "{bad}"
+    );
 }
 
 /// A device may have no end, and a pipe no beginning.

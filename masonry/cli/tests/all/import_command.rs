@@ -92,7 +92,7 @@ fn what_cannot_be_imported_ends_with_code_2() {
     assert_eq!(
         error,
         format!(
-            "error: {scene}: drawings end in .dxf, .svg, .obj or .json: save it as one of these\n"
+            "error: {scene}: a drawing must be a .dxf, .svg, .obj or .json file: save it as one of these\n"
         )
     );
     let error = refused(&["import", &drawing.replace("wall.dxf", "none.dxf")]);

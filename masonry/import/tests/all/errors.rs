@@ -86,7 +86,7 @@ fn insertions_without_an_end_are_refused() {
         Drawing::read(myself.insert("a", [0.0, 0.0], "").text().as_bytes(), DrawingFormat::Dxf)
             .unwrap_err();
     assert!(
-        error.to_string().ends_with("blocks are inserted in each other 16 times: explode them"),
+        error.to_string().ends_with("block references are nested more than 16 deep: explode them"),
         "{error}"
     );
     assert!(error.to_string().starts_with("INSERT 1 in block a of INSERT 1"), "{error}");
@@ -153,7 +153,7 @@ fn mistakes_of_other_formats_have_their_place() {
     assert_refused(
         &deep,
         DrawingFormat::Svg,
-        "<g> (line 2): blocks are inserted in each other 64 times: explode them",
+        "<g> (line 2): block references are nested more than 64 deep: explode them",
     );
 }
 
@@ -278,8 +278,8 @@ fn what_cannot_be_mended_has_its_place_and_remedy() {
     assert_not_imported(
         &pair(0.01),
         &fine,
-        "LWPOLYLINE 1 (line 22) and LWPOLYLINE 2 (line 48): the blocks overlap by 0.01 m, more than the tolerance of \
-         0.001 m closes: --tolerance 0.012 would do",
+        "LWPOLYLINE 1 (line 22) and LWPOLYLINE 2 (line 48): the blocks overlap by 0.01 m, which is more than the \
+         tolerance of 0.001 m: --tolerance 0.012 would do",
     );
     assert_not_imported(
         &pair(-0.1),
@@ -313,8 +313,8 @@ fn what_cannot_be_mended_has_its_place_and_remedy() {
     assert_not_imported(
         &Dxf::new(6).polygons("brick", &[around, square(0.0, 0.0)]),
         &ImportOptions::default(),
-        "LWPOLYLINE 1 (line 22) and LWPOLYLINE 2 (line 48): the blocks overlap by 2 m, more than the tolerance of 0.05 m \
-         closes: no tolerance mends that: correct the drawing there",
+        "LWPOLYLINE 1 (line 22) and LWPOLYLINE 2 (line 48): the blocks overlap by 2 m, which is more than the tolerance of \
+         0.05 m: no tolerance mends that: correct the drawing there",
     );
     assert_not_imported(
         &Dxf::new(6).polygons("brick", &[square(0.0, 0.0)]),

@@ -54,7 +54,7 @@ impl Scene {
 
     fn check_mass(&self, at: &KeyPath, load: &Load) -> Check {
         let Some(part) = load.mass else { return Ok(()) };
-        let wanted = "the part of a load that is the weight of a mass is from 0 to 1";
+        let wanted = "`mass` is the part of the load that is weight, a number from 0 to 1";
         value(at.clone(), part, (0.0..=1.0).contains(&part), wanted)?;
         let because = if load.acceleration.is_some() {
             "accelerations take none: leave `mass` out"

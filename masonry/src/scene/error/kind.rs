@@ -171,7 +171,7 @@ pub enum SceneErrorKind {
     },
     /// Two numbers of elements are given for a block that is not a convex quadrilateral.
     #[error(
-        "block \"{block}\" has two numbers of elements, but only a convex block with four corners has two: give one, such as \
+        "block \"{block}\" has two numbers of elements, which only a convex block with four corners can have: give one, such as \
          mesh = {}", mesh[0]
     )]
     UnevenMesh {

@@ -201,7 +201,7 @@ fn tractions_within_joints() {
     );
     let load = "[[loads]]\nname = \"idle\"\nfrom = [0.0, 0.07]\nto = [0.6, 0.07]\ntraction = [0.0, -1.0]\n";
     for (more, words) in [
-        ("inside = true\n", "no block has an edge on its segment that its traction presses"),
+        ("inside = true\n", "the traction presses on no block edge along the segment"),
         ("", "set `inside = true` for a traction within joints"),
     ] {
         let text = GOOD.replace("[contact]", &format!("{load}{more}[contact]"));
