@@ -254,10 +254,7 @@ fn mistakes_in_a_drawing_have_the_entity() {
     );
     // The drawing was found: no other is asked for.
     assert!(!overlap.contains("name a JSON list"), "{overlap}");
-    assert!(
-        overlap.contains("closes; in a scene the tolerance is `contact.tolerance`"),
-        "{overlap}"
-    );
+    assert!(overlap.contains("; in a scene the tolerance is `contact.tolerance`"), "{overlap}");
     let bad = drawn("ending", &DRAWING, SMOOTH);
     let text = fs::read_to_string(&bad).unwrap().replace("portal.dxf", "portal.dwg");
     fs::write(&bad, text).unwrap();

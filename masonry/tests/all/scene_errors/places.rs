@@ -47,7 +47,7 @@ fn elastic_blocks_have_a_mesh_that_fits() {
         &brick(house, "[1, 2]"),
         "[1, 2]",
         "blocks[0].mesh",
-        &["only a convex block with four corners has two", "give one, such as mesh = 1"],
+        &["only a convex block with four corners can have", "give one, such as mesh = 1"],
     );
     let hollow = "[[0.0, 0.3], [1.0, 0.3], [1.0, 1.3], [0.9, 1.3], [0.9, 0.4], [0.1, 0.4], [0.1, 1.3], [0.0, 1.3]]";
     assert_error(
