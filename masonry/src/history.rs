@@ -252,7 +252,7 @@ impl StepRecord {
 const KEPT: f64 = 0.99;
 
 impl History {
-    /// The number of steps that keep Coulomb's law along the way only in part.
+    /// The number of steps in which friction did less work than Coulomb's law gives for the slips.
     pub fn steps_against_law(&self) -> usize {
         self.records.iter().filter(|record| !record.keeps_law()).count()
     }

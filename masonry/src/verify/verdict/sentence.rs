@@ -70,9 +70,8 @@ fn in_all_steps(structure: &str, history: &History) -> String {
             "The {structure} stands in all {steps} steps: equilibrium found, and Coulomb's law verified, in each."
         ),
         count => format!(
-            "The {structure} stands in all {steps} steps: equilibrium found and verified in each, but {count} of them {} \
-             Coulomb's law along the way only in part.",
-            if count == 1 { "keeps" } else { "keep" }
+            "The {structure} stands in all {steps} steps: equilibrium found and verified in each, but friction in {count} \
+             of them did less work than Coulomb's law gives for the slips."
         ),
     };
     match history.second_loading {
