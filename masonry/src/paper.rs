@@ -1,5 +1,5 @@
-//! Parts of the paper that the routes of `auto` do not use: the augmented Lagrangian method, mortar films as strips
-//! with their own nodes, and the change of these nodes. They are kept for comparison.
+//! Methods of the paper that the routes of `auto` do not use, kept for comparison: the augmented Lagrangian method,
+//! and mortar films as strips with their own nodes, which may be changed to the nodes of the blocks.
 
 pub mod alm;
 pub mod film;

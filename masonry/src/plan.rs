@@ -1,4 +1,4 @@
-//! The plan: the effects that a scene uses, the reasons, and the cost.
+//! The plan of an analysis: the effects that a scene uses with reasons, the routes, and the cost.
 
 mod effects;
 mod memory;
@@ -15,13 +15,13 @@ use crate::method::auto::{self, Facts};
 use crate::model::Model;
 use crate::scene::{Form, Route, Scene};
 
-/// The parts of the equations that a scene needs, determined before anything is assembled.
+/// The parts of the equations that a scene needs, and their sizes, determined before anything is assembled.
 ///
-/// Nothing that is off is built: no mesh and no stiffness without an elastic material, no tangential unknowns without
-/// friction, no films without a thickness of joints, no stresses when no output shows them.
+/// Parts that are not needed are not built: there is no mesh and no stiffness without an elastic material, no
+/// tangential unknown without friction, no film without a thickness of joints, and no stress if no output shows it.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Plan {
-    /// Effects, each with its reason.
+    /// The physical effects, such as friction: whether each is on, and why.
     pub effects: Vec<Effect>,
     /// Number of blocks.
     pub blocks: usize,
@@ -29,22 +29,22 @@ pub struct Plan {
     pub nodes: usize,
     /// Number of joints.
     pub joints: usize,
-    /// Number of contact points (m).
+    /// Number of contact points, `m`.
     pub contact_points: usize,
     /// Number of contact points with friction.
     pub frictional_points: usize,
-    /// Rigid amplitudes: three per block, and as many isostatic rows (3.18).
+    /// Number of rigid amplitudes: three per block. The number of isostatic rows is the same (3.18).
     pub rigid_modes: usize,
-    /// Order of the complementarity problem of the first route. The order by Lemke's method is m, and two more per
-    /// frictional point (3m); in the Stewart-Trinkle form three more (4m), in the mixed form also two per rigid
-    /// amplitude and per bar of mortar strips. The order on the sparse routes is m, two more per frictional point, and
-    /// all displacements.
+    /// Order of the complementarity problem of the first route. The order by Lemke's method is m plus two per
+    /// frictional point (3m with friction at all points); in the Stewart-Trinkle form m plus three per frictional
+    /// point (4m); in the mixed form additionally two per rigid amplitude and per bar of mortar strips. The order on
+    /// the sparse routes is m, two per frictional point, and the number of all displacements.
     pub order: usize,
     /// Order of the largest form that the first route may use.
     pub largest_order: usize,
-    /// Displacement unknowns of the block with the finest mesh.
+    /// Number of displacement unknowns of the block with the finest mesh.
     pub largest_block: usize,
-    /// Steps of the load history that are solved: one if the solution does not depend on the load path.
+    /// Number of steps of the load history that are solved: one if the solution does not depend on the load path.
     pub steps: usize,
     /// The solver that will be used.
     pub solver: String,
@@ -57,7 +57,7 @@ pub struct Plan {
 }
 
 impl Plan {
-    /// The plan for a scene and its model.
+    /// Makes the plan for a scene and its model.
     pub fn of(scene: &Scene, model: &Model) -> Self {
         let sizes = Sizes::of(model);
         let routes = routes(scene, model, &sizes);
@@ -85,17 +85,18 @@ impl Plan {
         plan
     }
 
-    /// Numbers in dense matrices, over all routes that may be used; zero if all are sparse.
+    /// Returns how many numbers the dense matrices have, over all routes that may be used; zero if all routes are
+    /// sparse.
     pub fn dense_numbers(&self) -> usize {
         self.routes.iter().map(|choice| choice.dense_numbers).max().unwrap_or(0)
     }
 
-    /// Peak memory \[bytes\] of the route that needs most.
+    /// Returns the peak memory \[bytes\] of the route that needs most.
     pub fn memory_bytes(&self) -> usize {
         self.routes.iter().map(|choice| choice.memory_bytes).max().unwrap_or(0)
     }
 
-    /// Checks that the scene fits into the memory of this machine: a scene that does not fit is not solved.
+    /// Checks that the scene fits into the memory of this machine; a scene that does not fit is not solved.
     ///
     /// # Errors
     /// [`TooLarge`] if the scene does not fit.
@@ -104,7 +105,7 @@ impl Plan {
     }
 }
 
-/// The routes in the order in which they are tried.
+/// Returns the routes in the order in which they are tried.
 fn routes(scene: &Scene, model: &Model, sizes: &Sizes) -> Vec<PlannedRoute> {
     let form = scene.solver.form;
     let facts = Facts {
@@ -115,7 +116,7 @@ fn routes(scene: &Scene, model: &Model, sizes: &Sizes) -> Vec<PlannedRoute> {
     routes.map(|(route, because)| PlannedRoute { because, ..sizes.choice(route, form) }).collect()
 }
 
-/// The solver of a route, and the reason for it.
+/// Returns the name of the solver of a route, and the reason for using it.
 fn solver(route: Route, form: Form, has_friction: bool) -> (&'static str, &'static str) {
     match (route, form) {
         (Route::Forces, _) => {

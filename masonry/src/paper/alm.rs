@@ -8,17 +8,17 @@
 //! t_n <- [t_n - rho_n y_n]+ ,     t_t <- projection of t_t - rho_t y_t on [-mu t_n, mu t_n]
 //! ```
 //!
-//! The sum is over the closed contacts, along the tangent over those that stick. It holds floating blocks, and the
-//! matrix changes only with the states of the contacts. The proximal term `delta` holds blocks without any closed
-//! contact, which would move far away and return with huge forces without it. The term vanishes with the steps. The
-//! penalties `rho` follow from the stiffness at the contact, and are made smaller if the iteration diverges or stops
-//! converging.
+//! The sum is over the closed contacts; along the tangent, over the sticking ones. The sum holds blocks that the
+//! stiffness alone does not hold, and the matrix changes only with the states of the contacts. The proximal term
+//! `delta` holds blocks without any closed contact, which would otherwise move far away and return with huge forces.
+//! The term vanishes as the steps become small. The penalties `rho` follow from the stiffness at the contact, and are
+//! made smaller if the iteration diverges or stops converging.
 //!
-//! The unbalanced force is the error of the last step, and convergence is linear: the solution may be many such steps
-//! away. So the status is `Solved` only if the rate at which the steps decrease also shows that displacements and
-//! forces are near.
+//! The unbalanced force is only the error of the last step, and convergence is linear: the solution may be many such
+//! steps away. So the status is `Solved` only if the rate at which the steps decrease also shows that displacements
+//! and forces are near their limits.
 //!
-//! Whole films of mortar are not contacts: see [`MortaredWall`].
+//! Mortar films as strips are not contacts here: see [`MortaredWall`].
 
 mod contraction;
 mod films;
@@ -40,16 +40,18 @@ use structure::Structure;
 use crate::paper::film::FilmError;
 use crate::system::SystemError;
 
-/// Rounding errors of a step of the displacements, relative to these, and of a gap, relative to its largest term.
+/// Relative rounding error \[-\] of a step of the displacements, relative to the displacements, and of a gap, relative
+/// to its largest term.
 const ROUNDING: f64 = 64.0 * f64::EPSILON;
 
-/// The settings of the route.
+/// The settings of the augmented Lagrangian route.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct AlmSettings {
-    /// Largest unbalanced force, relative to the loads, largest residual, and largest estimated error of
-    /// displacements and forces, relative to the largest of them, of a solution with status `Solved` \[-\].
+    /// Tolerance \[-\] of a solution with status `Solved`: the largest unbalanced force relative to the loads, the
+    /// largest residual, and the largest estimated errors of displacements and forces relative to the largest
+    /// displacement and force.
     pub tolerance: f64,
-    /// Iterations of all attempts.
+    /// Largest number of iterations, over all attempts together.
     pub max_iterations: usize,
 }
 
@@ -59,7 +61,7 @@ impl Default for AlmSettings {
     }
 }
 
-/// The result of the route.
+/// The result of the augmented Lagrangian route.
 #[derive(Debug, Clone)]
 #[non_exhaustive]
 pub struct AlmAnswer {
@@ -67,11 +69,11 @@ pub struct AlmAnswer {
     pub status: Status,
     /// Displacements and contact forces of the best iteration.
     pub state: ContactState,
-    /// The residuals of the state, from the data.
+    /// The residuals of the state, computed from the data of the problem.
     pub residuals: Residuals,
-    /// Every iteration.
+    /// The records of all iterations.
     pub convergence: Vec<AlmIteration>,
-    /// Numeric factorisations; the symbolic one is done once.
+    /// Number of numeric factorisations; the symbolic factorisation is done once.
     pub factorisations: usize,
 }
 
@@ -85,22 +87,22 @@ pub enum AlmError {
          it: give the block an elastic modulus or take another route"
     )]
     NoStiffness {
-        /// The displacement, from 0.
+        /// The index of the displacement, from 0.
         displacement: usize,
     },
-    /// A contact has a spring in series.
+    /// A contact has a compliance, that is, a spring in series.
     #[error(
         "contact {contact} has a compliance, which penalties cannot stand for: give its spring a \
          displacement, as Sparse::with_free_faces does"
     )]
     Compliance {
-        /// The contact, from 0.
+        /// The index of the contact, from 0.
         contact: usize,
     },
     /// The tolerance is outside its range.
     #[error("tolerance is {tolerance}, but must be between 0 and 1")]
     Tolerance {
-        /// The value.
+        /// The tolerance that was given \[-\].
         tolerance: f64,
     },
     /// The data of a problem overflow.
@@ -112,7 +114,7 @@ pub enum AlmError {
     /// A block of the wall cannot be assembled.
     #[error(transparent)]
     System(#[from] SystemError),
-    /// The films of the wall cannot be made.
+    /// The mortar films of the wall cannot be made.
     #[error(transparent)]
     Film(#[from] FilmError),
     /// A rigid block has no nodes to which films can be attached.
@@ -123,7 +125,7 @@ pub enum AlmError {
         /// Name of the block.
         block: String,
     },
-    /// The joint class has more than friction, which the law of whole films does not have.
+    /// The joint class has cohesion or tensile strength, which the law of mortar films as strips does not have.
     #[error(
         "the joint class \"{class}\" has cohesion or tensile strength, which films as strips do not have: leave them out, \
          or take another route"
@@ -132,7 +134,7 @@ pub enum AlmError {
         /// Name of the joint class.
         class: String,
     },
-    /// The joint class has a stiffness, and whole films have that of their mortar only.
+    /// The joint class has a stiffness of its own; films as strips have only the stiffness of their mortar.
     #[error(
         "the joint class \"{class}\" has a stiffness beside that of its mortar, which films as strips do not have: leave it \
          out, or take another route"
@@ -141,7 +143,7 @@ pub enum AlmError {
         /// Name of the joint class.
         class: String,
     },
-    /// A film has no two contact points between nodes, which whole films need.
+    /// A film does not have two contact points between nodes, which films as strips need.
     #[error(
         "a film has no two contact points in strips between nodes: set `films = \"strips\"`, and let nodes of both faces \
          coincide, or lie farther apart"
@@ -149,7 +151,8 @@ pub enum AlmError {
     Points,
 }
 
-/// Solves a contact problem; the observer is called in every iteration, and `Break` cancels.
+/// Solves a contact problem by the augmented Lagrangian method. The observer is called in every iteration; the
+/// solution is cancelled if it returns `Break`.
 ///
 /// ```
 /// use faer::mat;

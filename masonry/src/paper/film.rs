@@ -1,9 +1,9 @@
 //! Mortar films: thin elastic strips between two faces that press, slide and part, (3.28)-(3.39).
 //!
-//! The strip has its own nodes here, for use from Rust. The films of a scene
-//! ([`model::Film`](crate::model::Film)) act at contact points, as compliances and, as described in
-//! [`system`](crate::system), also as bars: their solution with [`Films::Strips`](crate::scene::Films::Strips) is
-//! that of [`pointwise`].
+//! The strip of this module has its own nodes, for use from Rust. The films of a scene
+//! ([`model::Film`](crate::model::Film)) act at contact points: as compliances, and with
+//! [`Films::Strips`](crate::scene::Films::Strips) also as bars (see [`system`](crate::system)). Their solution with
+//! strips is that of [`pointwise`].
 //!
 //! A film is a strip of mortar of length `l` and thickness `t_y` between two straight faces. It has its own local
 //! axes: `x` along the joint, from `-l/2` to `l/2`, and `y` across it. Side `a` is the lower face and side `b`
@@ -55,7 +55,7 @@ pub mod strip;
 /// Displacements `u_1, v_1, ..., u_4, v_4` \[m\] or forces \[N\] of four nodes.
 pub type Vector8 = SVector<f64, 8>;
 
-/// A matrix on the displacements of four nodes.
+/// An 8 x 8 matrix on the displacements of four nodes.
 pub type Matrix8 = SMatrix<f64, 8, 8>;
 
 /// The reasons for which a film could not be built.
@@ -107,7 +107,7 @@ impl FilmMaterial {
     }
 }
 
-/// A length that must be positive.
+/// Checks that a length is positive, and returns the length.
 fn positive(quantity: &'static str, value: f64) -> Result<f64, FilmError> {
     if value > 0.0 && value.is_finite() {
         Ok(value)

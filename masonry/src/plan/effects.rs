@@ -1,4 +1,4 @@
-//! The reasons and the costs of all effects.
+//! The physical effects of a plan: for each, the reason why it is on or off, its unknowns and its cost.
 
 use std::collections::BTreeSet;
 
@@ -10,23 +10,23 @@ use crate::law::JointLaw;
 use crate::model::Model;
 use crate::scene::{Films, LoadKind, Route, Scene};
 
-/// One physical effect, on or off, and the reason.
+/// A physical effect of a plan, such as friction: whether it is on, why, and what it costs.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Effect {
     /// Name of the effect, such as `friction`.
     pub name: &'static str,
-    /// Whether the effect is built.
+    /// Whether the effect is part of the equations that are built.
     pub on: bool,
-    /// The reason in the scene why the effect is on or off.
+    /// The property of the scene for which the effect is on or off.
     pub because: String,
-    /// The unknowns that the effect adds to the [`order`](super::Plan::order) of the plan for the same contact points:
-    /// the pivoting route eliminates displacements, which add nothing.
+    /// Number of unknowns that the effect adds to the [`order`](super::Plan::order) of the plan for the same contact
+    /// points. Displacements count only on routes that do not eliminate them; the pivoting route does.
     pub unknowns: usize,
-    /// The expected cost on the first route, in words: `none` if the effect is off.
+    /// The expected cost of the effect on the first route, in words; `none` if the effect is off.
     pub cost: String,
 }
 
-/// All effects that a scene can need, for the route that is tried first.
+/// Lists all effects that a scene can need, with their costs on the route that is tried first.
 pub(super) fn of(scene: &Scene, model: &Model, sizes: &Sizes, first: &PlannedRoute) -> Vec<Effect> {
     let it = Called { scene, model, sizes, first };
     let history = it.load_history();
@@ -52,12 +52,12 @@ pub(super) fn of(scene: &Scene, model: &Model, sizes: &Sizes, first: &PlannedRou
     ]
 }
 
-/// The steps that are solved: one, unless the answer depends on the load path.
+/// Returns the number of steps that are solved: one, unless the answer depends on the load path.
 pub(super) fn steps(scene: &Scene, model: &Model) -> usize {
     if model.depends_on_way(scene) { scene.steps() } else { 1 }
 }
 
-/// The cost of effects that change only the right-hand side, which the equations have anyway.
+/// Words for the cost of effects that change only the right-hand side, which the equations have anyway.
 const RIGHT_HAND_SIDE: &str = "numbers on the right-hand side only";
 
 impl Effect {
@@ -65,18 +65,18 @@ impl Effect {
         Self { name, on: false, because: because.into(), unknowns: 0, cost: "none".to_owned() }
     }
 
-    /// An effect that adds no unknowns.
+    /// Makes an effect that is on and adds no unknowns.
     fn on(name: &'static str, because: impl Into<String>, cost: impl Into<String>) -> Self {
         Self { name, on: true, because: because.into(), unknowns: 0, cost: cost.into() }
     }
 
-    /// The effect with this cost if it adds no unknowns.
+    /// Replaces the cost of the effect by `cost` if the effect adds no unknowns.
     fn costing_without_unknowns(self, cost: String) -> Self {
         if self.unknowns == 0 { Self { cost, ..self } } else { self }
     }
 }
 
-/// The data that decide on effects.
+/// The data that decide which effects are on.
 struct Called<'a> {
     scene: &'a Scene,
     model: &'a Model,
@@ -116,8 +116,8 @@ impl Called<'_> {
         self.beside(name, because, &without)
     }
 
-    /// The effect of cohesion: a constant on the right-hand side of pivots, and one more point and displacement on the
-    /// sparse routes.
+    /// Describes the effect of cohesion: a constant on the right-hand side if pivots are used, and one more point and
+    /// displacement on the sparse routes.
     fn cohesion(&self) -> Effect {
         let used = self.classes(|law| law.cohesion > 0.0);
         if used.is_empty() {
@@ -137,9 +137,9 @@ impl Called<'_> {
         Effect::on("tension", format!("tension given for {used}"), RIGHT_HAND_SIDE)
     }
 
-    /// The effect of joint stiffness: each point gives way across its joint and, with friction, along it: numbers on
-    /// the diagonal of its contact rows. The deformation that friction and cohesion share is a displacement on the
-    /// sparse routes.
+    /// Describes the effect of joint stiffness: each point has a compliance perpendicular to the joint and, with
+    /// friction, one along it. The compliances are numbers on the diagonal of the contact rows. On the sparse routes
+    /// the deformation that friction and cohesion share is one more displacement.
     fn joint_stiffness(&self) -> Effect {
         let name = "joint stiffness";
         let used = self.classes(|law| law.stiffness.is_some());
@@ -160,9 +160,10 @@ impl Called<'_> {
         self.giving_way(name, because, &self.sizes.with(|it| it.stiff = false), &compliances)
     }
 
-    /// The effect of mortar films: each point has a compliance across and, with friction, one along the joint: numbers
-    /// on the diagonal of its contact rows. The deformation that friction and cohesion share is a displacement on the
-    /// sparse routes, except with whole strips of the augmented Lagrangian method.
+    /// Describes the effect of mortar films: each point has a compliance perpendicular to the joint and, with
+    /// friction, one along it. The compliances are numbers on the diagonal of the contact rows. On the sparse routes
+    /// the deformation that friction and cohesion share is one more displacement, except with films as strips in the
+    /// augmented Lagrangian method.
     fn mortar_films(&self) -> Effect {
         let name = "mortar films";
         let films = self.films();
@@ -186,8 +187,9 @@ impl Called<'_> {
         self.giving_way(name, because, &self.sizes.without_films(), &compliances)
     }
 
-    /// The effect of strips: each point at an elastic block has the stiffness of a bar along the joint, and its gap a
-    /// term by the strain there. Stiffness and term add no unknowns, except the forces of the bars in the mixed form.
+    /// Describes the effect of strips: each point at an elastic block has the stiffness of a bar along the joint, and
+    /// its gap has a term from the strain at the point. Stiffness and term add no unknowns, except the forces of the
+    /// bars in the mixed form.
     fn longitudinal_terms(&self) -> Effect {
         let name = "longitudinal film terms";
         if self.sizes.bars == 0 {
@@ -327,15 +329,15 @@ impl Called<'_> {
         Effect::on(name, because, RIGHT_HAND_SIDE)
     }
 
-    /// An effect without which the sizes would be `without`.
+    /// Describes an effect that is on; `without` are the sizes if the effect were off.
     fn beside(&self, name: &'static str, because: String, without: &Sizes) -> Effect {
         let without = without.choice(self.first.route, self.scene.solver.form);
         let unknowns = self.first.order.saturating_sub(without.order);
         Effect { unknowns, ..Effect::on(name, because, self.growth(&without)) }
     }
 
-    /// An effect without which the sizes would be `without`, and which only adds compliances to the contact rows unless
-    /// it has unknowns.
+    /// Describes an effect that is on and adds compliances to the contact rows; `without` are the sizes if the effect
+    /// were off. The words `compliances` describe the cost if the effect adds no unknowns.
     fn giving_way(
         &self,
         name: &'static str,
@@ -347,8 +349,8 @@ impl Called<'_> {
         self.beside(name, because, without).costing_without_unknowns(cost)
     }
 
-    /// The growth of cost in words. Numbers in dense matrices grow with the square of the order and the work of pivots
-    /// with its cube; numbers and work of sparse factorisations grow like the memory.
+    /// Describes the growth of the cost in words. Storage in dense matrices grows with the square of the order, and
+    /// the work of pivots with its cube; storage and work of sparse factorisations grow with the memory.
     fn growth(&self, without: &PlannedRoute) -> String {
         let (order, before) = (self.first.order, without.order);
         if order <= before {
@@ -369,13 +371,13 @@ impl Called<'_> {
         self.first.route == Route::Lemke
     }
 
-    /// The names of the classes of the joints whose law has a property.
+    /// Lists the names of the joint classes whose law has a property.
     fn classes(&self, has: impl Fn(&JointLaw) -> bool) -> String {
         let used = self.model.joints.iter().map(|joint| &self.model.joint_classes[joint.class]);
         names(used.filter(|class| has(&class.law)).map(|class| class.name.as_str()))
     }
 
-    /// The number of joints with mortar.
+    /// Counts the joints with mortar.
     fn films(&self) -> usize {
         self.model.joints.iter().filter(|joint| joint.film.is_some()).count()
     }
@@ -384,8 +386,8 @@ impl Called<'_> {
         self.model.blocks.iter().filter(|block| block.density.is_some()).count()
     }
 
-    /// The effect of the loads of one kind, which act at `place`; off if there is no such load, with the words
-    /// `missing`.
+    /// Describes the effect of the loads of one kind, which act at `place`. The effect is off, with the reason
+    /// `missing`, if there is no such load.
     fn loads(
         &self,
         name: &'static str,
@@ -419,7 +421,7 @@ fn count(number: usize, what: &str) -> String {
     format!("{number} {what}{}", if number == 1 { "" } else { "s" })
 }
 
-/// Each of the names once, in alphabetical order.
+/// Lists each of the names once, in alphabetical order.
 fn names<'a>(names: impl Iterator<Item = &'a str>) -> String {
     names.collect::<BTreeSet<_>>().into_iter().collect::<Vec<_>>().join(", ")
 }

@@ -1,4 +1,4 @@
-//! Sizes of the problem of a model on each route, with all effects or without one.
+//! Sizes of the problem of a model on each route, with all effects or with one of them left out.
 
 use serde::Serialize;
 
@@ -7,56 +7,56 @@ use crate::method::auto;
 use crate::model::{Anchor, JointPoint, Model, PlacedBlock};
 use crate::scene::{Form, Route};
 
-/// A route of a plan.
+/// A route of a plan, with its order and memory.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct PlannedRoute {
-    /// The route.
+    /// The route of the solution.
     pub route: Route,
-    /// The reason for the place of the route in the order.
+    /// The reason why the route has its place in the order of routes.
     pub because: String,
     /// Order of the first complementarity problem of the route, or of the linear systems of the augmented Lagrangian
     /// method.
     pub order: usize,
     /// Order of the largest problem that the route may use.
     pub largest_order: usize,
-    /// Numbers in the dense matrices of the route: of reduction, forms and pivots, and of the stiffnesses of blocks.
-    /// Zero on the sparse routes, which build none.
+    /// How many numbers the dense matrices of the route have: matrices of reduction, forms and pivots, and stiffnesses
+    /// of blocks. Zero on the sparse routes, which build no dense matrices.
     pub dense_numbers: usize,
-    /// Memory at the peak \[bytes\], as measured on walls.
+    /// Peak memory \[bytes\], estimated from measurements on walls.
     pub memory_bytes: usize,
 }
 
-/// Numbers of a model that determine the cost of routes.
+/// The numbers of blocks, points and unknowns of a model, which determine the cost of routes.
 #[derive(Debug, Clone)]
 pub(super) struct Sizes {
     blocks: usize,
     rigid_blocks: usize,
-    /// Displacements of the nodes of all elastic blocks.
+    /// Number of displacements of the nodes of all elastic blocks.
     pub(super) nodal: usize,
-    /// Displacements of the elastic block with the finest mesh.
+    /// Number of displacements of the elastic block with the finest mesh.
     pub(super) largest_block: usize,
     points: Vec<Point>,
-    /// Bars of mortar strips, which couple the blocks.
+    /// Number of bars of mortar strips, which couple the blocks.
     pub(super) bars: usize,
-    /// Whether films are whole strips.
+    /// Whether mortar films are strips.
     strips: bool,
 }
 
-/// The parts of a contact point that cost routes something.
+/// The properties of a contact point that determine its cost.
 #[derive(Debug, Clone, Copy)]
 #[expect(clippy::struct_excessive_bools, reason = "each is an effect that may be left out")]
 pub(super) struct Point {
     /// Whether the point has a normal force.
     pub(super) presses: bool,
-    /// Whether a resistance to sliding grows with the normal force.
+    /// Whether the point has a resistance to sliding that grows with the normal force.
     pub(super) coulomb: bool,
-    /// Whether there is a resistance to sliding without a normal force.
+    /// Whether the point has a resistance to sliding without a normal force.
     pub(super) cohesive: bool,
-    /// Whether the point, if it gives way across the joint, also gives way along the joint.
+    /// Whether the point, if it has a compliance perpendicular to the joint, also has one along the joint.
     pub(super) sheared: bool,
-    /// Whether there is a film of mortar, which gives way.
+    /// Whether the point has a film of mortar, which has a compliance.
     pub(super) film: bool,
-    /// Whether the joint itself has a stiffness, and gives way.
+    /// Whether the joint itself has a finite stiffness, and so a compliance.
     pub(super) stiff: bool,
 }
 
@@ -95,7 +95,7 @@ impl Sizes {
         }
     }
 
-    /// Whether no block is elastic and no joint gives way.
+    /// Returns whether no block is elastic and no joint has a compliance.
     pub(super) fn is_rigid(&self) -> bool {
         self.rigid_blocks == self.blocks && !self.points.iter().any(|it| it.gives_way())
     }
@@ -104,7 +104,7 @@ impl Sizes {
         3 * self.blocks
     }
 
-    /// The number of points that resist sliding.
+    /// Counts the points that resist sliding.
     pub(super) fn frictional(&self) -> usize {
         self.count(|it| it.coulomb || it.cohesive)
     }
@@ -113,13 +113,13 @@ impl Sizes {
         self.points.iter().filter(|it| is_such(it)).count()
     }
 
-    /// The number of rows of the system in which such points give way: across their joints, and along them too if they
-    /// are sheared.
+    /// Counts the rows of the system with a compliance at the points for which `is_such` is true: one row
+    /// perpendicular to the joint, and one along the joint if the point is `sheared`.
     pub(super) fn rows(&self, is_such: impl Fn(&Point) -> bool) -> usize {
         self.count(&is_such) + self.count(|it| is_such(it) && it.sheared)
     }
 
-    /// The sizes if every point were changed in this way.
+    /// Returns the sizes after `change` is made to every point.
     pub(super) fn with(&self, change: impl Fn(&mut Point)) -> Self {
         let mut changed = self.clone();
         changed.points.iter_mut().for_each(change);
@@ -134,7 +134,8 @@ impl Sizes {
         Self { bars: 0, strips: false, ..self.clone() }
     }
 
-    /// Sizes for rigid blocks with these points, although a mesh may have caused some of them.
+    /// Returns the sizes for rigid blocks with the same contact points, although some points may exist only because of
+    /// a mesh.
     pub(super) fn without_deformation(&self) -> Self {
         Self { rigid_blocks: self.blocks, nodal: 0, largest_block: 0, bars: 0, ..self.clone() }
     }
@@ -172,7 +173,8 @@ impl Sizes {
         }
     }
 
-    /// Displacements of blocks, and of points at which friction and cohesion share the deformation along the joint.
+    /// Returns the number of displacements: of blocks, and of points at which friction and cohesion share the
+    /// deformation along the joint.
     fn displacements(&self) -> usize {
         self.of_blocks() + self.count(|it| it.gives_way() && it.coulomb && it.cohesive)
     }
@@ -206,7 +208,8 @@ impl Sizes {
         }
     }
 
-    /// Memory of the sweeps: displacements of two blocks for every force, of all blocks if these are coupled.
+    /// Estimates the memory of the columns of the sweeps \[bytes\]: each force moves two blocks, or all blocks if bars
+    /// couple them.
     fn columns(&self, points: usize) -> usize {
         const PER_NUMBER: usize = 12;
         let forces = points + self.frictional();
@@ -216,7 +219,8 @@ impl Sizes {
     }
 }
 
-/// Factors of a matrix of the pattern of `K + C^T C` grow like `n log n`, points linearly.
+/// Estimates the memory of the sparse routes \[bytes\]: factors of a matrix with the pattern of `K + C^T C` grow with
+/// `n log n`, data of the points linearly.
 fn sparse_bytes(displacements: usize, points: usize) -> usize {
     const PER_DISPLACEMENT: usize = 150;
     const PER_POINT: usize = 3000;
@@ -225,7 +229,7 @@ fn sparse_bytes(displacements: usize, points: usize) -> usize {
     factors.saturating_add(points.saturating_mul(PER_POINT))
 }
 
-/// Points of strips at elastic blocks, which couple the displacements of their two sides.
+/// Counts the points of strips at elastic blocks, which couple the displacements of the blocks on their two sides.
 fn stretching_points(model: &Model) -> usize {
     let is_elastic = |face: &[Anchor; 2]| model.blocks[face[0].block.index()].elasticity.is_some();
     let strips =

@@ -1,17 +1,17 @@
-//! The distance of a sequence that converges linearly from its limit.
+//! Estimate of the distance between the last member of a linearly convergent sequence and its limit.
 
-/// The number of steps whose largest is compared with the largest of as many before: a single small step does
-/// not show convergence.
+/// The number of last steps whose largest is compared with the largest of as many steps before: a single small step
+/// does not show convergence.
 const HALF: usize = 8;
 
 use super::ROUNDING;
 
-/// The last steps of a sequence of vectors.
+/// The sizes of the last steps of a sequence of vectors, from which its distance to the limit is estimated.
 #[derive(Debug, Clone)]
 pub(super) struct Contraction {
-    /// The unit of vectors that are smaller than it.
+    /// The least size by which a step is divided, for vectors whose own size is smaller.
     unit: f64,
-    /// The sizes of the steps, relative to the vectors, the last one first.
+    /// The sizes of the steps divided by the sizes of the vectors \[-\], the last step first.
     steps: Vec<f64>,
 }
 
@@ -20,7 +20,7 @@ impl Contraction {
         Self { unit, steps: Vec::new() }
     }
 
-    /// Records the step of the sequence from one vector to the next.
+    /// Records the step of the sequence from the vector `from` to the next vector `to`.
     pub(super) fn record(&mut self, from: &[f64], to: &[f64]) {
         let moved = from.iter().zip(to).fold(0.0_f64, |max, (a, b)| max.max((a - b).abs()));
         let size = to.iter().fold(self.unit, |max, v| max.max(v.abs()));
@@ -29,8 +29,9 @@ impl Contraction {
         self.steps.insert(0, if moved > ROUNDING * size { moved / size } else { 0.0 });
     }
 
-    /// The distance from the limit, relative to its size: `s (q + q^2 + ...)` for steps `s` that shrink by `q`
-    /// each; infinite if the steps do not shrink, or are too few.
+    /// Estimates the distance of the last vector from the limit, relative to the size of the vector: `s (q + q^2 +
+    /// ...)` for a last step of size `s` and steps that shrink by the factor `q`. Infinite if the steps do not shrink,
+    /// or if there are too few steps.
     pub(super) fn remaining(&self) -> f64 {
         let largest = |steps: &[f64]| steps.iter().fold(0.0_f64, |max, s| max.max(*s));
         let (late, early) = self.steps.split_at(HALF.min(self.steps.len()));

@@ -1,4 +1,4 @@
-//! Whole films between blocks, with displacements of the nodes of the blocks as their only unknowns.
+//! Mortar films as strips between blocks, whose only unknowns are the displacements of the nodes of the blocks.
 
 use faer::sparse::Triplet;
 use nalgebra::{Matrix2, Point2, RowVector3, Vector2, Vector3};
@@ -13,29 +13,31 @@ use crate::paper::film::strip::Strip;
 use crate::paper::film::{Matrix8, Vector8};
 use crate::system::kinematics::shares;
 
-/// A part of a film on which both faces stay straight for all displacements of the nodes: the part of the contact
-/// points at its two Gauss points.
+/// A part of a film whose faces stay straight under all displacements of the nodes: the part that the contact points
+/// at its two Gauss points stand for.
 ///
-/// The ends follow the edges of the blocks. This is the change of nodes (3.40)-(3.53), `u = T^T u'`, on straight edges.
+/// The ends follow the edges of the blocks. The corresponding change of nodes is (3.40)-(3.53), `u = T^T u'`, for
+/// straight edges.
 #[derive(Debug, Clone)]
 pub struct Segment {
-    /// The joint of the model.
+    /// The joint of the segment, an index into the joints of the model.
     pub joint: usize,
-    /// The middle, halfway between the faces.
+    /// The middle of the segment, halfway between the faces \[m\].
     middle: Point2<f64>,
-    /// The strip with its law.
+    /// The strip of the segment, with the law at its Gauss points.
     pub film: PointwiseFilm,
-    /// States of the Gauss points before the step.
+    /// The states of the Gauss points before the step.
     before: Vec<FilmState>,
-    /// The distance of the ends, in axes of the segment, before any block moves.
+    /// The initial relative displacements of the ends \[m\], in axes of the segment, before any block moves.
     apart: Vector8,
-    /// From global axes to the axes of the segment.
+    /// The rotation matrix from global axes to the axes of the segment.
     axes: Matrix2<f64>,
-    /// The nodes around each end of the segment, by the unknowns of their `u`, with their shares; none on a support.
+    /// The nodes around each of the four ends of the segment, each by the index of its first unknown and its share of
+    /// the displacement of the end; empty for an end on a support.
     ends: [Vec<(usize, f64)>; 4],
 }
 
-/// The segments of all films of a model; `start` is the first unknown of every block.
+/// Builds the segments of all films of a model; `start` has the index of the first unknown of every block.
 pub(super) fn attached(model: &Model, start: &[usize]) -> Result<Vec<Segment>, AlmError> {
     let in_films: Vec<&JointPoint> = model.contacts.iter().filter(|it| it.film.is_some()).collect();
     in_films
@@ -48,7 +50,8 @@ pub(super) fn attached(model: &Model, start: &[usize]) -> Result<Vec<Segment>, A
 }
 
 impl Segment {
-    /// The film from the start of the length of one point to the end of the length of the next one.
+    /// Builds the segment from the start of the length of its first contact point to the end of the length of the
+    /// second one.
     fn of(
         model: &Model,
         first: &JointPoint,
@@ -104,7 +107,8 @@ impl Segment {
         Ok(segment)
     }
 
-    /// Initial gaps and slips at the two Gauss points; gaps are linear between them.
+    /// Sets the initial gaps and slips at the two Gauss points from two contact points; gaps are linear between the
+    /// points.
     fn start_from(&mut self, first: &JointPoint, last: &JointPoint) {
         let strip = self.film.strip();
         let places: Vec<f64> = self.film.places().collect();
@@ -119,12 +123,13 @@ impl Segment {
         }
     }
 
-    /// Displacements of the ends of the segment in its own axes, plus their initial distance.
+    /// Returns the displacements of the ends of the segment in its own axes \[m\], plus their initial relative
+    /// displacements.
     pub fn displacements(&self, u: &[f64]) -> Vector8 {
         self.motion(u) + self.apart
     }
 
-    /// Displacements of the ends due to those of the blocks alone.
+    /// Returns the displacements of the ends of the segment that are due to displacements of the blocks alone \[m\].
     pub(super) fn motion(&self, u: &[f64]) -> Vector8 {
         let mut motion = Vector8::zeros();
         for (end, nodes) in self.ends.iter().enumerate() {
@@ -136,12 +141,13 @@ impl Segment {
         motion
     }
 
-    /// The response of the law to displacements of all blocks.
+    /// Computes the response of the film to displacements of all blocks.
     pub fn respond(&self, u: &[f64]) -> FilmResponse {
         self.film.respond(&self.displacements(u), &self.before)
     }
 
-    /// The tangent with zero slip stiffness at slipping points: symmetric, and constant while no point changes its state.
+    /// Returns the tangent stiffness with zero slip stiffness at slipping points: symmetric, and constant as long as
+    /// no point changes its state.
     pub(super) fn matrix(&self, response: &FilmResponse) -> Matrix8 {
         self.film.tangent(response.points.iter().map(|point| {
             let mut tangent = point.tangent;
@@ -152,7 +158,7 @@ impl Segment {
         }))
     }
 
-    /// Adds forces at the ends of the segment to those of all unknowns.
+    /// Adds forces at the ends of the segment to the force vector of all unknowns.
     pub(super) fn add_force(&self, force: &Vector8, all: &mut [f64]) {
         for (end, nodes) in self.ends.iter().enumerate() {
             let force = self.axes.transpose() * force.fixed_rows::<2>(2 * end);
@@ -163,7 +169,7 @@ impl Segment {
         }
     }
 
-    /// The entries of a matrix at the ends of the film, in the numbering of all unknowns.
+    /// Returns the entries of an 8 x 8 matrix of the segment in the numbering of all unknowns.
     pub(super) fn entries(&self, k: &Matrix8) -> Vec<Triplet<usize, usize, f64>> {
         let mut entries = Vec::new();
         for (row, rows) in self.ends.iter().enumerate() {
@@ -183,7 +189,7 @@ impl Segment {
         entries
     }
 
-    /// Places and forces, in global axes, of the support of the ends of the lower face.
+    /// Returns the forces at the ends of the lower face on its support, each with its place, in global axes.
     pub(super) fn lower_forces(
         &self,
         joint: &PlacedJoint,
@@ -197,7 +203,7 @@ impl Segment {
         })
     }
 
-    /// Elastic energy of the mortar for displacements of all blocks \[J\].
+    /// Returns the elastic energy of the mortar for displacements of all blocks \[J\].
     pub fn energy(&self, u: &[f64]) -> f64 {
         let compliance = self.film.strip().elasticity().try_inverse().unwrap_or_default();
         let density = |stress: &Vector3<f64>| 0.5 * stress.dot(&(compliance * stress));

@@ -12,14 +12,14 @@ use crate::data::state::PointStatus;
 use crate::law::Cone;
 use crate::paper::film::pointwise::FilmResponse;
 
-/// The states of all contacts and films.
+/// The states of all contacts and films, on which the matrix depends.
 #[derive(Clone, Copy)]
 pub(super) struct States<'a> {
     pub(super) contacts: &'a [PointStatus],
     pub(super) films: &'a [FilmResponse],
 }
 
-/// The matrices for all states of the contacts, on one pattern.
+/// The matrix of the iteration, with one sparsity pattern for all states of the contacts.
 pub(super) struct Matrices<'a> {
     structure: &'a Structure<'a>,
     rho_n: Vec<f64>,
@@ -46,14 +46,14 @@ impl<'a> Matrices<'a> {
         Ok(Self { structure, rho_n, rho_t, proximal, symbolic })
     }
 
-    /// The factors of the matrix for given states of the contacts and of the films.
+    /// Assembles and factorises the matrix for given states of the contacts and of the films.
     pub(super) fn factorised(&self, states: States<'_>) -> Result<Llt<usize, f64>, AlmError> {
         let matrix = assembled(self.structure, states, &self.rho_n, &self.rho_t, self.proximal)?;
         Llt::try_new_with_symbolic(self.symbolic.clone(), matrix.as_ref(), Side::Lower)
             .map_err(failed)
     }
 
-    /// The displacements under the current forces.
+    /// Solves for the displacements under the current forces.
     pub(super) fn displacements(
         &self,
         factors: &Llt<usize, f64>,
@@ -85,8 +85,9 @@ impl<'a> Matrices<'a> {
         u.col_as_slice(0).to_vec()
     }
 
-    /// The distance of displacements from the solution of this iteration: the unbalanced forces, with those
-    /// of contacts projected and those of films, in a norm in which they can be added.
+    /// Returns the norm of the residual of this iteration's equations at the displacements `u`: the unbalanced forces,
+    /// with the contact forces projected on their cones and the forces of films included. The forces are divided by
+    /// the square root of the diagonal stiffness, so that forces and moments can be added.
     pub(super) fn lack(&self, at: &ContactState, u: &[f64]) -> f64 {
         let Structure { problem, diagonal, .. } = self.structure;
         let trial = problem.state(u.to_vec(), at.t_n.clone(), at.t_t.clone());
@@ -100,7 +101,8 @@ impl<'a> Matrices<'a> {
         squares.sum::<f64>().sqrt()
     }
 
-    /// The projection of the forces on the friction cones, and the states after the projection.
+    /// Projects the contact forces on the friction cones; returns the normal and tangential forces and the states of
+    /// the contacts.
     pub(super) fn projected(&self, at: &ContactState) -> (Vec<f64>, Vec<f64>, Vec<PointStatus>) {
         let all = self.structure.problem.mu().iter().enumerate().map(|(i, mu)| {
             let t_n = (at.t_n[i] - self.rho_n[i] * at.gap[i]).max(0.0);

@@ -1,8 +1,8 @@
-//! Walls with whole films: the displacements of the blocks are the only unknowns, as in the paper.
+//! Walls with mortar films as strips: the displacements of the blocks are the only unknowns, as in the paper.
 //!
-//! Films have no contact points here: they are strips with the [law](crate::paper::film::law) at their Gauss
-//! points, attached to the nodes of both blocks, and their stiffness is updated to the parts in contact in every
-//! iteration ((3.10) with `K_p`). Dry joints have multipliers as before.
+//! The films have no contact points here: they are strips with the [law](crate::paper::film::law) at their Gauss
+//! points and are attached to the nodes of both blocks. In every iteration their stiffness is updated to the parts in
+//! contact ((3.10) with `K_p`). Dry joints have multipliers as in the parent module.
 
 use std::ops::ControlFlow;
 
@@ -19,9 +19,9 @@ use crate::paper::film::pointwise::FilmResponse;
 use crate::recover;
 use crate::system::System;
 
-/// Blocks, the dry joints between them, and whole films in all other joints.
+/// A wall of blocks, with contacts in the dry joints and mortar films as strips in all other joints.
 ///
-/// The films of the model are strips, and start from the gaps and slips of their contact points.
+/// The strips start from the gaps and slips of the contact points of the films of the model.
 ///
 /// ```
 /// use std::ops::ControlFlow;
@@ -54,42 +54,43 @@ use crate::system::System;
 /// ```
 #[derive(Debug, Clone)]
 pub struct MortaredWall {
-    /// The model with the contact points of the dry joints only.
+    /// The model with contact points in dry joints only.
     dry: Model,
     system: System,
     sparse: Sparse,
     films: Vec<Segment>,
 }
 
-/// The part `[x_i, x_f]` of every segment that is in contact \[m\], in its own axis; `None` if the segment is open.
+/// The part `[x_i, x_f]` of every segment that is in contact \[m\], on the axis of the segment; `None` for an open
+/// segment.
 pub type Parts = Vec<Option<[f64; 2]>>;
 
-/// The state of a wall under its loads.
+/// The state of a wall with strips under its loads.
 #[derive(Debug, Clone)]
 #[non_exhaustive]
 pub struct MortaredState {
-    /// Displacements, dry contact points, stresses in the blocks, and the energy of blocks and films.
+    /// Displacements, states of the dry contact points, stresses in the blocks, and the energy of blocks and films.
     pub state: State,
-    /// The response of every segment of a film, in its own axes.
+    /// The response of every film segment, in the axes of the segment.
     pub films: Vec<FilmResponse>,
-    /// Strain energy of the films \[J\], a part of the total.
+    /// Strain energy of the films \[J\], included in the energy of `state`.
     pub film_energy: f64,
     /// Energy dissipated by slip in films \[J\].
     pub film_dissipation: f64,
     /// Energy dissipated by slip in dry joints \[J\].
     pub contact_dissipation: f64,
-    /// `f . u` \[J\]: twice the strain energy and the dissipation, in one step from rest without gaps and without
-    /// supports that move.
+    /// The work `f . u` \[J\]. It is the dissipation plus twice the strain energy for a single step from rest, if
+    /// there are no initial gaps and no support moves.
     pub work: f64,
     /// The reactions of all supports.
     pub reactions: Vec<Reaction>,
 }
 
 impl MortaredWall {
-    /// A wall of a model whose films are strips.
+    /// Builds the wall from a model whose films are strips.
     ///
     /// # Errors
-    /// [`AlmError`], for rigid blocks among others.
+    /// [`AlmError`], for instance if a block is rigid.
     pub fn new(model: &Model) -> Result<Self, AlmError> {
         let mut dry = model.clone();
         dry.contacts.retain(|contact| contact.film.is_none());
@@ -99,17 +100,18 @@ impl MortaredWall {
         Ok(Self { dry, system, sparse, films })
     }
 
-    /// Blocks and dry joints alone.
+    /// Returns the contact problem of blocks and dry joints, without the films.
     pub fn without_films(&self) -> &Contact2d {
         &self.sparse.problem
     }
 
-    /// The films, divided at the nodes of the blocks.
+    /// Returns the segments of the films, which are divided at the nodes of the blocks.
     pub fn films(&self) -> &[Segment] {
         &self.films
     }
 
-    /// Looks for a state of equilibrium; the observer is called in every iteration, and `Break` cancels.
+    /// Looks for a state of equilibrium. The observer is called in every iteration; the solution is cancelled if it
+    /// returns `Break`.
     ///
     /// # Errors
     /// As [`solve`](super::solve).
@@ -121,18 +123,19 @@ impl MortaredWall {
         run::solve(&Structure::new(&self.sparse.problem, &self.films)?, settings, observer)
     }
 
-    /// The parts if all films are in contact over their whole length.
+    /// Returns the parts in contact if all films are in contact over their whole length.
     pub fn bonded(&self) -> Parts {
         self.films().iter().map(|film| Some(film.film.strip().ends())).collect()
     }
 
-    /// The contact problem of blocks and dry joints with all films bonded on these parts.
+    /// Returns the contact problem of blocks and dry joints in which every film is bonded on its part `parts` and open
+    /// elsewhere.
     ///
     /// # Errors
-    /// [`lcp::Error::NotFinite`] when the data overflow.
+    /// [`lcp::Error::NotFinite`] if the data overflow.
     ///
     /// # Panics
-    /// If there is not one part for every segment.
+    /// If the number of parts differs from the number of segments.
     pub fn with_parts(&self, parts: &Parts) -> Result<Contact2d, lcp::Error> {
         assert_eq!(parts.len(), self.films().len(), "one part for every segment");
         let dry = self.without_films();
@@ -152,7 +155,7 @@ impl MortaredWall {
         Contact2d::new(k, dry.loads().to_vec(), normal, tangent, x_0, s_0, dry.mu().to_vec())
     }
 
-    /// The state of an answer.
+    /// Returns the state of the wall that belongs to an answer of [`solve`](Self::solve).
     pub fn state(&self, answer: &AlmAnswer) -> MortaredState {
         let (u, found) = (&answer.state.u, &answer.state);
         let rows = self.sparse.rows(found);
@@ -173,7 +176,7 @@ impl MortaredWall {
         }
     }
 
-    /// Reactions of the dry joints, and of the films on supports.
+    /// Returns the resultants of the forces of dry joints and of films on every support.
     fn reactions(&self, state: &State, films: &[FilmResponse]) -> Vec<Reaction> {
         let mut list = recover::reactions(&self.dry, &state.contacts);
         for (film, response) in self.films.iter().zip(films) {

@@ -10,11 +10,12 @@ use crate::model::Model;
 use crate::scene::Route;
 use crate::system::System;
 
-/// The iteration on whole films stops at the tolerance times this factor, because residuals of the problem with contact points
-/// in the films are measured row by row.
+/// Factor on the tolerance at which the iteration with films as strips stops: residuals of the problem with contact
+/// points in the films are measured row by row, and may be larger.
 const BETTER: f64 = 0.1;
 
-/// Runs the augmented Lagrangian method on a sparse problem without compliances of contacts ([`Sparse::with_free_faces`]).
+/// Runs the augmented Lagrangian method on a sparse problem whose contacts have no compliances
+/// ([`Sparse::with_free_faces`]).
 ///
 /// # Errors
 /// As [`solve`].
@@ -29,8 +30,9 @@ pub fn by_multipliers(
     Ok(answer(sparse, found, problem.displacements()))
 }
 
-/// The route on a model with strips: the contact points in films take no part in the iterations, and get the responses
-/// of the films afterwards. `sparse` is the problem with these points, which measures the answer.
+/// Runs the augmented Lagrangian method on a model with films as strips. The contact points in the films take no part
+/// in the iterations, and get the responses of the films at the end. `sparse` is the problem with these points; its
+/// residuals measure the answer.
 ///
 /// # Errors
 /// As [`MortaredWall::new`] and [`solve`].
@@ -56,7 +58,8 @@ pub fn by_films(
     Ok(answer(sparse, found, wall.without_films().displacements()))
 }
 
-/// The normal and the tangential forces of all contact points, in films from the responses of the films.
+/// Returns the normal and the tangential forces of all contact points; the forces of points in films are the responses
+/// of the films.
 fn at_points(model: &Model, wall: &MortaredWall, found: &ContactState) -> (Vec<f64>, Vec<f64>) {
     let mut films = wall.films().iter().flat_map(|film| film.respond(&found.u).points);
     let mut dry = found.t_n.iter().zip(&found.t_t);
@@ -70,7 +73,7 @@ fn at_points(model: &Model, wall: &MortaredWall, found: &ContactState) -> (Vec<f
     forces.unzip()
 }
 
-/// The progress of a route from that of the iterations.
+/// Makes an observer of iterations that reports them as events of the route.
 fn told(observer: EventObserver<'_>) -> impl FnMut(&AlmIteration) -> std::ops::ControlFlow<()> {
     let mut number = 0;
     move |at| {
@@ -79,7 +82,7 @@ fn told(observer: EventObserver<'_>) -> impl FnMut(&AlmIteration) -> std::ops::C
     }
 }
 
-/// The answer of the route, with the order of its linear systems.
+/// Makes the answer of the route; `order` is the order of its linear systems.
 fn answer(sparse: &Sparse, found: AlmAnswer, order: usize) -> method::RouteAnswer {
     let info = SolveInfo {
         iterations: found.convergence.len(),

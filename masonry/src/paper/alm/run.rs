@@ -1,4 +1,4 @@
-//! The iterations, and their end.
+//! The iterations of the augmented Lagrangian method, and the tests that end them.
 
 use std::ops::ControlFlow;
 
@@ -10,18 +10,20 @@ use super::structure::{Structure, Taken};
 use super::{AlmAnswer, AlmError, AlmIteration, AlmSettings};
 use crate::data::state::PointStatus;
 
-/// Penalty of a contact, relative to the stiffness at its row.
+/// Penalty of a contact, relative to the stiffness at its row \[-\].
 const PENALTY: f64 = 0.3;
-/// The proximal term, relative to the stiffness.
+/// Coefficient `delta` of the proximal term, relative to the diagonal stiffness \[-\].
 const PROXIMAL: f64 = 1e-2;
-/// Iterations without a reduction of the measure or of the distance by a tenth that end an attempt.
+/// Number of iterations that end an attempt if neither the measure nor the distance from the limit has decreased by a
+/// tenth.
 const PATIENCE: usize = 300;
 /// The factor by which penalty and proximal term change in the next attempt, and the number of attempts.
 const SOFTER: f64 = 3.0;
 const ATTEMPTS: usize = 4;
-/// Steps in which blocks are moved to the start of the contacts, each to a hundredth of the remaining distance.
+/// Number of steps in which blocks are moved to the initial gaps and slips of the contacts, each to a hundredth of the
+/// remaining distance.
 const BROUGHT: usize = 6;
-/// The largest number of halvings of a step that leaves larger unbalanced forces.
+/// The largest number of times that a step is halved because it leaves larger unbalanced forces.
 const HALVINGS: usize = 8;
 
 /// Iterates until the answer is accurate enough, or the last attempt has ended.
@@ -55,7 +57,7 @@ pub(super) fn solve(
     Ok(AlmAnswer { status, state, residuals, convergence, factorisations })
 }
 
-/// The iteration with the smallest measure.
+/// The state of the iteration with the smallest measure of error.
 struct Best {
     state: ContactState,
     measure: f64,
@@ -69,7 +71,7 @@ impl Best {
     }
 }
 
-/// A solve in progress.
+/// The data of a solution in progress.
 struct Iterations<'a> {
     structure: &'a Structure<'a>,
     settings: &'a AlmSettings,
@@ -79,7 +81,7 @@ struct Iterations<'a> {
 }
 
 impl Iterations<'_> {
-    /// Iterates from all contacts closed.
+    /// Iterates from a start with all contacts closed; returns the status of the attempt.
     fn attempt(
         &mut self,
         attempt: usize,
@@ -148,8 +150,9 @@ impl Iterations<'_> {
         Ok(Status::IterationLimit)
     }
 
-    /// The start is rest. If gaps or slips begin elsewhere (a support has moved), the start is the state of the blocks
-    /// with all contacts held. From rest they would move there in the small steps of the proximal term.
+    /// Returns the start of the iterations: rest, or, if gaps or slips do not start from zero (a support has moved),
+    /// the state of the blocks with all contacts held. From rest the blocks would move to that state in the small
+    /// steps of the proximal term.
     fn start(&mut self, matrices: &Matrices<'_>) -> Result<ContactState, AlmError> {
         let problem = self.structure.problem;
         let mut at = Best::rest(problem).state;
@@ -168,7 +171,8 @@ impl Iterations<'_> {
         Ok(at)
     }
 
-    /// The step to `u`, or a part of it: full steps oscillate between the states of the points of films.
+    /// Returns the step to `u`, or a part of the step if that leaves smaller unbalanced forces: full steps oscillate
+    /// between the states of the Gauss points of films.
     fn shortened(&self, matrices: &Matrices<'_>, at: &ContactState, u: Vec<f64>) -> Vec<f64> {
         if self.structure.films.is_empty() {
             return u;
@@ -192,7 +196,7 @@ impl Iterations<'_> {
     }
 }
 
-/// The number of points of films that are in other states.
+/// Counts the Gauss points of films whose states differ between the two responses.
 fn changed_points(one: &Taken, other: &Taken) -> usize {
     let states = |taken: &Taken| -> Vec<PointStatus> {
         taken.films.iter().flat_map(|film| &film.points).map(|point| point.contact).collect()

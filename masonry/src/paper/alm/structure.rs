@@ -9,26 +9,26 @@ use crate::law::Cone;
 use crate::paper::film::pointwise::FilmResponse;
 use crate::rounding::{cleared, largest};
 
-/// The response of blocks and films to displacements of the blocks.
+/// The internal forces of blocks and films under displacements of the blocks.
 pub(super) struct Taken {
-    /// The forces of the blocks, `K u`.
+    /// The internal forces of the blocks, `K u` \[N\].
     pub(super) blocks: Vec<f64>,
     /// The responses of all films.
     pub(super) films: Vec<FilmResponse>,
-    /// The sum of the forces of blocks and films.
+    /// The sum of the internal forces of blocks and films \[N\].
     all: Vec<f64>,
 }
 
-/// A problem with its films.
+/// A contact problem with its films, and data derived from both that stay the same in all iterations.
 pub(super) struct Structure<'a> {
     pub(super) problem: &'a Contact2d,
     pub(super) films: &'a [Segment],
     pub(super) diagonal: Vec<f64>,
     pub(super) normal: Vec<Vec<(usize, f64)>>,
     pub(super) tangent: Vec<Vec<(usize, f64)>>,
-    /// The largest load.
+    /// The largest load \[N\].
     load: f64,
-    /// The largest displacement under the loads, as if `K` were diagonal.
+    /// The largest displacement \[m\] that the loads would cause if `K` were diagonal.
     way: f64,
 }
 
@@ -59,18 +59,18 @@ impl<'a> Structure<'a> {
         Ok(Self { problem, films, diagonal, normal, tangent, load, way })
     }
 
-    /// Natural units of displacements and forces.
+    /// Returns the natural units of displacements and of forces, in this order.
     pub(super) fn units(&self) -> [f64; 2] {
         [self.way, self.load]
     }
 
-    /// The stiffness at a row, as if `K` were diagonal.
+    /// Returns the stiffness at a row of contacts as if `K` were diagonal.
     pub(super) fn seen(&self, row: &[(usize, f64)]) -> f64 {
         let compliance: f64 = row.iter().map(|&(j, v)| v * v / self.diagonal[j]).sum();
         if compliance > 0.0 { 1.0 / compliance } else { 0.0 }
     }
 
-    /// The part of the loads that blocks and films take.
+    /// Computes the internal forces of blocks and films under the displacements `u`.
     pub(super) fn taken(&self, u: &[f64]) -> Taken {
         let mut blocks = vec![0.0; u.len()];
         for entry in self.problem.stiffness().triplet_iter() {
@@ -84,8 +84,8 @@ impl<'a> Structure<'a> {
         Taken { blocks, films, all }
     }
 
-    /// The unbalanced forces: loads and contact forces less those that blocks and films take, `f + C^T t - K u`
-    /// without films.
+    /// Returns the unbalanced nodal forces: the sum of loads and contact forces, minus the internal forces of blocks
+    /// and films; without films `f + C^T t - K u`.
     pub(super) fn rest(&self, t_n: &[f64], t_t: &[f64], taken: &Taken) -> Vec<f64> {
         let loads = self.problem.loads().iter();
         let mut rest: Vec<f64> = loads.zip(&taken.all).map(|(f, taken)| f - taken).collect();
@@ -96,7 +96,7 @@ impl<'a> Structure<'a> {
         rest
     }
 
-    /// The largest unbalanced force, relative to the loads.
+    /// Returns the largest unbalanced force, relative to the loads \[-\].
     pub(super) fn unbalance(&self, state: &ContactState, taken: &Taken) -> f64 {
         let rest = self.rest(&state.t_n, &state.t_t, taken);
         if rest.iter().any(|v| !v.is_finite()) {
@@ -105,8 +105,8 @@ impl<'a> Structure<'a> {
         ratio(largest(&rest), if self.load > 0.0 { self.load } else { largest(&state.t_n) })
     }
 
-    /// Residuals of a state, from the data. The law of films holds by its evaluation, and the forces that films take
-    /// are no longer loads of the contact problem.
+    /// Computes the residuals of a state from the data. The law of films holds by construction, and the internal
+    /// forces of films are taken from the loads of the contact problem.
     ///
     /// # Errors
     /// [`lcp::Error::NotFinite`] if the forces of films overflow.
@@ -125,10 +125,10 @@ impl<'a> Structure<'a> {
         Ok(self.problem.with_loads(left)?.residuals(state))
     }
 
-    /// Largest of `min(force, gap or slip)` over the pairs of the contact law, and of the violations of their signs,
-    /// with forces in units of the largest one, and gaps and slips in units of the deformation of the bodies, or of
-    /// the displacement under the loads if larger: all gaps of a body that slid far are small against its
-    /// displacements, also those that should carry no force.
+    /// Returns the largest violation of the contact law \[-\]: the largest of `min(force, gap or slip)` over its
+    /// pairs, and of the violations of signs. Forces are in units of the largest force; gaps and slips are in units of
+    /// the deformation of the bodies, or of the displacement under the loads if that is larger. Units of the
+    /// displacements of a body that slid far would make all its gaps small, including gaps at points with a force.
     pub(super) fn slack(&self, state: &ContactState, taken: &Taken) -> f64 {
         let ContactState { u, t_n, t_t, gap, slip, .. } = state;
         let deformed = taken.blocks.iter().zip(&self.diagonal).map(|(force, k)| force / k);
@@ -159,7 +159,8 @@ impl<'a> Structure<'a> {
     }
 }
 
-/// A ratio of sizes: zero if `value` is not positive, and infinite for a positive value if `unit` is zero.
+/// Returns the ratio `value / unit`: zero if `value` is not positive, and infinite for a positive value if `unit` is
+/// zero.
 fn ratio(value: f64, unit: f64) -> f64 {
     if value <= 0.0 { 0.0 } else { value / unit }
 }

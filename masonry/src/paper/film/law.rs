@@ -20,23 +20,23 @@ use super::{FilmError, FilmMaterial, positive};
 use crate::data::state::PointStatus;
 use crate::law::Cone;
 
-/// The memory of one point of a film.
+/// The state of one Gauss point of a film that later steps depend on: its slip.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct FilmState {
-    /// Slip of the upper face along `x` against the lower, beyond the shear of the mortar \[m\].
+    /// Slip of the upper face along `x` relative to the lower face, without the shear deformation of the mortar \[m\].
     pub slip: f64,
 }
 
 /// The response of one point of a film to its strains.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PointResponse {
-    /// `(sigma_x, sigma_y, tau)` \[Pa\].
+    /// The stress `(sigma_x, sigma_y, tau)` \[Pa\].
     pub stress: Vector3<f64>,
-    /// Derivative of the stress by the strain \[Pa\]; not symmetric if the point slips.
+    /// Derivative of the stress with respect to the strain \[Pa\]; not symmetric if the point slips.
     pub tangent: Matrix3<f64>,
-    /// The state of the point.
+    /// The state of contact: open, sticking or slipping.
     pub contact: PointStatus,
-    /// The state after this step.
+    /// The slip after this step, from which the next step starts.
     pub state: FilmState,
     /// Opening of the interface \[m\]; zero unless the interface is open.
     pub opening: f64,
@@ -44,7 +44,7 @@ pub struct PointResponse {
     pub dissipation: f64,
 }
 
-/// The law of one mortar, thickness and friction coefficient.
+/// The law of a film with its mortar, thickness and friction coefficient.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FilmLaw {
     matrix: Matrix3<f64>,
@@ -53,7 +53,7 @@ pub struct FilmLaw {
 }
 
 impl FilmLaw {
-    /// The law of a film of `thickness` `t_y` \[m\] with friction coefficient `mu`.
+    /// Builds the law of a film of `thickness` `t_y` \[m\] with friction coefficient `mu`.
     ///
     /// # Errors
     /// [`FilmError`] if the thickness is not positive, the material not elastic, or `mu` negative.
@@ -80,7 +80,7 @@ impl FilmLaw {
         Ok(Self { matrix: material.matrix()?, thickness, cone: Cone::friction(mu) })
     }
 
-    /// The stress for strains `(eps_x, eps_y, gamma)` from the state before the step.
+    /// Computes stress and state for the strains `(eps_x, eps_y, gamma)`, from the state `before` the step.
     pub fn respond(&self, strain: Vector3<f64>, before: FilmState) -> PointResponse {
         let elastic = Vector3::new(strain.x, strain.y, strain.z - before.slip / self.thickness);
         let trial = self.matrix * elastic;

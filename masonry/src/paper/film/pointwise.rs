@@ -1,4 +1,4 @@
-//! Forces and tangent of a film with the law at its Gauss points.
+//! Nodal forces and tangent stiffness of a film with the contact law at its Gauss points.
 //!
 //! The strip is divided into equal parts with two Gauss points each. The integral over a part is exact if all of it
 //! sticks, or all of it is open; a boundary between states inside a part causes an error of the order of the square of
@@ -24,14 +24,14 @@ pub struct PointwiseFilm {
 pub struct FilmResponse {
     /// Internal forces \[N\], conjugate to the displacements: the forces that the nodes must apply to the film.
     pub force: Vector8,
-    /// The Gauss points, along `x`.
+    /// The responses of the Gauss points, in the order of increasing `x`.
     pub points: Vec<PointResponse>,
     /// Energy dissipated in this step \[J\], never negative.
     pub dissipation: f64,
 }
 
 impl PointwiseFilm {
-    /// A film with friction coefficient `mu` and `2 * parts` Gauss points.
+    /// Builds a film with friction coefficient `mu` and `2 * parts` Gauss points.
     ///
     /// # Errors
     /// [`FilmError::Friction`] and [`FilmError::NoParts`].
@@ -43,17 +43,17 @@ impl PointwiseFilm {
         Ok(Self { strip, law, parts })
     }
 
-    /// The strip.
+    /// Returns the elastic strip of the film.
     pub fn strip(&self) -> &Strip {
         &self.strip
     }
 
-    /// The law at each point.
+    /// Returns the law that holds at each Gauss point.
     pub fn law(&self) -> &FilmLaw {
         &self.law
     }
 
-    /// The places of the Gauss points, increasing \[m\].
+    /// Returns the coordinates `x` of the Gauss points \[m\], increasing.
     pub fn places(&self) -> impl Iterator<Item = f64> {
         let part = self.strip.length() / self.parts as f64;
         let start = self.strip.ends()[0];
@@ -61,19 +61,20 @@ impl PointwiseFilm {
             .flat_map(move |k| GAUSS_2.map(|xi| start + part * (k as f64 + 0.5 * (1.0 + xi))))
     }
 
-    /// The states of all Gauss points before any slip.
+    /// Returns the states of all Gauss points before any slip.
     pub fn initial(&self) -> Vec<FilmState> {
         vec![FilmState::default(); 2 * self.parts]
     }
 
-    /// Volume of the film around a Gauss point \[m^3\].
+    /// Returns the volume of the film that one Gauss point stands for \[m^3\].
     pub fn volume(&self) -> f64 {
         let area = 0.5 * self.strip.length() / self.parts as f64 * self.strip.wall();
         area * self.strip.thickness()
     }
 
-    /// The integral of `B^T D B` \[N/m\] with a matrix `D` \[Pa\] at every Gauss point: the derivative of the forces
-    /// with respect to the displacements for the tangents of the points, which are not symmetric if the points slip.
+    /// Returns the integral of `B^T D B` \[N/m\], with a matrix `D` \[Pa\] at every Gauss point. With the tangents of
+    /// the points, which are not symmetric if the points slip, it is the derivative of the forces with respect to the
+    /// displacements.
     pub fn tangent(&self, d: impl IntoIterator<Item = Matrix3<f64>>) -> Matrix8 {
         let points = self.places().zip(d).map(|(x, d)| {
             let b = self.strip.strain_matrix(x);
@@ -82,10 +83,10 @@ impl PointwiseFilm {
         points.sum()
     }
 
-    /// Forces for displacements of the nodes in local axes, from the states before the step.
+    /// Computes forces and states for `displacements` of the nodes in local axes, from the states `before` the step.
     ///
     /// # Panics
-    /// If there is not one state per Gauss point.
+    /// If the number of states differs from the number of Gauss points.
     pub fn respond(&self, displacements: &Vector8, before: &[FilmState]) -> FilmResponse {
         assert_eq!(before.len(), 2 * self.parts, "one state per Gauss point");
         let volume = self.volume();

@@ -9,8 +9,8 @@
 //!  gamma = (phi- (u_3 - u_1) + phi+ (u_4 - u_2)) / t_y + (v_2 - v_1 + v_4 - v_3) / 2l
 //! ```
 //!
-//! Every motion of the whole strip as a rigid body is free of strain, if the faces have their real
-//! distance `t_y`: a rotation would strain a strip between faces that are drawn on one line.
+//! No rigid-body motion of the whole strip causes strain, provided that the faces are drawn at their real distance
+//! `t_y`. A rotation would strain a strip whose two faces are drawn on one line.
 
 use nalgebra::{Matrix3, Vector3};
 
@@ -29,8 +29,8 @@ pub struct Strip {
 }
 
 impl Strip {
-    /// A strip of length `l`, thickness `t_y` between its faces, and thickness `t_z` out of the
-    /// plane (that of the wall) \[m\].
+    /// Builds a strip of length `l`, thickness `t_y` between its faces, and thickness `t_z` out of the plane (that of
+    /// the wall) \[m\].
     ///
     /// # Errors
     /// [`FilmError`] if a length is not positive or the material is not elastic.
@@ -64,7 +64,7 @@ impl Strip {
         self.wall
     }
 
-    /// The mortar.
+    /// Returns the mortar of the strip.
     pub fn material(&self) -> &FilmMaterial {
         &self.material
     }
@@ -79,12 +79,12 @@ impl Strip {
         [-0.5 * self.length, 0.5 * self.length]
     }
 
-    /// The shape functions `phi-` and `phi+` of a face at `x` \[m\].
+    /// Returns the shape functions `phi-` and `phi+` of a face at `x` \[m\].
     pub fn shape(&self, x: f64) -> [f64; 2] {
         [0.5 - x / self.length, 0.5 + x / self.length]
     }
 
-    /// The matrix `B(x)` (3.38): `(eps_x, eps_y, gamma) = B u`.
+    /// Returns the strain matrix `B(x)` (3.38) \[1/m\]: `(eps_x, eps_y, gamma) = B u`.
     pub fn strain_matrix(&self, x: f64) -> StrainMatrix {
         let [minus, plus] = self.shape(x);
         let mut b = StrainMatrix::zeros();
@@ -98,13 +98,13 @@ impl Strip {
         b
     }
 
-    /// Stress `(sigma_x, sigma_y, tau)` \[Pa\] at `x` of the bonded strip, which also carries tension.
+    /// Returns the stress `(sigma_x, sigma_y, tau)` \[Pa\] at `x` of the bonded strip, which can also carry tension.
     pub fn stress(&self, x: f64, displacements: &Vector8) -> Vector3<f64> {
         self.matrix * self.strain_matrix(x) * displacements
     }
 
-    /// Stiffness \[N/m\] of the strip when it is bonded on `[x_i, x_f]` \[m\] and carries nothing
-    /// elsewhere; zero when the part is empty (`x_f <= x_i`).
+    /// Returns the stiffness \[N/m\] of the strip if it is bonded on `[x_i, x_f]` \[m\] and carries nothing elsewhere;
+    /// zero if this part is empty (`x_f <= x_i`).
     ///
     /// Exact: the integrand is quadratic in `x`.
     pub fn stiffness(&self, [from, to]: [f64; 2]) -> Matrix8 {
