@@ -1,4 +1,4 @@
-//! The state of the structure from contact forces and relative displacements.
+//! Recovery of the state of a structure from contact forces and relative displacements.
 
 use std::borrow::Cow;
 
@@ -16,11 +16,12 @@ use crate::model::{Anchor, Body, JointPoint, Model};
 use crate::system::kinematics::shares;
 use crate::system::{Direction, System, displaced_nodes};
 
-/// Gaps and slips below this part of the largest displacement, or compression of a joint, count as zero; and their
-/// rates below this part of the largest rate.
+/// Threshold of zero \[-\]: gaps and slips below this part of the largest displacement, or compression of a joint,
+/// count as zero, and rates of gaps and slips below this part of the largest rate.
 const STILL: f64 = 1e-8;
 
-/// Motions of rigid blocks below this fraction of their size, or below the tolerance, count as rest.
+/// Threshold of rest \[-\]: motions of rigid blocks below this fraction of their size, or below the tolerance, count
+/// as rest.
 const REST: f64 = 1e-9;
 
 mod motion;
@@ -28,10 +29,11 @@ mod motion;
 pub use motion::mechanism;
 pub(crate) use motion::{flow, largest, of_corners};
 
-/// The state of the contact forces and relative displacements `rows`: rigid amplitudes from the isostatic rows, then
-/// `u = K^+ (f + C^T t + L^T q) + N alpha` block by block.
+/// Computes the state of the structure from `rows`, the contact forces and relative displacements of all contact rows.
+/// Rigid amplitudes `alpha` follow from the isostatic rows, then displacements `u = K^+ (f + C^T t + L^T q) + N alpha`
+/// block by block.
 ///
-/// Stresses are recovered only `with_stresses`.
+/// Stresses are recovered only if `with_stresses` is true.
 pub fn recover(
     model: &Model,
     system: &System,
@@ -48,10 +50,11 @@ pub fn recover(
     of_motions(model, system, rows, motions, with_stresses)
 }
 
-/// The state of forces and displacements of the sparse problem, solved to `tolerance`.
+/// Computes the state of the structure from forces and displacements of the sparse problem, which was solved to
+/// `tolerance`.
 ///
-/// Displacements have no natural size if all blocks are rigid and nothing has an initial gap or gives way. Rounding
-/// errors around zero then count as zero.
+/// Displacements have no natural size if all blocks are rigid, nothing has an initial gap and no joint has a
+/// compliance. In this case displacements within rounding errors count as zero.
 pub fn from_displacements(
     model: &Model,
     system: &System,
@@ -78,11 +81,11 @@ fn is_at_rest(system: &System, u: &[f64], tolerance: f64) -> bool {
     system.is_at_rest() && u.iter().all(|u| u.abs() <= rest)
 }
 
-/// The motion of a block.
+/// The motion of a block: its rigid motion plus its deformation.
 struct BlockMotion<'a> {
-    /// Amplitudes \[m\] of the rigid motions of the block; zeros if empty.
+    /// Amplitudes \[m\] of the rigid motions of the block; empty if all are zero.
     rigid: &'a [f64],
-    /// Displacements \[m\] of the nodes by deformation; empty for a rigid block.
+    /// Displacements \[m\] of the nodes due to deformation; empty for a rigid block.
     elastic: Cow<'a, [f64]>,
 }
 
@@ -111,7 +114,7 @@ fn of_motions<'a>(
     State { displacements, contacts, films, stresses, strain_energy }
 }
 
-/// Stresses of blocks and films, if they are wanted.
+/// Computes the stresses of blocks and films; returns empty lists if `wanted` is false.
 pub(crate) fn wanted_stresses(
     model: &Model,
     displacements: &[Vec<Vector2<f64>>],
@@ -125,7 +128,8 @@ pub(crate) fn wanted_stresses(
     }
 }
 
-/// The energy of all joints and films \[J\]: of their compression and shear, and of the elongation of strips.
+/// Computes the energy of all joints and films \[J\]: the energy of compression and shear, and of the elongation of
+/// strips.
 fn joints_energy(
     model: &Model,
     system: &System,
@@ -145,7 +149,7 @@ fn joints_energy(
     across.sum::<f64>() + along.sum::<f64>()
 }
 
-/// Stresses at the points of all films, in the order of the points.
+/// Computes the stresses at the contact points of all films, in the order of the points.
 pub fn film_stresses(
     model: &Model,
     displacements: &[Vec<Vector2<f64>>],
@@ -166,7 +170,7 @@ pub fn film_stresses(
     points.filter_map(of_point).collect()
 }
 
-/// The displacement \[m\] of a place on a block's edge; `displacements` as in [`State`].
+/// Returns the displacement \[m\] of a place on the edge of a block; `displacements` are those of [`State`].
 pub fn displacement_at(
     model: &Model,
     displacements: &[Vec<Vector2<f64>>],
@@ -177,10 +181,11 @@ pub fn displacement_at(
     shares.iter().map(|(node, part)| u[*node] * *part).sum()
 }
 
-/// `u_b - u_a` \[m\] at a contact point. The value across a film is that of the middle between its two faces, as it
-/// moves with the faces and their mean rotations, and includes the gap by the elongation of a strip.
+/// Returns the relative displacement `u_b - u_a` \[m\] at a contact point. Across a film it is the value in the middle
+/// between the faces, which moves with the faces and their mean rotations; it includes the gap that the elongation of
+/// a strip causes.
 ///
-/// It does not use the terms of the rows of the problem, so that an error in them is not hidden from the checks.
+/// The function does not use the terms of the rows of the problem, so that the checks find errors in these terms.
 pub fn relative_displacement(
     model: &Model,
     displacements: &[Vec<Vector2<f64>>],
@@ -196,8 +201,8 @@ pub fn relative_displacement(
     apart + joint.tangent() * (turned * film.half / film.length) + joint.normal * opened
 }
 
-/// Elongation \[m\] of the part of a film that a contact point stands for: the mean of its two faces; faces on supports
-/// and rigid blocks do not stretch. Zero in a dry joint.
+/// Returns the elongation \[m\] of the part of a film that a contact point stands for: the mean of the elongations of
+/// its two faces. Faces on supports and rigid blocks do not stretch. Zero in a dry joint.
 pub fn film_elongation(
     model: &Model,
     displacements: &[Vec<Vector2<f64>>],
@@ -225,7 +230,7 @@ fn contact_states(
         .iter()
         .enumerate()
         .map(|(k, contact)| {
-            // Overwritten below if there is a tangential row.
+            // The slip is overwritten below if there is a tangential row.
             let tangent = model.joints[contact.joint.index()].tangent();
             let y_t =
                 relative_displacement(model, displacements, contact).dot(&tangent) + contact.slip;
@@ -248,8 +253,8 @@ fn contact_states(
     states
 }
 
-/// The state of a contact by its displacements: they are unique even if contact forces are not (forces may circulate
-/// between the points around a corner without any effect).
+/// Returns the status of a contact point by its gap and slip, which are unique even if contact forces are not: forces
+/// may circulate between the points around a corner without any effect.
 fn status(state: &PointState, zero: f64) -> PointStatus {
     if state.y_n > zero {
         PointStatus::Open
@@ -260,7 +265,7 @@ fn status(state: &PointState, zero: f64) -> PointStatus {
     }
 }
 
-/// Stresses at the centres of all elements, block by block.
+/// Computes the stresses at the centres of all elements, block by block.
 pub fn stresses(model: &Model, displacements: &[Vec<Vector2<f64>>]) -> Vec<ElementStress> {
     let mut list = Vec::new();
     for (b, (block, u)) in model.blocks.iter().zip(displacements).enumerate() {
@@ -285,7 +290,7 @@ pub fn stresses(model: &Model, displacements: &[Vec<Vector2<f64>>]) -> Vec<Eleme
 }
 
 impl Principal {
-    /// Principal stresses of `sigma_x, sigma_y, tau_xy`.
+    /// Computes the principal stresses of `sigma_x, sigma_y, tau_xy` and their angle.
     ///
     /// ```
     /// use masonry::analysis::outcome::Principal;
@@ -303,7 +308,7 @@ impl Principal {
     }
 }
 
-/// The states of the contact points of blocks at rest under forces \[N\] of all rows of the [`System`].
+/// Returns the states of the contact points of blocks at rest from the forces \[N\] of all rows of the [`System`].
 pub fn forces_at_rest(model: &Model, rows: &[f64]) -> Vec<PointState> {
     let (normals, mut tangents) =
         (&rows[..model.contacts.len()], rows[model.contacts.len()..].iter());
@@ -321,13 +326,13 @@ pub fn forces_at_rest(model: &Model, rows: &[f64]) -> Vec<PointState> {
     states.collect()
 }
 
-/// The force \[N\] that a contact point exerts on the block in front.
+/// Returns the force \[N\] that a contact point exerts on the block in front, in global axes.
 pub fn contact_force(model: &Model, contact: &JointPoint, state: &PointState) -> Vector2<f64> {
     let joint = &model.joints[contact.joint.index()];
     joint.normal * state.t_n + joint.tangent() * state.t_t
 }
 
-/// The resultant of the contact forces of every support on the structure, in the order of the model.
+/// Returns for every support the resultant of its contact forces on the structure, in the order of the model.
 pub fn reactions(model: &Model, contacts: &[PointState]) -> Vec<Reaction> {
     let name = |support: &crate::model::PlacedSupport| support.name.clone();
     let mut list: Vec<Reaction> = model

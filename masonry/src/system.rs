@@ -1,16 +1,16 @@
 //! The equilibrium system of a model, block by block: stiffness, loads and contact rows.
 //!
-//! `K u = f + C^T t` (3.2), `y = C u + x`. `K` is block-diagonal, so that all data are kept per block. Row `c` of `C`,
-//! for `c` below the number of contact points, is the normal row of contact point `c`; one tangential row follows for
-//! each point with friction, in the order of the points.
+//! The equations are `K u = f + C^T t` (3.2) and `y = C u + x`. `K` is block-diagonal, so that all data are kept per
+//! block. Row `c` of `C`, for `c` below the number of contact points, is the normal row of contact point `c`. The
+//! tangential rows follow, one for each point with friction, in the order of the points.
 //!
-//! The stiffness of a joint, and a film of mortar, are springs in series with the contact: `y = C u + x + c t`, with
-//! the sum `c` of their compliances in the row of the point ([`Row::compliance`]). The shear of a film is that of the
-//! strip (3.38), `(u_b - u_a).t` and half the thickness times the rotation of both faces, so that no rigid motion
-//! shears it; its force acts on both faces in the middle between them. Whole strips of mortar have two more terms if
-//! they touch elastic blocks, by the elongation `e = L u` of the film: a gap of `t_y (C_12 / C_22) eps_x` in the normal
-//! row, and the force of a bar, [`StretchRow`], `K u + L^T D L u = f + C^T t`. Rigid motions have no part in these
-//! terms.
+//! The stiffness of a joint, and a film of mortar, are springs in series with the contact: `y = C u + x + c t`. The
+//! diagonal matrix `c` has the sum of their compliances for each row ([`Row::compliance`]). The shear displacement of
+//! a film is that of the strip (3.38): `(u_b - u_a).t` plus half the thickness times the rotations of both faces, so
+//! that no rigid motion shears the film. The force of a film acts on both faces in the middle between them. Mortar
+//! films as strips have two more terms if they touch elastic blocks. Both depend on the elongation `e = L u` of the
+//! film: a gap of `t_y (C_12 / C_22) eps_x` in the normal row, and the force of a bar ([`StretchRow`]): `K u + L^T D L
+//! u = f + C^T t`. Rigid motions do not contribute to these terms.
 
 use faer::Mat;
 use nalgebra::{Point2, Vector2};
@@ -51,7 +51,7 @@ pub enum Direction {
 }
 
 impl Direction {
-    /// The unit vector of the direction in a joint.
+    /// Returns the unit vector of this direction in a joint.
     pub fn of(self, joint: &PlacedJoint) -> Vector2<f64> {
         match self {
             Self::Normal => joint.normal,
@@ -67,20 +67,20 @@ impl Direction {
     }
 }
 
-/// One row of `C`, and of the contact forces `t` and relative displacements `y`.
+/// A contact row: one row of `C`, of the contact forces `t` and of the relative displacements `y`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Row {
-    /// The contact point.
+    /// The contact point of the row.
     pub contact: ContactId,
-    /// The direction.
+    /// The direction of the row: normal or tangential.
     pub direction: Direction,
-    /// Initial gap `x_0` or initial slip `s_0` \[m\], less the stretch of a joint that gives way by its tensile
-    /// strength.
+    /// Initial gap `x_0` or initial slip `s_0` \[m\], minus the elongation that the tensile strength causes in a joint
+    /// with a compliance.
     pub offset: f64,
-    /// Compression or shear of the joint and of a film in it under a unit of force \[m/N\]; zero if nothing gives way.
+    /// Compliance in this direction \[m/N\]: that of the joint plus that of its mortar film; zero if both are rigid.
     pub compliance: f64,
-    /// The difference between the unknown and the force \[N\]: the tensile strength `T` of the point in a normal row,
-    /// and zero in a tangential row. It is among the loads on both sides.
+    /// The difference between the unknown and the contact force \[N\]: the tensile strength `T` of the point in a
+    /// normal row, and zero in a tangential row. The difference is added to the loads on both sides.
     pub tension: f64,
 }
 
@@ -105,9 +105,9 @@ pub struct System {
     pub friction: Vec<Friction>,
     /// The blocks, in the order of the model.
     pub bodies: Vec<BodySystem>,
-    /// The elongations of strips that act on elastic blocks; empty if films are compliances.
+    /// The elongations of strips at elastic blocks; empty unless films are strips.
     pub stretches: Vec<StretchRow>,
-    /// Stiffnesses; equal blocks share one.
+    /// The stiffnesses of the elastic blocks; equal blocks share one.
     pub stiffnesses: Vec<Stiffness>,
 }
 
@@ -120,11 +120,12 @@ impl System {
         Self::build(model, Built::MatrixAndFactor)
     }
 
-    /// Builds the system without the dense factors of the stiffnesses, for [`Sparse`](crate::forms::Sparse): it can be
-    /// neither reduced nor used for [`elastic_displacements`](Self::elastic_displacements).
+    /// Builds the system for [`Sparse`](crate::forms::Sparse), without the dense factors of the stiffnesses. Such a
+    /// system cannot be reduced, and cannot be used for [`elastic_displacements`](Self::elastic_displacements).
     ///
     /// # Errors
-    /// As [`System::new`], except for a stiffness that is not positive definite, which only its factor shows.
+    /// As [`System::new`], except for a stiffness that is not positive definite: only its factorisation would detect
+    /// it.
     pub fn without_factors(model: &Model) -> Result<Self, SystemError> {
         Self::build(model, Built::Matrix)
     }
@@ -166,8 +167,8 @@ impl System {
         Ok(system)
     }
 
-    /// Takes loads, gaps and slips from another state of the same model ([`Model::under`]); stiffness and
-    /// contact rows stay.
+    /// Replaces loads, gaps and slips by those of another state of the same model ([`Model::under`]); stiffness and
+    /// contact rows stay the same.
     pub fn reload(&mut self, model: &Model) {
         for (body, block) in self.bodies.iter_mut().zip(&model.blocks) {
             if let (Some(_), Some(mesh)) = (body.stiffness, &block.mesh) {
@@ -181,7 +182,7 @@ impl System {
         self.pull();
     }
 
-    /// Adds the difference between the normal unknowns and the forces ([`Row::tension`]) to the loads.
+    /// Adds the differences between the normal unknowns and the contact forces ([`Row::tension`]) to the loads.
     fn pull(&mut self) {
         if self.rows.iter().all(|row| row.tension <= 0.0) {
             return;
@@ -195,25 +196,27 @@ impl System {
         }
     }
 
-    /// Number of contact points, and of normal rows.
+    /// Returns the number of contact points, which is the number of normal rows.
     pub fn points(&self) -> usize {
         self.rows.len() - self.friction.len()
     }
 
-    /// Whether contact forces deform anything: there is an elastic block, a joint with a stiffness or a film of mortar.
+    /// Returns whether contact forces deform anything: an elastic block, a joint with a finite stiffness or a film of
+    /// mortar.
     pub fn gives_way(&self) -> bool {
         let is_elastic = |body: &BodySystem| body.stiffness.is_some();
         self.bodies.iter().any(is_elastic) || self.rows.iter().any(|row| row.compliance > 0.0)
     }
 
-    /// Whether blocks may be at rest under any forces: all are rigid, no gap is open, there is no initial slip and no
-    /// joint gives way.
+    /// Returns whether the blocks can be at rest under any forces: all blocks are rigid, no gap is open, there is no
+    /// initial slip and no joint has a compliance.
     pub fn is_at_rest(&self) -> bool {
         let is_closed = |row: &Row| row.offset.abs() <= 0.0 && row.compliance <= 0.0;
         !self.gives_way() && self.rows.iter().all(is_closed)
     }
 
-    /// `G = C N`: the relative displacements of the rigid motions, rows by three columns per block.
+    /// Returns `G = C N`, the relative displacements in the rigid motions: one row per contact row, three columns per
+    /// block.
     pub fn rigid_rows(&self) -> Mat<f64> {
         let mut g = Mat::zeros(self.rows.len(), 3 * self.bodies.len());
         for (b, body) in self.bodies.iter().enumerate() {
@@ -226,7 +229,8 @@ impl System {
         g
     }
 
-    /// Rates of the normal gaps of all contact points for rates of the rigid amplitudes.
+    /// Returns the rates of the normal gaps of all contact points for given rates of the rigid amplitudes, three per
+    /// block.
     pub fn gap_rates(&self, amplitudes: &[f64]) -> Vec<f64> {
         let mut rates = vec![0.0; self.rows.len()];
         for (body, alpha) in self.bodies.iter().zip(amplitudes.chunks(3)) {
@@ -238,14 +242,14 @@ impl System {
         rates
     }
 
-    /// `N^T f` of all blocks \[N\].
+    /// Returns `N^T f`, the work of the loads in the rigid motions \[N\]: three numbers per block.
     pub fn resultants(&self) -> Vec<f64> {
         self.bodies.iter().flat_map(|body| body.resultant).collect()
     }
 
-    /// `K^+ (f + C^T t + L^T q)` of one block \[m\], for forces `t` \[N\] of all rows and `q` \[N\] of all
-    /// stretches: its displacements up to a rigid motion, provided that loads and contact forces balance. Empty
-    /// for a rigid block.
+    /// Returns `K^+ (f + C^T t + L^T q)` of one block \[m\] for forces `t` \[N\] of all rows and `q` \[N\] of all
+    /// stretches. If loads and contact forces balance, the result is the displacements of the nodes up to a rigid
+    /// motion. Empty for a rigid block.
     ///
     /// # Panics
     /// If `t` or `q` is shorter than the number of rows, or the system was built without factors.
@@ -265,7 +269,7 @@ impl System {
     }
 }
 
-/// The mesh and the elastic constants of a deformable block; `None` for a rigid one.
+/// Returns the mesh and the elastic constants of a deformable block; `None` for a rigid block.
 fn elastic_part(block: &PlacedBlock) -> Result<Option<(&BlockMesh, Elasticity)>, SystemError> {
     match (&block.mesh, block.elasticity) {
         (_, None) => Ok(None),
@@ -274,7 +278,8 @@ fn elastic_part(block: &PlacedBlock) -> Result<Option<(&BlockMesh, Elasticity)>,
     }
 }
 
-/// Adds row `k` to the block in front with its sign and to the block behind with the opposite sign.
+/// Adds contact row `k` to the blocks on its two sides: with its sign to the block in front, and with the opposite
+/// sign to the block behind.
 fn add_row(model: &Model, bodies: &mut [BodySystem], k: usize, row: &Row) {
     let contact = &model.contacts[row.contact.index()];
     let joint = &model.joints[contact.joint.index()];
@@ -299,7 +304,8 @@ fn add_row(model: &Model, bodies: &mut [BodySystem], k: usize, row: &Row) {
     }
 }
 
-/// The nodes that carry a block's displacements: those of its mesh, or the corners of a rigid block.
+/// Returns the points whose displacements describe the motion of a block: the nodes of its mesh, or the corners of a
+/// rigid block.
 pub fn displaced_nodes(model: &Model, block: BlockId) -> &[Point2<f64>] {
     let block = &model.blocks[block.index()];
     match (&block.mesh, block.elasticity) {

@@ -1,5 +1,5 @@
-//! Independent checks: the errors of a state in equilibrium and in the contact law, and the verdict whether a
-//! wall stands.
+//! Independent checks of a state: the errors in equilibrium and in the contact law; and the verdict whether a wall
+//! stands.
 
 pub mod checks;
 #[doc(hidden)]

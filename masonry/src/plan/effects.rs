@@ -17,7 +17,7 @@ pub struct Effect {
     pub name: &'static str,
     /// Whether the effect is part of the equations that are built.
     pub on: bool,
-    /// The property of the scene for which the effect is on or off.
+    /// The reason why the effect is on or off: a property of the scene.
     pub because: String,
     /// Number of unknowns that the effect adds to the [`order`](super::Plan::order) of the plan for the same contact
     /// points. Displacements count only on routes that do not eliminate them; the pivoting route does.

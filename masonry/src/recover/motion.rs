@@ -1,4 +1,4 @@
-//! Motions that no contact stops, from the results of routes for scenes without equilibrium.
+//! Motions that no contact stops, computed from the results of routes for scenes without equilibrium.
 
 use nalgebra::Vector2;
 
@@ -10,14 +10,15 @@ use crate::model::{JointPoint, Model, PlacedBlock};
 use crate::system::rigid::Modes;
 use crate::system::{System, displaced_nodes};
 
-/// Blocks do not form a mechanism if they are deformed by more than this fraction of the largest displacement.
+/// Largest deformation of the blocks in a mechanism, as a fraction of the largest displacement \[-\]: blocks that are
+/// deformed more do not form a mechanism.
 const LARGEST_DEFORMATION: f64 = 1e-2;
 
-/// The mechanism of a motion: rates of the corners of every block, scaled to a largest component
-/// of one. The rigid part of the displacements of every block counts; `sparse` is the problem of the
-/// displacements.
+/// Returns the mechanism that belongs to a motion: rates of the corners of every block, scaled so that the largest
+/// component is one. Only the rigid part of the displacements of every block counts. `sparse` is the problem to which
+/// the displacements belong.
 ///
-/// `None` if a closed contact closes further, or the loads do no work on the motion.
+/// `None` if a closed contact closes further, or if the loads do no work on the motion.
 pub fn mechanism(
     model: &Model,
     system: &System,
@@ -35,9 +36,9 @@ pub fn mechanism(
     }
 }
 
-/// The flow of bodies: rates of the corners of every block, scaled to a largest component of one, from the rigid part
-/// of velocities of the sparse problem; `None` if nothing moves. The flow is not tested like a [`mechanism`]:
-/// velocities are as accurate as their motion.
+/// Returns the rates of the corners of every block in a flow, scaled so that the largest component is one. The rates
+/// are the rigid part of velocities of the sparse problem; `None` if nothing moves. The flow is not tested like a
+/// [`mechanism`], since velocities are as accurate as the motion that they belong to.
 pub(crate) fn flow(
     model: &Model,
     system: &System,
@@ -51,7 +52,7 @@ pub(crate) fn flow(
     (largest > 0.0 && largest.is_finite()).then_some(rates)
 }
 
-/// The rates of the corners of every block in a motion of rigid blocks, three amplitudes each.
+/// Returns the rates of the corners of every block for amplitudes of the rigid motions, three per block.
 pub(crate) fn of_corners(model: &Model, amplitudes: &[f64]) -> Vec<Vec<Vector2<f64>>> {
     let of_block = |(block, alpha): (&PlacedBlock, &[f64])| {
         let modes = Modes::of(&block.corners);
@@ -60,12 +61,13 @@ pub(crate) fn of_corners(model: &Model, amplitudes: &[f64]) -> Vec<Vec<Vector2<f
     model.blocks.iter().zip(amplitudes.chunks(3)).map(of_block).collect()
 }
 
-/// The largest component of rates.
+/// Returns the largest component of the rates.
 pub(crate) fn largest(rates: &[Vec<Vector2<f64>>]) -> f64 {
     rates.iter().flatten().map(nalgebra::Matrix::amax).fold(0.0, f64::max)
 }
 
-/// The mechanism of rigid amplitudes; `deformation` \[m\] is the remainder of the displacements.
+/// Returns the mechanism for rigid amplitudes; `deformation` \[m\] is the largest part of the displacements that is
+/// not rigid.
 fn of_amplitudes(
     model: &Model,
     system: &System,
@@ -91,8 +93,8 @@ fn of_amplitudes(
     Some(rates)
 }
 
-/// The rigid motions nearest to displacements, three amplitudes a block, and the largest remainder of the
-/// displacements \[m\].
+/// Returns the rigid motions nearest to the displacements, three amplitudes per block, and the largest remainder of
+/// the displacements \[m\].
 fn rigid_part(model: &Model, system: &System, sparse: &Sparse, u: &[f64]) -> (Vec<f64>, f64) {
     let mut amplitudes = Vec::with_capacity(3 * model.blocks.len());
     let mut rest = 0.0_f64;

@@ -1,4 +1,4 @@
-//! One block of a system.
+//! The data of one block in a system: loads, and its parts in the contact rows.
 
 use nalgebra::Vector2;
 
@@ -7,27 +7,28 @@ use crate::model::Anchor;
 use crate::model::mesh::BlockMesh;
 use crate::rounding::cleared;
 
-/// The part of one block in a contact row.
+/// The part of one block in a contact row: the coefficients of its displacements.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BodyRow {
-    /// The row of the system.
+    /// The index of the contact row in the system.
     pub row: usize,
-    /// Degrees of freedom of the block and their coefficients; empty for a rigid block.
+    /// The degrees of freedom of the block in the row, each with its coefficient; empty for a rigid block.
     pub entries: Vec<(usize, f64)>,
-    /// The relative displacement of the three rigid motions: the block's part of the row of `G = C N`.
+    /// The relative displacement of the row in each of the three rigid motions of the block: its part of a row of `G =
+    /// C N`.
     pub modes: [f64; 3],
 }
 
-/// The part of one elastic block in the elongation of a strip.
+/// The part of one elastic block in the elongation of a strip: the coefficients of its displacements.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BodyStretch {
-    /// The row, an index into [`System::stretches`](super::System::stretches).
+    /// The elongation, an index into [`System::stretches`](super::System::stretches).
     pub row: usize,
-    /// Degrees of freedom of the block and their coefficients.
+    /// The degrees of freedom of the block in the elongation, each with its coefficient.
     pub entries: Vec<(usize, f64)>,
 }
 
-/// One block of the system.
+/// One block of the system, with its loads and its parts in the contact rows.
 #[derive(Debug, Clone)]
 pub struct BodySystem {
     /// The rigid motions of the block.
@@ -36,15 +37,16 @@ pub struct BodySystem {
     pub stiffness: Option<usize>,
     /// Nodal loads `f` \[N\], two per node; empty for a rigid block.
     pub load: Vec<f64>,
-    /// Work of the loads in the three rigid motions, `N^T f` \[N\].
+    /// Work of the loads in each of the three rigid motions, `N^T f` \[N\].
     pub resultant: [f64; 3],
-    /// The contact rows of the block, increasing.
+    /// The contact rows to which the block belongs, with increasing index.
     pub rows: Vec<BodyRow>,
-    /// The strips that stretch with the block; empty for a rigid block.
+    /// The elongations of strips to which the block contributes; empty for a rigid block.
     pub stretches: Vec<BodyStretch>,
 }
 
-/// A direction at a place of an edge in the degrees of freedom of the mesh.
+/// Returns the degrees of freedom of the mesh, each with its coefficient, for the component of the displacement in
+/// `direction` at a place on an edge.
 pub(super) fn entries(
     mesh: &BlockMesh,
     anchor: Anchor,

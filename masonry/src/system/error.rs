@@ -1,4 +1,4 @@
-//! Errors of a system.
+//! Errors in building a system.
 
 /// The reasons for which the stiffness of a block could not be built.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -10,7 +10,7 @@ pub enum SystemError {
         /// Name of the block.
         block: String,
     },
-    /// An element is folded.
+    /// An element of the mesh is folded.
     #[error(
         "element {element} of block `{block}` is folded: the block must be convex, or star-shaped about its centroid"
     )]

@@ -1,18 +1,19 @@
-//! The parts of the blocks' displacements in the gap, the slip and the elongation at a contact point, and so the
-//! actions of the forces there on the blocks.
+//! Coefficients by which the displacements of blocks enter the gap, the slip and the elongation at a contact point.
+//! The forces of the point act on the blocks with the same coefficients.
 
 use nalgebra::Vector2;
 
 use crate::model::{Anchor, JointPoint, Model, PlacedBlock};
 
-/// The part of a place in the gap and in the slip of a contact point.
+/// A place on a block, and the coefficients of its displacement in the gap (`normal`) and in the slip (`tangent`) of a
+/// contact point.
 pub(crate) struct Term {
     pub(crate) anchor: Anchor,
     pub(crate) normal: Vector2<f64>,
     pub(crate) tangent: Vector2<f64>,
 }
 
-/// The terms of all places that move a contact point.
+/// Returns the terms of all places whose displacements contribute to the gap and the slip of a contact point.
 pub(crate) fn terms(model: &Model, contact: &JointPoint) -> Vec<Term> {
     let joint = &model.joints[contact.joint.index()];
     let (n, t) = (joint.normal, joint.tangent());
@@ -37,8 +38,9 @@ pub(crate) fn terms(model: &Model, contact: &JointPoint) -> Vec<Term> {
     list
 }
 
-/// The parts of the ends of a part of a strip in its elongation, the mean of both faces; faces on supports and rigid
-/// blocks do not stretch. Empty in a dry joint.
+/// Returns the places at the ends of a part of a strip, each with the coefficients of its displacement in the
+/// elongation, which is the mean over both faces. Faces on supports and rigid blocks do not stretch. Empty in a dry
+/// joint.
 pub(crate) fn stretched(model: &Model, contact: &JointPoint) -> Vec<(Anchor, Vector2<f64>)> {
     let Some(film) = contact.film.filter(|film| film.stretch.is_some()) else { return Vec::new() };
     let half = model.joints[contact.joint.index()].tangent() * 0.5;
@@ -47,7 +49,8 @@ pub(crate) fn stretched(model: &Model, contact: &JointPoint) -> Vec<(Anchor, Vec
     faces.flat_map(|[start, end]| [(end, half), (start, -half)]).collect()
 }
 
-/// The displacement of a place on an edge as a sum over nodes, or over the corners of a rigid block.
+/// Returns the two nodes, or corners of a rigid block, whose displacements give that of a place on an edge, each with
+/// its coefficient.
 pub(crate) fn shares(block: &PlacedBlock, Anchor { edge, at, .. }: Anchor) -> [(usize, f64); 2] {
     match (&block.mesh, block.elasticity) {
         (Some(mesh), Some(_)) => mesh.interpolate(edge, at),

@@ -6,7 +6,7 @@ use crate::model::{Model, PlacedBlock};
 use crate::rounding::{cleared, largest};
 use crate::system::rigid::Modes;
 
-/// Consistent nodal loads \[N\] of everything that acts on a block except its contacts, two per node.
+/// Returns the consistent nodal loads \[N\], two per node, of everything that acts on a block except its contacts.
 pub fn nodal_loads(model: &Model, block: &PlacedBlock, mesh: &BlockMesh) -> Vec<f64> {
     let mut load = vec![0.0; 2 * mesh.nodes.len()];
     let acceleration = model.acceleration();
@@ -32,10 +32,10 @@ pub fn nodal_loads(model: &Model, block: &PlacedBlock, mesh: &BlockMesh) -> Vec<
     load.into_iter().map(|v| cleared(v, size)).collect()
 }
 
-/// Work of weight and loads in the three rigid motions of a block, `N^T f` \[N\].
+/// Returns the work of weight and loads in the three rigid motions of a block, `N^T f` \[N\].
 ///
-/// Rounding errors of loads that cancel, or of the arm of a load through the centroid, are set to zero:
-/// contacts may be unable to balance them.
+/// Rounding errors are set to zero, since contacts may be unable to balance them: those of loads that cancel, and
+/// those of the lever arm of a load through the centroid.
 pub fn resultant(model: &Model, block: &PlacedBlock) -> [f64; 3] {
     let modes = Modes::of(&block.corners);
     let (mut sum, mut size) = ([0.0; 3], 0.0);

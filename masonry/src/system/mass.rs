@@ -1,4 +1,4 @@
-//! The mass of the blocks, lumped at their displacements.
+//! The masses of the blocks, lumped at their degrees of freedom.
 
 use super::System;
 use crate::element::quad4;
@@ -7,11 +7,11 @@ use crate::model::{Model, PlacedBlock};
 use crate::system::rigid::Modes;
 use nalgebra::Vector2;
 
-/// The density of blocks that have none, if they move \[kg/m^3\]. Chosen: the motion hardly depends on it, since drag
-/// and mass are in proportion.
+/// Density that moving blocks get if they have none \[kg/m^3\]. Chosen: the motion hardly depends on the density,
+/// since drag is proportional to the mass.
 const UNIT: f64 = 1.0;
 
-/// The warning about blocks that move without a density.
+/// Returns the warning about blocks that move without a density; `None` if there are no such blocks.
 pub(crate) fn of_unit_density(model: &Model) -> Option<String> {
     let mut without = model.blocks.iter().filter(|block| block.density.is_none());
     let first = &without.next()?.name;
@@ -25,8 +25,8 @@ pub(crate) fn of_unit_density(model: &Model) -> Option<String> {
     ))
 }
 
-/// The mass \[kg\] that moves with every displacement of the blocks, in the order of the system: that of a node twice,
-/// that of a rigid block for its two translations and its rotation.
+/// Returns the lumped mass \[kg\] of every displacement of the blocks, in the order of the system: the mass of each
+/// node twice, and for a rigid block the masses of its two translations and of its rotation.
 pub(crate) fn lumped(model: &Model, system: &System) -> Vec<f64> {
     let mut mass = Vec::new();
     for (block, body) in model.blocks.iter().zip(&system.bodies) {
@@ -51,7 +51,8 @@ pub(crate) fn lumped(model: &Model, system: &System) -> Vec<f64> {
     mass
 }
 
-/// The masses of the motions of a rigid block with a mass per area of its face \[kg/m^2\].
+/// Returns the masses \[kg\] of the three motions of a rigid block; `density` is the mass per area of its face
+/// \[kg/m^2\].
 fn rigid(block: &PlacedBlock, density: f64) -> [f64; 3] {
     let modes = Modes::of(&block.corners);
     let mass = density * geometry::area(&block.corners);

@@ -1,4 +1,4 @@
-//! Rigid motions of the blocks, and the choice of rows that hold the blocks in a statically determinate way.
+//! Rigid motions of the blocks, and the choice of contact rows that hold the blocks in a statically determinate way.
 
 use faer::Mat;
 use nalgebra::{Matrix3, Point2, Vector2, Vector3};
@@ -23,26 +23,26 @@ pub struct Modes {
 }
 
 impl Modes {
-    /// The motions of a block with these corners.
+    /// Returns the rigid motions of a block with these corners.
     pub fn of(corners: &[Point2<f64>]) -> Self {
         let centre = geometry::centroid(corners);
         let length = corners.iter().map(|p| (p - centre).norm()).fold(0.0, f64::max);
         Self { centre, length }
     }
 
-    /// The displacement of the material at `place` in each of the three motions, for amplitude 1.
+    /// Returns the displacement of the material at `place` in each of the three motions, for amplitude 1.
     pub fn at(&self, place: Point2<f64>) -> [Vector2<f64>; 3] {
         let arm = (place - self.centre) / self.length;
         [Vector2::x(), Vector2::y(), Vector2::new(-arm.y, arm.x)]
     }
 
-    /// The displacement of the material at `place` for three amplitudes \[m\].
+    /// Returns the displacement \[m\] of the material at `place` for three amplitudes \[m\].
     pub fn displacement(&self, place: Point2<f64>, amplitudes: &[f64]) -> Vector2<f64> {
         self.at(place).iter().zip(amplitudes).map(|(mode, amplitude)| mode * *amplitude).sum()
     }
 
-    /// The amplitudes \[m\] of the rigid motion nearest to displacements \[m\] of places, and the largest remainder of
-    /// the displacements \[m\].
+    /// Returns the amplitudes \[m\] of the rigid motion nearest to given displacements \[m\] of places, and the
+    /// largest remainder of the displacements \[m\].
     ///
     /// # Panics
     /// As [`amplitudes`](Self::amplitudes).
@@ -54,7 +54,8 @@ impl Modes {
         (amplitudes, rest.fold(0.0, |max, it| if it > max || it.is_nan() { it } else { max }))
     }
 
-    /// The amplitudes \[m\] of the rigid motion nearest to displacements \[m\] of places, by least squares.
+    /// Returns the amplitudes \[m\] of the rigid motion nearest to given displacements \[m\] of places, by least
+    /// squares.
     ///
     /// # Panics
     /// If all places lie on one line.
@@ -68,20 +69,20 @@ impl Modes {
         matrix.cholesky().expect("places that do not lie on one line").solve(&rhs).into()
     }
 
-    /// The work of a force \[N\] at `place` in the three motions: its two components, and its moment
-    /// about the centroid divided by [`Modes::length`].
+    /// Returns the work \[N\] of a force \[N\] at `place` in the three motions, for amplitude 1: the two components of
+    /// the force, and its moment about the centroid divided by [`Modes::length`].
     pub fn resultant(&self, place: Point2<f64>, force: Vector2<f64>) -> [f64; 3] {
         self.at(place).map(|mode| mode.dot(&force))
     }
 
-    /// The work \[N\] of a force and a moment in the three motions.
+    /// Returns the work \[N\] of a placed force with its moment in the three motions, for amplitude 1.
     pub fn work_of(&self, it: &PlacedForce) -> [f64; 3] {
         let [x, y, turn] = self.resultant(it.at, it.force);
         [x, y, turn + it.moment / self.length]
     }
 }
 
-/// The rows of a matrix with the given indices, in that order.
+/// Returns the rows of a matrix with the given indices, in the order of the indices.
 pub(crate) fn select_rows(matrix: &Mat<f64>, rows: &[usize]) -> Mat<f64> {
     Mat::from_fn(rows.len(), matrix.ncols(), |i, j| matrix[(rows[i], j)])
 }

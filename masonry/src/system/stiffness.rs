@@ -1,4 +1,4 @@
-//! Stiffness of single blocks, and a generalised inverse of it.
+//! Stiffness matrices of single blocks, and generalised inverses of these matrices.
 
 use faer::linalg::solvers::{Llt, Solve};
 use faer::sparse::{SparseColMat, Triplet};
@@ -13,20 +13,20 @@ use crate::model::{Elasticity, Model, PlacedBlock};
 use crate::rounding::cleared;
 use crate::system::rigid::Modes;
 
-/// Blocks are equal if their corners, relative to the block's size, differ by less than this: by the
-/// rounding of the places of equal bricks in a wall.
+/// Tolerance \[-\] of equal shapes: blocks are equal if their corners, relative to the size of the block, differ by
+/// less. Theory: the rounding of the places of equal bricks in a wall.
 const SAME_SHAPE: f64 = 1e-12;
 
-/// The stiffness of a block without supports, with its three zero modes.
+/// The stiffness matrix of a block without supports, with its three zero modes.
 #[derive(Debug, Clone)]
 pub struct Stiffness {
     /// `K` \[N/m\], two rows per node of the mesh.
     pub matrix: SparseColMat<usize, f64>,
-    /// Factor of `K` with its rigid motions held; dense, and only built if a system is to be reduced.
+    /// Dense factor of `K` with its rigid motions held by springs; `None` unless a system is to be reduced.
     factor: Option<Llt<f64>>,
 }
 
-/// The parts of a stiffness to build.
+/// The parts of a stiffness that are built.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Built {
     /// The sparse matrix.
@@ -62,7 +62,7 @@ impl Stiffness {
         Ok(Self { matrix, factor })
     }
 
-    /// A generalised inverse of `K` \[m/N\] applied to columns of nodal forces \[N\].
+    /// Applies a generalised inverse of `K` \[m/N\] to columns of nodal forces \[N\].
     ///
     /// # Panics
     /// If the system was built [without factors](super::System::without_factors).
@@ -71,7 +71,7 @@ impl Stiffness {
         factor.expect("only a system with factors can be reduced").solve(rhs)
     }
 
-    /// `u.K u / 2` \[J\].
+    /// Returns the strain energy `u.K u / 2` \[J\] of displacements `u` \[m\].
     pub fn energy(&self, u: &[f64]) -> f64 {
         let entries = self.matrix.triplet_iter();
         entries.map(|entry| 0.5 * u[entry.row] * entry.val * u[entry.col]).sum()
@@ -83,7 +83,7 @@ fn assembled(n: usize, entries: &[Triplet<usize, usize, f64>]) -> SparseColMat<u
         .unwrap_or_else(|e| unreachable!("entries lie inside the matrix: {e:?}"))
 }
 
-/// The stiffness of one element and its nodes.
+/// The stiffness matrix of one element and its nodes.
 struct Element {
     nodes: [usize; 4],
     matrix: SMatrix<f64, 8, 8>,
@@ -113,7 +113,7 @@ fn element_stiffnesses(
     mesh.elements.iter().enumerate().map(of_element).collect()
 }
 
-/// The factor of `K` with springs of the block's own mean stiffness on the rigid motions only: the
+/// Factorises `K` plus springs on the rigid motions only, whose stiffness is the block's own mean stiffness. The
 /// inverse of the sum is a generalised inverse of `K`, because `K` and the springs act on different motions.
 fn factor(
     block: &PlacedBlock,
@@ -136,7 +136,7 @@ fn factor(
     })
 }
 
-/// The rigid motions of the nodes as orthonormal columns.
+/// Returns the rigid motions of the nodes as orthonormal columns.
 fn orthonormal_modes(block: &PlacedBlock, mesh: &BlockMesh) -> Mat<f64> {
     let modes = Modes::of(&block.corners);
     let motions: Vec<[Vector2<f64>; 3]> = mesh.nodes.iter().map(|p| modes.at(*p)).collect();
@@ -144,7 +144,7 @@ fn orthonormal_modes(block: &PlacedBlock, mesh: &BlockMesh) -> Mat<f64> {
     raw.qr().compute_thin_Q()
 }
 
-/// Stiffnesses by shape, mesh and material.
+/// The stiffnesses that were built so far, by shape, mesh and material.
 pub(super) struct Shared {
     parts: Built,
     list: Vec<Stiffness>,
@@ -152,7 +152,7 @@ pub(super) struct Shared {
 }
 
 struct Key {
-    /// Vectors from the first corner to the others.
+    /// Vectors from the first corner of the block to the others.
     sides: Vec<Vector2<f64>>,
     divisions: [usize; 2],
     elasticity: Elasticity,
@@ -163,7 +163,8 @@ impl Shared {
         Self { parts, list: Vec::new(), keys: Vec::new() }
     }
 
-    /// The index of the stiffness of a block with a mesh and elastic constants; built when it is new.
+    /// Returns the index of the stiffness of a block with a mesh and elastic constants; the stiffness is built if no
+    /// equal block has one.
     pub(super) fn index_of(
         &mut self,
         model: &Model,

@@ -5,15 +5,16 @@ use super::kinematics::stretched;
 use crate::ids::ContactId;
 use crate::model::Model;
 
-/// The bar in one part of a strip of mortar: a spring between the blocks of its joint that always acts.
+/// The bar that stands for one part of a mortar strip along its joint: a spring that always acts between the blocks of
+/// the joint.
 ///
-/// The elongation is `e = L u`, the mean over both faces of the change of distance of the part's two ends along the
-/// joint, and the force on them `q = -k e`. No rigid motion of a block stretches the bar.
+/// The elongation is `e = L u`, the change of distance between the two ends of the part along the joint, as a mean
+/// over both faces. The force on the ends is `q = -k e`. No rigid motion of a block stretches the bar.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct StretchRow {
-    /// The contact point that stands for the part.
+    /// The contact point of the part of the strip.
     pub contact: ContactId,
-    /// `k` \[N/m\].
+    /// Stiffness `k` of the bar \[N/m\].
     pub stiffness: f64,
 }
 
@@ -39,9 +40,9 @@ pub(super) fn add_rows(model: &Model, bodies: &mut [BodySystem]) -> Vec<StretchR
     rows
 }
 
-/// One entry for every degree of freedom. Both ends of a short part depend on the same nodes, and the sum of their
-/// entries is small: the product with the stiff bar would lose it among products that cancel if the entries stayed
-/// apart.
+/// Returns one entry for every degree of freedom, the sum of all its entries. Both ends of a short part depend on the
+/// same nodes, and the sum of their entries is small: with separate entries, products with the large stiffness of the
+/// bar would cancel, and the sum would be lost among their rounding errors.
 fn summed(mut entries: Vec<(usize, f64)>) -> Vec<(usize, f64)> {
     entries.sort_by_key(|(dof, _)| *dof);
     let same = entries.chunk_by(|(a, _), (b, _)| a == b);

@@ -1,20 +1,21 @@
-//! Checks of states: errors in equilibrium and in the laws of the joints, from displacements, forces and data only. The
-//! checks do not depend on the method that found the state: they use only matrices of single elements, no rows and no
-//! residuals. Gaps and slips are formed anew from the displacements by `recover`.
+//! Checks of states: errors in equilibrium and in the laws of the joints, from displacements, forces and data only.
+//! The checks do not depend on the method that found the state: they use matrices of single elements, but no rows and
+//! no residuals of the problem. `recover` computes gaps and slips again from the displacements.
 //!
 //! # Scales of errors
-//! A force is relative to the sum of the sizes of all forces on the same block: loads, contact forces, and the tensile
-//! strengths of its points, since contact forces are computed relative to these. So a heavy neighbour does not excuse a
-//! light block. A length is relative to the displacements of the blocks that meet, and to initial gaps and slips and
-//! compressions of joints at their points. If one of the blocks is rigid, the length is relative to the largest length
-//! of all, since a rigid block has no displacement scale of its own.
+//! A force is divided by the sum of the sizes of all forces on the same block: loads, contact forces, and the tensile
+//! strengths of its points, since contact forces are computed relative to these strengths. So a heavy neighbour does
+//! not hide an error on a light block. A length is divided by the largest length of the blocks that meet:
+//! displacements, and initial gaps and slips and compressions of joints at their points. If one of the blocks is
+//! rigid, the length is divided by the largest length of all blocks, since a rigid block has no displacement scale of
+//! its own.
 //!
-//! Rounding errors limit force and length errors. Blocks that touch share forces and displacements, and an equation of
-//! them is known up to the rounding errors of its largest term: `eps` times the number of terms times
+//! Rounding errors limit the accuracy of force and length errors. Blocks that touch share forces and displacements,
+//! and their equations hold only up to the rounding errors of the largest term: `eps` times the number of terms times
 //!
-//! * for a force on a block, the largest sum of forces on it or on a block that it touches, and for an elastic block
-//!   also stiffness times displacement at one of its nodes;
-//! * for a length, the largest of all.
+//! * for a force on a block, the largest sum of forces on the block or on a block that it touches, and for an elastic
+//! block also the largest product of stiffness and displacement at one of its nodes;
+//! * for a length, the largest length of all blocks.
 //!
 //! An error that is not larger than these rounding errors counts as 1e-9 at most, since it cannot be reduced. It can
 //! hide an error on a light block only if another block is about 1e13 times as heavy; [`Checks::uncarried`] detects
@@ -43,43 +44,46 @@ use bodies::Bodies;
 use contact::Pair;
 use lengths::Lengths;
 
-/// Balances and violations, dimensionless. Their scales are described [above](self).
+/// Errors of equilibrium and of the contact law of a state \[-\], relative to the scales described [above](self); and
+/// numbers of contact points by status.
 #[derive(Debug, Clone, Serialize)]
 #[non_exhaustive]
 pub struct Checks {
     /// Largest unbalanced force of a block, relative to the forces on it.
     pub force_balance: f64,
-    /// Largest unbalanced moment of a block about its centroid, divided by the block's size, relative to the
-    /// same forces.
+    /// Largest unbalanced moment of a block about its centroid, divided by the size of the block, relative to the
+    /// forces on it.
     pub moment_balance: f64,
-    /// Largest part of a load that is not carried: the unbalanced force of a block relative to the loads on that block,
-    /// unless it is below 1e-9 of all forces on it; and relative to all loads. It detects a light block whose forces
-    /// are lost among the digits of its neighbours, and forces so large that the loads are lost among their digits.
+    /// Largest part of a load that is not carried \[-\]: the larger of two ratios. One is the unbalanced force of a
+    /// block divided by the loads on the block, zero if the force is below 1e-9 of all forces on the block; the other
+    /// is the unbalanced force divided by all loads. The value detects a light block whose forces are lost among the
+    /// digits of its neighbours, and forces so large that the loads are lost among their digits.
     pub uncarried: f64,
-    /// Largest unbalanced force at a node of an elastic block, between its elements, loads and contact forces; relative
-    /// to the largest of these forces at the nodes, or to the forces on the block spread over all nodes if that is
-    /// more.
+    /// Largest unbalanced force at a node of an elastic block, from its elements, loads and contact forces. It is
+    /// divided by the largest sum of loads and contact forces at a node, or by the forces on the block spread over all
+    /// nodes if that is more.
     pub nodal_balance: f64,
     /// Largest violation of the [law](crate::law) of a joint by a force, relative to the forces on the lighter of the
-    /// blocks that meet. If friction `mu` is above one, the bound has `mu` times the error of the normal force, so that
-    /// the violation is divided by `mu`.
+    /// blocks that meet. A violation of the bound of friction is divided by `mu` if `mu` is above one, since the bound
+    /// has `mu` times the error of the normal force.
     pub cone_violation: f64,
     /// Deepest interpenetration, relative to the lengths of the blocks that meet.
     pub penetration: f64,
-    /// Forces across gaps, and tangential forces off the bound at points that slide in the step. The measure is the smaller of
-    /// the gap or slip (as a length) and the error of the force.
+    /// Largest violation of complementarity: a force across an open gap, or a tangential force off the bound at a
+    /// point that slides in the step. The measure is the smaller of two errors: the gap or slip, as a relative length,
+    /// and the relative error of the force.
     pub complementarity: f64,
-    /// The error of `f.u + t.y = 2 U + t.x`: work of the loads and of forces on gaps and slips, strain energy, work on
-    /// initial gaps and slips; plus the work of friction if it is positive. Relative to the sum of the sizes of all
-    /// terms.
+    /// The error of the energy balance `f.u + t.y = 2 U + t.x`, plus the work of friction if it is positive, relative
+    /// to the sum of the sizes of all terms. The terms are the work of loads and of forces on gaps and slips, the
+    /// strain energy `U`, and the work on initial gaps and slips.
     pub energy: f64,
-    /// Largest change of the shape of a rigid block, relative to its displacements.
+    /// Largest change of the shape of a rigid block, relative to its largest displacement.
     pub deformation: f64,
-    /// The smallest relative change of loads, stiffness and contact forces for which the forces at all nodes are in
-    /// equilibrium; for rigid blocks, of loads and contact forces. The value is not an error by itself.
+    /// Backward error \[-\]: the smallest relative change of loads, stiffness and contact forces (for rigid blocks, of
+    /// loads and contact forces) for which the forces at all nodes are in equilibrium. The value does not count as an
+    /// error.
     pub backward: f64,
-    /// Ratio of the forces on the block with the largest to those on the block with the smallest forces; not an error
-    /// by itself.
+    /// Ratio of the largest to the smallest sum of forces on a block \[-\]. The value does not count as an error.
     pub spread: f64,
     /// Number of open contact points.
     pub open: usize,
@@ -89,28 +93,30 @@ pub struct Checks {
     pub slip: usize,
 }
 
-/// The least tolerance, and the largest value of an error within rounding: a well posed problem is solved to some
-/// digits more, and an ill posed one need not be.
+/// Lower bound of the tolerance, and upper bound of an error that is within rounding \[-\]. A well posed problem is
+/// solved to some digits more; the accuracy of an ill posed one is limited.
 const LARGEST_ERROR: f64 = 1e-9;
-/// The least part of the loads that counts as not carried.
+/// Lower bound of the tolerance for the part of the loads that is not carried \[-\].
 const LARGEST_UNCARRIED: f64 = 1e-3;
 
 impl Checks {
-    /// Whether a state is an equilibrium: every error is at most the tolerance, or 1e-9 if that is larger; and all
-    /// loads are carried, to a thousandth or the tolerance.
+    /// Returns whether the state is an equilibrium: every error is at most the tolerance, or 1e-9 if that is larger,
+    /// and the part of the loads that is not carried is at most a thousandth, or the tolerance if that is larger.
     ///
-    /// The limit of a thousandth has to be weaker. If the forces on blocks exceed the loads by a factor near the
-    /// reciprocal of the rounding error, these rounding errors hide how much of a small load is carried.
+    /// The bound of a thousandth has to be weaker than that of the errors: if the forces on blocks exceed the loads by
+    /// a factor near the reciprocal of the rounding error, their rounding errors hide how much of a small load is
+    /// carried.
     pub fn hold(&self, tolerance: f64) -> bool {
         self.excess(tolerance) <= 1.0 && self.uncarried <= tolerance.max(LARGEST_UNCARRIED)
     }
 
-    /// The largest error, relative to the limit of [`hold`](Self::hold).
+    /// Returns the largest error divided by its limit in [`hold`](Self::hold).
     pub(crate) fn excess(&self, tolerance: f64) -> f64 {
         self.worst() / tolerance.max(LARGEST_ERROR)
     }
 
-    /// The largest error.
+    /// Returns the largest error; [`uncarried`](Self::uncarried), [`backward`](Self::backward) and
+    /// [`spread`](Self::spread) are not included.
     pub fn worst(&self) -> f64 {
         let errors = [
             self.force_balance,
@@ -125,7 +131,7 @@ impl Checks {
         errors.into_iter().fold(0.0, larger)
     }
 
-    /// Checks a state of the model, which has the slips at the start of the step ([`Model::under`]).
+    /// Checks a state of the model, whose initial slips are those at the start of the step ([`Model::under`]).
     ///
     /// ```
     /// # use masonry::{Model, State, verify::checks::Checks};
@@ -168,18 +174,18 @@ impl Checks {
     }
 }
 
-/// The larger number; NaN counts as larger than all.
+/// Returns the larger of two numbers; NaN counts as infinite.
 fn larger(a: f64, b: f64) -> f64 {
     if a.is_nan() || b.is_nan() { f64::INFINITY } else { a.max(b) }
 }
 
-/// The relative error of a part of a whole, at most [`LARGEST_ERROR`] if the part is within rounding.
+/// Returns `part / whole` as a relative error; at most [`LARGEST_ERROR`] if `part` is within the rounding error.
 fn known(part: f64, whole: f64, rounding: f64) -> f64 {
     let error = relative(part, whole);
     if part <= rounding { error.min(LARGEST_ERROR) } else { error }
 }
 
-/// A part divided by the whole: zero if the part is not positive, infinite if either is not a number or the whole is zero.
+/// Returns `part / whole`: zero if `part` is not positive, infinite if one of the numbers is not finite.
 fn relative(part: f64, whole: f64) -> f64 {
     if part <= 0.0 {
         0.0

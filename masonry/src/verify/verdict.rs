@@ -28,18 +28,18 @@ use crate::verify::step::{LoadingEnd, StepResult};
 
 pub(crate) use unique::circulating;
 
-/// All data on which the verdict depends.
+/// The results of an analysis on which the verdict depends.
 #[derive(Clone, Copy)]
 pub(crate) struct Findings<'a> {
     /// The noun for the structure in sentences: `wall` or `arch`.
     pub(crate) structure: &'static str,
     pub(crate) model: &'a Model,
     pub(crate) step: &'a StepResult,
-    /// The load history, if there are several steps.
+    /// The load history; `None` if there is only one step.
     pub(crate) history: Option<&'a History>,
-    /// Unusual magnitudes of the scene.
+    /// Sentences about unusual magnitudes of the scene.
     pub(crate) unusual: &'a [String],
-    /// Whether the blocks are at rest under any forces.
+    /// Whether the blocks are at rest whatever the contact forces.
     pub(crate) at_rest: bool,
     /// Number of contact points whose forces are not unique.
     pub(crate) circulating: usize,
@@ -74,8 +74,8 @@ impl Judgement {
     }
 }
 
-/// Whether displacements are too large for the state to have a meaning. A state that was reached only by a motion may
-/// be the end of a fall.
+/// Returns whether displacements are too large for the state to have a meaning. The limit is lower for a state that
+/// was reached only by a motion, since it may be the end of a fall.
 fn is_too_far(known: &Findings<'_>, movement: Drift) -> bool {
     movement.is_too_large() || (known.step.info.way == Way::Motion && movement.is_large())
 }
@@ -113,19 +113,21 @@ fn warnings(known: &Findings<'_>, verdict: Verdict, movement: Option<Drift>) -> 
     list
 }
 
-/// The movements of blocks against each other, relative to their size.
+/// The largest movements of blocks against each other, relative to the sizes of the blocks.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Drift {
-    /// The largest displacement of one side of a contact against the other, relative to the smaller of the blocks
-    /// there; or of a node against the rigid motion of its block.
+    /// The larger of two ratios \[-\]: the largest relative displacement of the two sides of a contact, divided by the
+    /// size of the smaller block; and the largest deformation of a block, the distance of a node from the rigid motion
+    /// of the block, divided by the size of that block.
     pub(crate) share: f64,
     /// The largest rotation of a block \[rad\].
     pub(crate) turned: f64,
 }
 
-/// Parts of the size of a block, and of a radian, from which the geometry has changed visibly.
+/// Limit of [`Drift::share`] \[-\] and of [`Drift::turned`] \[rad\] above which the geometry has changed visibly.
 const LARGE: f64 = 0.1;
-/// Parts of the size of a block, and of a radian, from which the contacts of the scene are no longer those of the wall.
+/// Limits of [`Drift::share`] \[-\] and of [`Drift::turned`] \[rad\] above which the contacts of the scene are no
+/// longer those of the deformed wall.
 const TOO_LARGE: [f64; 2] = [1.0, 0.5];
 
 impl Drift {
@@ -147,18 +149,18 @@ impl Drift {
         movement
     }
 
-    /// Whether displacements are large.
+    /// Returns whether displacements are large enough to change the geometry visibly.
     pub(crate) fn is_large(self) -> bool {
         self.share > LARGE || self.turned > LARGE
     }
 
-    /// Whether displacements are so large that the answer has no meaning.
+    /// Returns whether displacements are so large that the state has no meaning.
     pub(crate) fn is_too_large(self) -> bool {
         self.share > TOO_LARGE[0] || self.turned > TOO_LARGE[1]
     }
 }
 
-/// The movement of the sides of a contact against each other \[m\], without the movement of a support.
+/// Returns the relative displacement of the two sides of a contact \[m\], without the movement of a support.
 fn apart(model: &Model, state: &State, contact: &JointPoint) -> f64 {
     let moved = match model.joints[contact.joint.index()].a {
         Body::Support(id) => model.supports[id.index()].displacement_at(contact.position),

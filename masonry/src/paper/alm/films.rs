@@ -28,7 +28,7 @@ pub struct Segment {
     pub film: PointwiseFilm,
     /// The states of the Gauss points before the step.
     before: Vec<FilmState>,
-    /// The initial relative displacements of the ends \[m\], in axes of the segment, before any block moves.
+    /// The initial displacements of the ends \[m\], in axes of the segment, that stand for the initial gaps.
     apart: Vector8,
     /// The rotation matrix from global axes to the axes of the segment.
     axes: Matrix2<f64>,
@@ -123,8 +123,8 @@ impl Segment {
         }
     }
 
-    /// Returns the displacements of the ends of the segment in its own axes \[m\], plus their initial relative
-    /// displacements.
+    /// Returns the displacements of the ends of the segment in its own axes \[m\], including the initial
+    /// displacements that stand for the initial gaps.
     pub fn displacements(&self, u: &[f64]) -> Vector8 {
         self.motion(u) + self.apart
     }

@@ -106,7 +106,7 @@ impl<'a> Structure<'a> {
     }
 
     /// Computes the residuals of a state from the data. The law of films holds by construction, and the internal
-    /// forces of films are taken from the loads of the contact problem.
+    /// forces of films are subtracted from the loads of the contact problem.
     ///
     /// # Errors
     /// [`lcp::Error::NotFinite`] if the forces of films overflow.

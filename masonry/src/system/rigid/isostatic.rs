@@ -1,4 +1,4 @@
-//! The rows of `G = C N` that carry the statically determinate part of the contact forces (3.18).
+//! The choice of the rows of `G = C N` that carry the statically determinate part of the contact forces (3.18).
 
 use faer::linalg::solvers::ColPivQr;
 use faer::{Mat, MatRef};
@@ -6,14 +6,15 @@ use nalgebra::Point2;
 
 use super::{Modes, select_rows};
 
-/// Pivots of the orthogonal factorisation below this fraction of the largest count as zero. Exact
-/// dependencies leave 1e-15; the weakest hold of a real structure is far above.
+/// Threshold of the rank \[-\]: pivots of the orthogonal factorisation below this fraction of the largest count as
+/// zero. Exact dependencies leave pivots of 1e-15; the pivots of the weakest supports of a real structure are far
+/// above the threshold.
 const RANK_TOLERANCE: f64 = 1e-10;
 
 /// A split of the contact rows into isostatic rows and the others.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Isostatic {
-    /// Linearly independent rows, as many as rigid amplitudes; increasing.
+    /// The isostatic rows: linearly independent, as many as there are rigid amplitudes; increasing.
     pub rows: Vec<usize>,
     /// All other rows, increasing.
     pub others: Vec<usize>,
@@ -22,14 +23,14 @@ pub struct Isostatic {
 /// A motion of one block that changes no gap.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum FreeMotion {
-    /// All points of the block move along this unit vector.
+    /// The block translates along a unit vector.
     Translation {
-        /// The direction.
+        /// The direction, a unit vector.
         direction: [f64; 2],
     },
     /// The block turns about a point.
     Rotation {
-        /// The point that stays \[m\].
+        /// The point that does not move \[m\].
         centre: Point2<f64>,
     },
 }
@@ -47,30 +48,30 @@ impl std::fmt::Display for FreeMotion {
     }
 }
 
-/// The reason why blocks are not held.
+/// The reason why contacts do not hold the blocks.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum RigidError {
-    /// Some blocks can move without any change at a contact.
+    /// Some blocks can move without any relative displacement at a contact.
     #[error("block {block} can {motion}, and no contact resists (free motions in all: {free})")]
     Free {
-        /// The position in the model of the block that moves most.
+        /// The index of the block of the model that moves most.
         block: usize,
         /// The motion of the block.
         motion: FreeMotion,
-        /// Number of independent motions that nothing resists.
+        /// Number of independent motions that no contact resists.
         free: usize,
     },
 }
 
-/// Chooses the isostatic rows of `g` (all rows by three columns per block).
+/// Chooses the isostatic rows of `g`, the matrix `G` of all rows with three columns per block.
 ///
-/// The first `normal` rows are preferred: a column-pivoted orthogonal factorisation of their transpose takes
-/// the best conditioned of them. Tangential rows, projected on the free motions, are taken only if normals
-/// lack rank (no normal resists the horizontal motion of a column on a floor). `weights`, one positive number
-/// per row, favour rows with large weights among equals; the recovered state does not depend on the choice.
+/// The first `normal` rows of `g` are preferred: a column-pivoted orthogonal factorisation of their transpose selects
+/// the best conditioned of them. Tangential rows, projected on the free motions, are selected only if the normal rows
+/// lack rank (no normal row resists the horizontal motion of a column on a floor). `weights` has one positive number
+/// per row; among equal rows, rows with large weights are selected. The recovered state does not depend on the choice.
 ///
 /// # Errors
-/// [`RigidError::Free`] when all rows together leave a motion free.
+/// [`RigidError::Free`] if all rows together leave a motion free.
 ///
 /// # Panics
 /// If there are fewer weights than rows.
@@ -108,13 +109,13 @@ pub fn choose(
 /// Independent columns of a matrix and the orthogonal complement of their span.
 struct Pivoted {
     columns: Vec<usize>,
-    /// Orthonormal columns.
+    /// Orthonormal columns that span the orthogonal complement.
     complement: Mat<f64>,
 }
 
 impl Pivoted {
-    /// The pivoted factorisation. `reference` is the size of the data from which the matrix was computed: a
-    /// matrix of rounding errors only has rank zero.
+    /// Computes the pivoted factorisation. `reference` is the size of the data from which the matrix was computed: a
+    /// matrix that has only rounding errors gets rank zero.
     fn of(matrix: MatRef<'_, f64>, reference: f64) -> Self {
         let (height, width) = matrix.shape();
         if width == 0 {
@@ -130,7 +131,7 @@ impl Pivoted {
     }
 }
 
-/// The free motion in which a single block moves most; `free` has orthonormal columns.
+/// Describes the free motion in which a single block moves most; `free` has the free motions as orthonormal columns.
 fn describe(free: &Mat<f64>, modes: &[Modes]) -> RigidError {
     let squared_norm = |i: usize| (0..free.ncols()).map(|j| free[(i, j)].powi(2)).sum::<f64>();
     let strongest = (0..free.nrows())

@@ -1,4 +1,4 @@
-//! The forces on every block: their unbalanced part, and their size.
+//! Sums of the forces on every block, and their unbalanced part.
 
 use nalgebra::{Point2, Vector2};
 
@@ -9,21 +9,22 @@ use crate::geometry;
 use crate::model::{Anchor, Model, PlacedBlock};
 use crate::recover;
 
-/// The forces on all blocks.
+/// The sums of the forces on every block, in the order of the model.
 pub(super) struct Bodies(Vec<BodyForces>);
 
-/// The forces on a block.
+/// The sums of the forces on a block.
 struct BodyForces {
     force: Vector2<f64>,
-    /// The moment about the centroid, divided by the size of the block \[N\].
+    /// The sum of the moments about the centroid, divided by the size of the block \[N\].
     moment: f64,
     /// The sum of the sizes of the block's loads \[N\].
     load: f64,
     /// The sum of the sizes of all forces on the block and of the tensile strengths of its points \[N\].
     size: f64,
-    /// The number of these forces.
+    /// The number of forces in the sums.
     count: usize,
-    /// Error of the balance due to errors of the forces around the block \[N\].
+    /// Rounding error to expect in the balance of the block, due to errors of the forces on the block and its
+    /// neighbours \[N\].
     rounding: f64,
 }
 
@@ -55,7 +56,7 @@ impl BodyForces {
         self.count += 1;
     }
 
-    /// A force relative to all forces on the block.
+    /// Returns the part `part` \[N\] of the forces, relative to the sum of the sizes of all forces on the block \[-\].
     fn share(&self, part: f64) -> f64 {
         known(part, self.size, self.rounding)
     }
@@ -102,28 +103,29 @@ impl Bodies {
         Self(list)
     }
 
-    /// Rounding errors to expect in the balances of the blocks, from the forces on them and on their neighbours \[N\].
+    /// Returns for every block the rounding error to expect in its balance, from the forces on it and on its
+    /// neighbours \[N\].
     pub(super) fn roundings(&self) -> impl Iterator<Item = f64> {
         self.0.iter().map(|body| body.rounding)
     }
 
-    /// The sums of the sizes of the forces on the blocks \[N\].
+    /// Returns for every block the sum of the sizes of the forces on it \[N\].
     pub(super) fn sizes(&self) -> impl Iterator<Item = f64> {
         self.0.iter().map(|body| body.size)
     }
 
-    /// The largest unbalanced force.
+    /// Returns the largest unbalanced force, relative to the forces on its block \[-\].
     pub(super) fn force_balance(&self) -> f64 {
         self.0.iter().map(|body| body.share(body.force.norm())).fold(0.0, larger)
     }
 
-    /// The largest unbalanced moment.
+    /// Returns the largest unbalanced moment, divided by the size of the block and by the forces on it \[-\].
     pub(super) fn moment_balance(&self) -> f64 {
         self.0.iter().map(|body| body.share(body.moment.abs())).fold(0.0, larger)
     }
 
-    /// The largest part of a load that is not carried; unbalanced forces below the part `none` of all forces on a
-    /// block count as zero.
+    /// Returns the largest part of a load that is not carried \[-\], relative to the loads on a block or to all loads.
+    /// An unbalanced force below the part `none` of all forces on a block is not compared with the loads on the block.
     pub(super) fn uncarried(&self, none: f64) -> f64 {
         let total: f64 = self.0.iter().map(|body| body.load).sum();
         let of_body = |body: &BodyForces| {
@@ -136,12 +138,12 @@ impl Bodies {
         self.0.iter().map(of_body).fold(0.0, larger)
     }
 
-    /// A force between some blocks, relative to those on the lightest of them.
+    /// Returns a force between some blocks, relative to the forces on the lightest of these blocks \[-\].
     pub(super) fn share(&self, blocks: &[usize], part: f64) -> f64 {
         blocks.iter().map(|block| self.0[*block].share(part)).fold(0.0, larger)
     }
 
-    /// The forces on the block with the largest forces, relative to those on the block with the smallest.
+    /// Returns the ratio of the largest to the smallest sum of forces on a block \[-\].
     pub(super) fn spread(&self) -> f64 {
         let loaded = || self.sizes().filter(|size| *size > 0.0);
         let least = loaded().fold(f64::INFINITY, f64::min);

@@ -1,4 +1,4 @@
-//! Gap, slip and force of a contact point, against the law of its joint.
+//! Comparison of gap, slip and force of a contact point with the law of its joint.
 
 use super::bodies::Bodies;
 use super::{Lengths, larger};
@@ -7,24 +7,25 @@ use crate::law::PointLaw;
 use crate::model::{JointPoint, Model};
 use crate::recover;
 
-/// Gap, slip and forces of a contact point, with the data for their comparison.
+/// Gap, slip and forces of a contact point, and the law with which they are compared.
 pub(super) struct Pair {
-    /// The gap from the displacements \[m\].
+    /// The gap \[m\], computed from the displacements.
     pub(super) gap: f64,
-    /// The slip in the step, from the displacements \[m\].
+    /// The slip in the step \[m\], computed from the displacements.
     pub(super) slip: f64,
     pub(super) t_n: f64,
     pub(super) t_t: f64,
-    /// `x_0` and `s_0` \[m\].
+    /// Initial gap `x_0` and initial slip `s_0` \[m\].
     pub(super) initial: [f64; 2],
     law: PointLaw,
-    /// The blocks that meet.
+    /// The indices of the blocks that meet at the point.
     blocks: Vec<usize>,
 }
 
 impl Pair {
     pub(super) fn of(model: &Model, state: &State, contact: &JointPoint, it: &PointState) -> Self {
-        // Faces that are pressed come nearer than at first, which is not a gap below zero.
+        // The compression of the joint is added: faces under pressure come nearer than at first, which is not a
+        // negative gap.
         let [c_n, c_t] = contact.gives();
         let joint = &model.joints[contact.joint.index()];
         let apart = recover::relative_displacement(model, &state.displacements, contact);
@@ -42,19 +43,21 @@ impl Pair {
         }
     }
 
-    /// Tension beyond the tensile strength, and force along the joint beyond its bound.
+    /// Returns the distance of the force outside of its cone \[-\]: tension beyond the tensile strength, or force
+    /// along the joint beyond its bound.
     pub(super) fn outside_cone(&self, bodies: &Bodies) -> f64 {
         let pull = bodies.share(&self.blocks, -self.law.tension - self.t_n);
         let violation = self.law.violation(self.t_n, self.t_t);
         larger(pull, bodies.share(&self.blocks, violation / self.sensitivity()))
     }
 
-    /// The depth by which the sides penetrate one another.
+    /// Returns the depth by which the sides penetrate one another, relative to the lengths of their blocks \[-\].
     pub(super) fn inside(&self, lengths: &Lengths) -> f64 {
         lengths.share(&self.blocks, -self.gap)
     }
 
-    /// Force across a gap, and sliding under a force other than the bound against it.
+    /// Returns the violation of complementarity \[-\]: a force across an open gap, or sliding under a force other than
+    /// the bound against the slip.
     pub(super) fn against_law(&self, bodies: &Bodies, lengths: &Lengths) -> f64 {
         let length = |part: f64| lengths.share(&self.blocks, part);
         let force = |part: f64| bodies.share(&self.blocks, part);
@@ -64,13 +67,13 @@ impl Pair {
         larger(across, smaller(length(self.slip.abs()), force(error)))
     }
 
-    /// The factor by which the bound of friction magnifies errors of the normal force.
+    /// Returns the factor by which the bound of friction magnifies errors of the normal force \[-\].
     fn sensitivity(&self) -> f64 {
         self.law.cone().sensitivity()
     }
 }
 
-/// The smaller number; NaN counts as an error.
+/// Returns the smaller of two numbers; infinity if one of them is NaN.
 fn smaller(a: f64, b: f64) -> f64 {
     if a.is_nan() || b.is_nan() { f64::INFINITY } else { a.min(b) }
 }

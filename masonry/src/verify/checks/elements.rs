@@ -1,4 +1,4 @@
-//! Equilibrium of the nodes of elastic blocks, from their elements.
+//! Equilibrium of the nodes of elastic blocks, computed from their elements.
 
 use nalgebra::Vector2;
 
@@ -11,10 +11,10 @@ use crate::recover;
 use crate::system::kinematics::{shares, stretched, terms};
 use crate::system::nodal_loads;
 
-/// The number of terms at a node: eight of each of four elements.
+/// The number of terms in the sum of forces at a node: eight from each of four elements.
 const TERMS: f64 = 32.0;
 
-/// The force at a node, and the sum of the sizes of its terms, which may circulate \[N\].
+/// The sum of forces at a node, and the sum of the sizes of its terms \[N\]; terms may circulate and cancel.
 #[derive(Clone)]
 pub(super) struct Nodal {
     force: Vector2<f64>,
@@ -32,26 +32,28 @@ impl Nodal {
     }
 }
 
-/// The nodal forces of an elastic block.
+/// The largest forces at the nodes of an elastic block.
 pub(super) struct NodeForces {
     /// The largest unbalanced force \[N\].
     left: f64,
-    /// The largest sum of loads and contact forces at a node \[N\].
+    /// The largest sum of the sizes of loads and contact forces at a node \[N\].
     outside: f64,
-    /// The largest sum of terms of the elements at a node: stiffness times displacement \[N\].
+    /// The largest sum of the sizes of terms of the elements at a node \[N\]; each term is stiffness times
+    /// displacement.
     pub(super) inside: f64,
-    /// The number of nodes.
+    /// The number of nodes of the block.
     pub(super) count: usize,
 }
 
 impl NodeForces {
-    /// The residual relative to all terms.
+    /// Returns the largest unbalanced force, relative to the terms of the elements and the forces from outside \[-\].
     pub(super) fn backward(&self) -> f64 {
         relative(self.left, self.inside.max(self.outside))
     }
 
-    /// The residual at a node, relative to the forces from outside, which add up to `size` on the block. It has
-    /// the rounding errors of the terms of the elements, and those of the forces around the block.
+    /// Returns the largest unbalanced force at a node, relative to the forces from outside \[-\]; `size` is the sum of
+    /// their sizes on the block. An unbalanced force within the rounding errors of the terms of the elements, and of
+    /// the forces around the block (`around`), counts as 1e-9 at most.
     pub(super) fn error(&self, size: f64, around: f64) -> f64 {
         // Forces on a block that act elsewhere spread over its nodes.
         let outside = self.outside.max(size / self.count as f64);
@@ -60,7 +62,7 @@ impl NodeForces {
     }
 }
 
-/// The nodes of every block; `None` for rigid blocks.
+/// Computes the largest nodal forces of every block; `None` for rigid blocks.
 pub(super) fn nodes(model: &Model, state: &State) -> Vec<Option<NodeForces>> {
     let outside = outside(model, state);
     let blocks = model.blocks.iter().zip(&state.displacements).zip(&outside);
@@ -78,7 +80,8 @@ pub(super) fn nodes(model: &Model, state: &State) -> Vec<Option<NodeForces>> {
     blocks.map(of_block).collect()
 }
 
-/// Loads and contact forces at the nodes, and the bars of strips of mortar; empty for rigid blocks.
+/// Returns the forces from outside at the nodes of every block: loads, contact forces, and forces of the bars of
+/// mortar strips. Empty for rigid blocks.
 fn outside(model: &Model, state: &State) -> Vec<Vec<Nodal>> {
     let loads = |block: &PlacedBlock| -> Vec<Nodal> {
         let mesh = block.mesh.as_ref();
@@ -98,7 +101,7 @@ fn outside(model: &Model, state: &State) -> Vec<Vec<Nodal>> {
         for term in terms(model, contact) {
             add(term.anchor, term.normal * it.t_n + term.tangent * it.t_t);
         }
-        // The bar of a part of a strip always acts.
+        // The bar of a strip acts even if the joint is open.
         let stiffness = contact.film.and_then(|film| film.stretch).map_or(0.0, |it| it.stiffness);
         let pull = stiffness * recover::film_elongation(model, &state.displacements, contact);
         for (anchor, along) in stretched(model, contact) {
@@ -108,7 +111,7 @@ fn outside(model: &Model, state: &State) -> Vec<Vec<Nodal>> {
     list
 }
 
-/// The forces of the elements on the nodes of a block.
+/// Computes the forces of the elements on the nodes of a block; `None` for a rigid block.
 fn inside(model: &Model, block: &PlacedBlock, u: &[Vector2<f64>]) -> Option<Vec<Nodal>> {
     let (mesh, elasticity) = (block.mesh.as_ref()?, block.elasticity?);
     let d = constitutive(elasticity, model.plane);

@@ -1,4 +1,5 @@
-//! The work of loads against the stored and dissipated energy; and the shape of rigid blocks.
+//! The balance between the work of the loads and the stored and dissipated energy; and the change of the shape of
+//! rigid blocks.
 
 use nalgebra::Vector2;
 
@@ -10,7 +11,8 @@ use crate::recover;
 use crate::system::nodal_loads;
 use crate::system::rigid::Modes;
 
-/// The error of `f.u + t.y = 2 U + t.x`, and friction that does positive work, relative to all terms.
+/// Returns the error of `f.u + t.y = 2 U + t.x`, plus the work of friction if it is positive, relative to the sizes of
+/// all terms \[-\].
 pub(super) fn error(model: &Model, state: &State, pairs: &[Pair]) -> f64 {
     let (mut work, mut size) = (0.0, 0.0);
     for (block, u) in model.blocks.iter().zip(&state.displacements) {
@@ -19,7 +21,7 @@ pub(super) fn error(model: &Model, state: &State, pairs: &[Pair]) -> f64 {
             size += force.norm() * u.norm();
         }
     }
-    // The work of contact forces on both sides cancels, but not its rounding errors.
+    // The work of contact forces on both sides cancels, except for its rounding errors.
     for (contact, it) in model.contacts.iter().zip(&state.contacts) {
         let sides = [Some(contact.b), contact.a].into_iter().flatten();
         let moved: f64 = sides
@@ -38,8 +40,8 @@ pub(super) fn error(model: &Model, state: &State, pairs: &[Pair]) -> f64 {
     larger(relative(rest.abs(), size), relative(-dissipated, size))
 }
 
-/// The loads of a block with their displacements, at its nodes or, for a rigid block, in their places; a moment is a
-/// force at the distance of the farthest corner.
+/// Returns the loads of a block, each with its displacement: at the nodes, or at their places if the block is rigid. A
+/// moment on a rigid block becomes a force at the distance of the farthest corner.
 fn loads(model: &Model, block: &PlacedBlock, u: &[Vector2<f64>]) -> Vec<[Vector2<f64>; 2]> {
     if let Some(mesh) = &block.mesh {
         let loads = nodal_loads(model, block, mesh);
@@ -54,7 +56,7 @@ fn loads(model: &Model, block: &PlacedBlock, u: &[Vector2<f64>]) -> Vec<[Vector2
     model.forces_on(block).iter().flat_map(of_load).collect()
 }
 
-/// The largest change of the shape of a rigid block, relative to its largest displacement.
+/// Returns the largest change of the shape of a rigid block, relative to its largest displacement \[-\].
 pub(super) fn deformation(model: &Model, state: &State) -> f64 {
     let blocks = model.blocks.iter().zip(&state.displacements);
     let rigid = blocks.filter(|(block, _)| block.mesh.is_none());

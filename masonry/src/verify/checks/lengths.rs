@@ -1,4 +1,4 @@
-//! The movements of blocks, with which gaps and slips are compared.
+//! The sizes of the movements of blocks, with which gaps and slips are compared.
 
 use nalgebra::Vector2;
 
@@ -8,14 +8,16 @@ use super::{known, larger};
 use crate::data::state::{PointState, State};
 use crate::model::{JointPoint, Model};
 
-/// The largest lengths \[m\].
+/// The largest lengths of every block, and their rounding errors \[m\].
 pub(super) struct Lengths {
-    /// The lengths of every block: displacements, and initial gaps and slips and compressions of joints at its points.
-    /// A block may be at rest between joints and supports that move. Rigid blocks have the largest length of all: their
-    /// movements follow only from those of other blocks, and many do not move.
+    /// For every block, the largest length \[m\]: displacements, and initial gaps and slips and compressions of joints
+    /// at its points. The lengths at the points count because a block may be at rest between joints and supports that
+    /// move. Rigid blocks have the largest length of all blocks: their movements follow only from those of other
+    /// blocks, and many do not move.
     blocks: Vec<f64>,
-    /// Rounding errors of the largest length of all, and on elastic blocks the deformations by rounding errors of the
-    /// forces around them: only these errors deform a block that carries nothing.
+    /// For every block, the larger of two rounding errors \[m\]: that of the largest length in the model, and, for an
+    /// elastic block, the deformation that rounding errors of the forces on it cause. A block that carries nothing is
+    /// deformed only by such errors.
     roundings: Vec<f64>,
 }
 
@@ -55,7 +57,7 @@ impl Lengths {
         Self { blocks, roundings }
     }
 
-    /// A length at a contact point of some blocks, relative to the largest length of these blocks.
+    /// Returns a length at a contact point of some blocks, relative to the largest length of these blocks \[-\].
     pub(super) fn share(&self, blocks: &[usize], part: f64) -> f64 {
         let largest = |of: &[f64]| blocks.iter().map(|block| of[*block]).fold(0.0, larger);
         known(part, largest(&self.blocks), largest(&self.roundings))

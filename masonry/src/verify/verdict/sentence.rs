@@ -1,4 +1,4 @@
-//! Verdicts in the words of an engineer.
+//! Sentences that describe verdicts in the words of an engineer.
 
 use lcp::Status;
 
@@ -8,7 +8,7 @@ use crate::history::{History, HistoryStep, SecondLoading};
 use crate::model::Model;
 use crate::scene::Movement;
 
-/// The sentence of a verdict, or two for a load history, of which the second gives the last step.
+/// Returns the sentence of a verdict; for a load history, two sentences, of which the second describes the last step.
 pub(super) fn of(
     known: &Findings<'_>,
     verdict: Verdict,
@@ -62,7 +62,7 @@ pub(super) fn of(
     }
 }
 
-/// The findings in the steps of a history, if they were checked.
+/// Describes the findings in all steps of a history.
 fn in_all_steps(structure: &str, history: &History) -> String {
     let steps = history.steps;
     let stands = match history.steps_against_law() {
@@ -87,7 +87,7 @@ fn in_all_steps(structure: &str, history: &History) -> String {
     }
 }
 
-/// The size of a movement in words.
+/// Describes the size of a movement in words.
 pub(super) fn of_movement(movement: Drift) -> String {
     let Drift { share, turned } = movement;
     format!(
@@ -124,7 +124,7 @@ fn undecided(known: &Findings<'_>, evidence: Evidence, movement: Option<Drift>) 
     }
 }
 
-/// The routes that were tried, and their residuals.
+/// Lists the routes that were tried, with the residual of the nearest point.
 fn tried(known: &Findings<'_>) -> String {
     let info = &known.step.info;
     let mut names: Vec<&str> = info.routes.iter().map(|end| end.route.name()).collect();
@@ -145,7 +145,7 @@ fn at_step(step: &HistoryStep) -> String {
     format!(" in step {} of {} of stage \"{}\"", step.number, step.of, step.stage)
 }
 
-/// The progress of a history before the step that failed.
+/// Describes how far a history came before the step that failed; `None` if no step failed.
 fn reached(model: &Model, history: &History) -> Option<String> {
     let failed = history.failed.as_ref()?;
     let Some(last) = history.records.last() else {
@@ -185,7 +185,7 @@ fn reached(model: &Model, history: &History) -> Option<String> {
     })
 }
 
-/// The value without the digits that interpolation leaves.
+/// Rounds a value to six digits: interpolation between steps leaves more.
 fn short(value: f64) -> f64 {
     format!("{value:.5e}").parse().unwrap_or(value)
 }

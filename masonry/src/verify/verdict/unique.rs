@@ -1,5 +1,5 @@
-//! The uniqueness of contact forces: forces that circulate between contacts without any effect on the blocks can be
-//! added to them.
+//! The uniqueness of contact forces. They are not unique if other forces can be added that circulate between contacts
+//! without any effect on the blocks.
 
 use faer::sparse::{SparseColMat, SparseColMatRef};
 use lcp::Contact2d;
@@ -9,20 +9,20 @@ use crate::columns::{ColumnMatrix, column};
 use crate::data::state::{PointState, State};
 use crate::model::{JointPoint, Model};
 
-/// Normal forces below this part of the largest count as zero, and forces within it of an edge of the cone count as on
-/// the edge.
+/// Threshold of zero \[-\]: normal forces below this part of the largest count as zero, and forces within this part of
+/// the bound count as lying on the edge of their cone.
 const NONE: f64 = 1e-9;
-/// The part of the stiffness of contacts that makes the matrix definite.
+/// The stiffness, relative to that of the contacts, that is added to make the matrix definite \[-\].
 const SHIFT: f64 = 1e-10;
-/// The circulating part of forces of order one above which forces are not unique: above rounding.
+/// The circulating part of a force of order one above which the force is not unique \[-\]: far above rounding errors.
 const CIRCULATES: f64 = 1e-3;
 
-/// The number of contact points whose forces are not unique.
+/// Counts the contact points whose forces are not unique.
 ///
-/// A force may change along both directions inside its cone, along the edge if it slides, and not at all if it is zero.
-/// No point slides between blocks at rest: a force on the edge of its cone, as those of least size often are, may leave
-/// it inwards. The part `d - B^T (B B^T)^-1 B d` of such changes `d` of order one has no effect on the blocks; `B` maps
-/// changes to forces on displacements.
+/// A force inside its cone may change in both directions; a force at a sliding point may change along the edge of the
+/// cone; a zero force may not change. At rest no point slides, and a force on the edge may change inwards: forces of
+/// least size often lie on the edge. Let `d` be random changes of order one, and let `B` map changes to forces on the
+/// displacements. The part `d - B^T (B B^T)^-1 B d` has no effect on the blocks: a point with such a part is counted.
 pub(crate) fn circulating(
     model: &Model,
     problem: &Contact2d,
@@ -38,17 +38,18 @@ pub(crate) fn circulating(
     points.len()
 }
 
-/// Possible changes of the forces at points, in the order of the points.
+/// The possible changes of contact forces, each with its point, in the order of the points.
 struct Changes {
     points: Vec<usize>,
-    /// The forces on displacements by each change.
+    /// The forces on the displacements by each change, one change per column.
     effects: SparseColMat<usize, f64>,
 }
 
-/// The forces that may change, and the effects of their changes on the balance; `None` if memory does not suffice.
+/// Returns the possible changes of forces, and their effects on the balance of the blocks; `None` if memory does not
+/// suffice.
 fn changes(model: &Model, problem: &Contact2d, state: &State, at_rest: bool) -> Option<Changes> {
     let contacts = || model.contacts.iter().zip(&state.contacts);
-    // The distance of a force from opening the joint.
+    // The distance of the normal force from the value at which the joint opens.
     let pressed = |(point, force): (&JointPoint, &PointState)| force.t_n + point.law.tension;
     let largest = contacts().map(pressed).fold(0.0, f64::max);
     let normals = problem.normal().as_ref().transpose().to_col_major().ok()?;
@@ -75,7 +76,7 @@ fn changes(model: &Model, problem: &Contact2d, state: &State, at_rest: bool) -> 
     Some(Changes { points, effects: effects.assembled(problem.displacements()) })
 }
 
-/// The entries of the sum of a column and of a multiple of another one.
+/// Returns the entries of the sum of a column and a multiple of another column.
 fn sum(
     first: impl Iterator<Item = (usize, f64)>,
     factor: f64,
@@ -93,7 +94,8 @@ fn sum(
     entries
 }
 
-/// The part of changes of order one without an effect on any displacement.
+/// Returns the part of changes of order one that has no effect on any displacement; `None` if no change has an effect, or
+/// if memory does not suffice.
 fn unfelt(effects: SparseColMatRef<'_, usize, f64>) -> Option<Vec<f64>> {
     let count = effects.ncols();
     let mut diagonal = vec![0.0; effects.nrows()];
@@ -121,7 +123,7 @@ fn unfelt(effects: SparseColMatRef<'_, usize, f64>) -> Option<Vec<f64>> {
     Some(left)
 }
 
-/// Numbers between 1/2 and 1 of either sign that are unrelated to the structure.
+/// Returns the `k`-th of a sequence of numbers of either sign, of size 1/2 to 1, that are unrelated to the structure.
 fn scattered(k: usize) -> f64 {
     const GOLDEN: f64 = 0.618_033_988_749_894_9;
     let fraction = (GOLDEN * (k as f64 + 1.0)).fract();
