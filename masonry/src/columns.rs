@@ -1,8 +1,8 @@
-//! Sparse matrices by columns.
+//! Sparse matrices that are built column by column.
 
 use faer::sparse::{SparseColMat, SparseColMatRef, SymbolicSparseColMat, SymbolicSparseColMatRef};
 
-/// A matrix that is put together column by column.
+/// A sparse matrix that is built column by column.
 pub(crate) struct ColumnMatrix {
     starts: Vec<usize>,
     rows: Vec<usize>,
@@ -16,7 +16,7 @@ impl Default for ColumnMatrix {
 }
 
 impl ColumnMatrix {
-    /// Adds a column, with rows increasing.
+    /// Adds a column, whose entries `(row, value)` come with increasing rows.
     pub(crate) fn push(&mut self, entries: impl IntoIterator<Item = (usize, f64)>) {
         for (row, value) in entries {
             self.rows.push(row);
@@ -25,10 +25,10 @@ impl ColumnMatrix {
         self.starts.push(self.rows.len());
     }
 
-    /// The matrix, with the given number of rows.
+    /// Returns the matrix, with the given number of rows.
     ///
     /// # Panics
-    /// If a row is not below that number, or the rows of a column do not increase.
+    /// If a row is not below `rows`, or the rows of a column do not increase.
     pub(crate) fn assembled(self, rows: usize) -> SparseColMat<usize, f64> {
         let columns = self.starts.len() - 1;
         let pattern =
@@ -37,7 +37,7 @@ impl ColumnMatrix {
     }
 }
 
-/// The entries `(row, value)` of a column.
+/// Returns the entries `(row, value)` of column `k`.
 pub(crate) fn column(
     matrix: SparseColMatRef<'_, usize, f64>,
     k: usize,
@@ -45,7 +45,7 @@ pub(crate) fn column(
     matrix.row_idx_of_col_raw(k).iter().copied().zip(matrix.val_of_col(k).iter().copied())
 }
 
-/// A matrix without its last columns.
+/// Returns the first `count` columns of a matrix.
 pub(crate) fn first_columns(
     matrix: &SparseColMat<usize, f64>,
     count: usize,

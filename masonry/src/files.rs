@@ -1,11 +1,11 @@
-//! Files that are read up to a size, and written whole or not at all.
+//! Files: reading up to a largest size, and writing that leaves no partial file.
 
 use std::ffi::OsString;
 use std::io::Read;
 use std::path::Path;
 use std::{fs, io};
 
-/// Writes a file beside its place and moves it there, so that no reader finds a part of the file.
+/// Writes a file under a temporary name and then renames it, so that no reader finds a part of the file.
 pub fn write_atomically(path: &Path, bytes: &[u8]) -> io::Result<()> {
     let mut temporary = OsString::from(path);
     temporary.push(format!(".{}.tmp", std::process::id()));
@@ -17,10 +17,10 @@ pub fn write_atomically(path: &Path, bytes: &[u8]) -> io::Result<()> {
     result
 }
 
-/// Reads a file of at most `largest` bytes. Devices and pipes, which may have no end or never begin, are refused.
+/// Reads a file of at most `largest` bytes. Devices and pipes are refused, since reading them may never begin or end.
 ///
 /// # Errors
-/// The message of the operating system, or that the path is not a file or the file is too large.
+/// The message of the operating system, or an error if the path is not a file or the file is too large.
 pub fn read_bounded(path: &Path, largest: usize) -> io::Result<Vec<u8>> {
     // A pipe must not even be opened, since opening waits for a writer.
     let metadata = fs::metadata(path)?;

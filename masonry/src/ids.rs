@@ -1,4 +1,4 @@
-//! Typed indices: a block is never confused with a support or a contact point.
+//! Typed indices, so that a block is never confused with a support or a contact point.
 
 use serde::Serialize;
 
@@ -10,15 +10,15 @@ macro_rules! id {
         pub struct $name(pub u32);
 
         impl $name {
-            /// The position in the list that owns the item.
+            /// Returns the position of the item in the list that owns it.
             pub fn index(self) -> usize {
                 self.0 as usize
             }
 
-            /// The id of the item at `index` of its list.
+            /// Returns the id of the item at `index` of its list.
             ///
             /// # Panics
-            /// If `index` exceeds `u32::MAX`: no scene has four thousand million items.
+            /// If `index` exceeds `u32::MAX`; no scene has so many items.
             pub fn new(index: usize) -> Self {
                 Self(u32::try_from(index).expect("fewer than 2^32 items"))
             }
@@ -27,26 +27,26 @@ macro_rules! id {
 }
 
 id!(
-    /// A block of [`Model::blocks`](crate::model::Model::blocks).
+    /// The index of a block in [`Model::blocks`](crate::model::Model::blocks).
     BlockId
 );
 id!(
-    /// A rigid support of [`Model::supports`](crate::model::Model::supports).
+    /// The index of a rigid support in [`Model::supports`](crate::model::Model::supports).
     SupportId
 );
 id!(
-    /// A load of [`Scene::loads`](crate::scene::Scene::loads).
+    /// The index of a load in [`Scene::loads`](crate::scene::Scene::loads).
     LoadId
 );
 id!(
-    /// A joint of [`Model::joints`](crate::model::Model::joints).
+    /// The index of a joint in [`Model::joints`](crate::model::Model::joints).
     JointId
 );
 id!(
-    /// A mortar film: the films of a model are counted in the order of its joints.
+    /// The index of a mortar film; the films of a model are counted in the order of its joints.
     FilmId
 );
 id!(
-    /// A contact point of [`Model::contacts`](crate::model::Model::contacts).
+    /// The index of a contact point in [`Model::contacts`](crate::model::Model::contacts).
     ContactId
 );

@@ -1,4 +1,4 @@
-//! The law of a joint: unilateral contact with Coulomb friction, cohesion, and tension up to a limit.
+//! The law of a joint: unilateral contact with Coulomb friction, cohesion, and a tensile strength.
 //!
 //! A point has the contact force `(t_n, t_t)`, compression positive, the gap `y_n` and the slip `y_t`:
 //!
@@ -17,18 +17,19 @@
 //!   t_n' >= 0,   |t_t| <= mu t_n' + C_0,   C_0 = C - mu T
 //! ```
 //!
-//! with `t_n' = t_n + T`, and `-T` along the normal is a load on both sides. [`System`](crate::system::System) and
-//! everything built on it use `t_n'`; [`State`](crate::data::state::State) has `t_n` again. These forces are a
-//! [`Cone`]: edges, along which forces have any size, and caps, which bound a force in both directions. Only the forms
-//! write the bound as equations. A strength in compression would be a cap along the normal.
+//! Here `t_n' = t_n + T`, and the constant force `-T` along the normal becomes a load on both sides.
+//! [`System`](crate::system::System) and everything built on it use `t_n'`; [`State`](crate::data::state::State) has
+//! `t_n` again. The forces that the law admits form a [`Cone`]. It is the sum of edges, along which forces may have
+//! any size, and of caps, which bound a force in both directions. Only the forms of the problem write the bound as
+//! equations. A compressive strength would be a cap along the normal.
 //!
-//! The faces of a joint may give way before it opens or slides: springs with a stiffness `k_n` and `k_t` \[Pa/m\] act
-//! in series with this law, of the compliance `1 / (k A)` \[m/N\] at a point. Gap and slip are the parts beyond these
-//! springs.
+//! The faces of a joint may have a compliance. In this case springs with a stiffness `k_n` and `k_t` \[Pa/m\] act in
+//! series with the law; their compliance at a point is `1 / (k A)` \[m/N\]. Gap and slip are the parts of the relative
+//! displacement that are not the deformation of these springs.
 
 use crate::ids::ContactId;
 
-/// Resistance of a class of joints to sliding and opening, and to compression and shear.
+/// The law of a class of joints: resistance to sliding and opening, and stiffness in compression and shear.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct JointLaw {
     /// Coefficient of Coulomb friction \[-\].
@@ -37,28 +38,29 @@ pub struct JointLaw {
     pub cohesion: f64,
     /// Tensile strength `f_t` \[Pa\], at most `c / mu`.
     pub tension: f64,
-    /// Stiffness `k_n` across and `k_t` along the joint \[Pa/m\]; `None` if the faces do not give way.
+    /// Stiffness of the joint: `k_n` perpendicular to the joint and `k_t` along it \[Pa/m\]; `None` if the joint is
+    /// rigid.
     pub stiffness: Option<[f64; 2]>,
 }
 
 impl JointLaw {
-    /// A law of friction only.
+    /// Returns the law of a joint with friction only.
     pub fn friction(mu: f64) -> Self {
         Self { mu, ..Self::default() }
     }
 
-    /// Whether joints resist sliding: only these have tangential unknowns.
+    /// Returns whether the joints resist sliding; only the points of such joints have tangential unknowns.
     pub fn resists_sliding(&self) -> bool {
         self.mu > 0.0 || self.cohesion > 0.0
     }
 
-    /// The law of a point that stands for an area \[m^2\].
+    /// Returns the law of a contact point that stands for an area \[m^2\].
     pub fn at(&self, area: f64) -> PointLaw {
         PointLaw { mu: self.mu, cohesion: self.cohesion * area, tension: self.tension * area }
     }
 
-    /// Compression and shear of the faces \[m/N\] of a point that stands for an area \[m^2\]: `1 / (k_n A)` and
-    /// `1 / (k_t A)`, or zeros.
+    /// Returns the normal and the tangential compliance \[m/N\] of a point that stands for an area \[m^2\]: `1 / (k_n
+    /// A)` and `1 / (k_t A)`, or zeros if the joint is rigid.
     ///
     /// ```
     /// use masonry::law::JointLaw;
@@ -76,30 +78,30 @@ impl JointLaw {
 pub struct PointLaw {
     /// Coefficient of Coulomb friction \[-\].
     pub mu: f64,
-    /// Cohesion `C` \[N\].
+    /// Cohesion `C` of the area of the point \[N\].
     pub cohesion: f64,
-    /// Tensile strength `T` \[N\].
+    /// Tensile strength `T` of the area of the point \[N\].
     pub tension: f64,
 }
 
 impl PointLaw {
-    /// A law of friction only.
+    /// Returns the law of a point with friction only.
     pub fn friction(mu: f64) -> Self {
         Self { mu, ..Self::default() }
     }
 
-    /// Whether the point resists sliding: only such a point has a tangential unknown.
+    /// Returns whether the point resists sliding; only such a point has a tangential unknown.
     pub fn resists_sliding(&self) -> bool {
         self.mu > 0.0 || self.cohesion > 0.0
     }
 
-    /// The forces that the point can carry in `t_n' = t_n + T`.
+    /// Returns the cone of the forces that the point can carry, in terms of `t_n' = t_n + T`.
     pub fn cone(&self) -> Cone {
         let base = (self.cohesion - self.mu * self.tension).max(0.0);
         Cone { mu: self.mu, base }
     }
 
-    /// The largest tangential force \[N\] under a normal force.
+    /// Returns the largest tangential force \[N\] that the point can carry under the normal force `t_n` \[N\].
     ///
     /// ```
     /// use masonry::law::PointLaw;
@@ -110,43 +112,44 @@ impl PointLaw {
         self.cone().bound(t_n + self.tension)
     }
 
-    /// The violation \[N\] of the law by a force; zero or negative if the force obeys the law.
+    /// Returns the violation \[N\] of the law by a force; zero or negative if the force obeys the law.
     pub fn violation(&self, t_n: f64, t_t: f64) -> f64 {
         (-self.tension - t_n).max(t_t.abs() - self.mu * t_n - self.cohesion)
     }
 
-    /// The work \[J\] taken by cohesion and tensile strength in a motion against which no force of the cone does work.
+    /// Returns the work \[J\] that cohesion and tensile strength dissipate in a motion that opens and slides the joint
+    /// by these lengths \[m\]. It holds for motions against which no force of the cone does work.
     pub fn strength(&self, opens: f64, slides: f64) -> f64 {
         self.tension * opens + self.cone().base * slides.abs()
     }
 
-    /// The tangential unknown of a point, if it has one.
+    /// Returns the data of the tangential unknown of a point; `None` if the point does not resist sliding.
     pub(crate) fn sliding(&self, contact: ContactId) -> Option<Friction> {
         self.resists_sliding().then(|| Friction { contact, cone: self.cone() })
     }
 }
 
-/// The bound of one tangential force in a [`System`](crate::system::System).
+/// The cone that bounds one tangential force in a [`System`](crate::system::System).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Friction {
-    /// The contact point.
+    /// The contact point at which the force acts.
     pub contact: ContactId,
     /// The forces that the point can carry.
     pub cone: Cone,
 }
 
-/// The forces that a point can carry: `t_n' >= 0` and `|t_t| <= mu t_n' + C_0`. They are the sums of nonnegative forces
-/// along the [edges](Self::edges), and of a tangential force no larger than the [cap](Self::cap). The default has one
-/// edge, that of contact without friction.
+/// The cone of the forces that a point can carry: `t_n' >= 0` and `|t_t| <= mu t_n' + C_0`. Its forces are sums of
+/// nonnegative forces along the [edges](Self::edges) and of a tangential force that does not exceed the
+/// [cap](Self::cap). The default is the cone of contact without friction, which has one edge along the normal.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Cone {
     /// Coefficient of Coulomb friction \[-\].
     pub mu: f64,
-    /// `C_0 = C - mu T` \[N\]: resistance to sliding when the joint is about to open.
+    /// Tangential resistance `C_0 = C - mu T` \[N\] of a joint that is about to open.
     pub base: f64,
 }
 
-/// A force of one along an edge of a cone.
+/// A unit vector along an edge of a cone.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Edge {
     /// The normal part \[-\].
@@ -156,13 +159,13 @@ pub struct Edge {
 }
 
 impl Cone {
-    /// A cone of friction only.
+    /// Returns the cone of friction without cohesion and tensile strength.
     pub fn friction(mu: f64) -> Self {
         Self { mu, base: 0.0 }
     }
 
-    /// The edges: one along the normal without friction; the edge of positive tangential forces and its mirror image
-    /// with friction.
+    /// Returns the edges of the cone: without friction one edge along the normal; with friction the edge of positive
+    /// tangential forces, and then its mirror image.
     ///
     /// ```
     /// use masonry::law::{Cone, Edge};
@@ -178,53 +181,55 @@ impl Cone {
         [Edge { normal, tangential }].into_iter().chain(other)
     }
 
-    /// The size \[N\] of the tangential force that does not depend on the normal force, if there is one.
+    /// Returns the largest tangential force without a normal force, `C_0` \[N\]; `None` if it is zero.
     pub fn cap(&self) -> Option<f64> {
         (self.base > 0.0).then_some(self.base)
     }
 
-    /// The normal and the tangential part \[N\] of forces along the edges, in multiples of a unit \[N\].
+    /// Returns the normal and the tangential part \[N\] of a sum of forces along the edges; `along` has their sizes in
+    /// multiples of `unit` \[N\].
     pub(crate) fn force(&self, along: &[f64], unit: f64) -> [f64; 2] {
         let length = self.mu.hypot(1.0);
         let across = along.get(1).map_or(0.0, |other| along[0] - other);
         [unit * along.iter().sum::<f64>() * (1.0 / length), unit * (self.mu / length) * across]
     }
 
-    /// The largest tangential force \[N\].
+    /// Returns the largest tangential force \[N\] under the normal force `t_n'` \[N\].
     pub fn bound(&self, normal: f64) -> f64 {
         self.mu * normal.max(0.0) + self.base
     }
 
-    /// The distances of a force from the two sides of the cone, `p+ = mu t_n' + C_0 + t_t` and
-    /// `p- = mu t_n' + C_0 - t_t` (3.24).
+    /// Returns the distances \[N\] of a force from the two sides of the cone, `p+ = mu t_n' + C_0 + t_t` and `p- = mu
+    /// t_n' + C_0 - t_t` (3.24).
     pub fn distances(&self, normal: f64, tangential: f64) -> [f64; 2] {
         [1.0, -1.0].map(|sign| self.mu * normal + self.base + sign * tangential)
     }
 
-    /// The parts of a tangential force that friction and the cap carry.
+    /// Splits a tangential force into the part that friction carries and the part that the cap carries \[N\].
     pub(crate) fn shares(&self, normal: f64, tangential: f64) -> [f64; 2] {
         let bound = self.mu * normal.max(0.0);
         let friction = tangential.clamp(-bound, bound);
         [friction, tangential - friction]
     }
 
-    /// The change of a tangential force at its bound, per change of the normal force \[-\].
+    /// Returns the derivative of a tangential force at its bound with respect to the normal force \[-\].
     pub(crate) fn slope(&self, tangential: f64) -> f64 {
         self.mu.copysign(tangential)
     }
 
-    /// The factor by which the bound magnifies errors of the normal force; one at least.
+    /// Returns the factor by which the bound magnifies errors of the normal force \[-\]; at least one.
     pub(crate) fn sensitivity(&self) -> f64 {
         self.mu.max(1.0)
     }
 
-    /// The opening \[m\] of a joint that slides by associated flow, at which its sides still touch.
+    /// Returns the opening \[m\] of a joint that slides by `slides` \[m\] under associated friction.
     pub fn lift(&self, slides: f64) -> f64 {
         self.mu * slides.abs()
     }
 
-    /// The largest work \[J\] that forces of size one along the edges do against a motion in which the joint opens and
-    /// slides by these lengths \[m\]; positive only if the opening is less than the [lift](Self::lift).
+    /// Returns the largest work \[J\] that a unit force along an edge does against a motion in which the joint opens
+    /// and slides by these lengths \[m\]. The work is positive only if the opening is less than the
+    /// [lift](Self::lift).
     pub fn against(&self, opens: f64, slides: f64) -> f64 {
         (self.lift(slides) - opens) / self.mu.hypot(1.0)
     }

@@ -1,4 +1,4 @@
-//! Walls and arches of blocks with unilateral Coulomb contact.
+//! Walls and arches of blocks in unilateral contact with Coulomb friction.
 //!
 //! Blocks, elastic (four-node elements) or rigid, meet in joints that slide by Coulomb's law, with optional cohesion
 //! and tensile strength. The result is a contact problem in displacements and contact forces, or a linear
@@ -96,22 +96,22 @@ pub use scene::{Scene, SceneError};
 pub use units::Units;
 pub use verify::checks::Checks;
 
-/// The programs of the README and of the guide are compiled and run with the tests.
+/// Compiles and runs the programs of the README with the tests.
 #[cfg(doctest)]
 #[doc = include_str!("../../README.md")]
 struct ReadmeDoctest;
 
-/// See [`ReadmeDoctest`].
+/// Compiles and runs the programs of the README of this crate with the tests.
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]
 struct CrateReadmeDoctest;
 
-/// See [`ReadmeDoctest`].
+/// Compiles and runs the programs of the guide with the tests.
 #[cfg(doctest)]
 #[doc = include_str!("../../docs/guide.md")]
 struct GuideDoctest;
 
-/// See [`ReadmeDoctest`].
+/// Compiles and runs the programs of the reference with the tests.
 #[cfg(doctest)]
 #[doc = include_str!("../../docs/reference/rust.md")]
 struct ReferenceDoctest;

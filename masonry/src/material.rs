@@ -3,7 +3,7 @@
 use nalgebra::Matrix3;
 use serde::{Deserialize, Serialize};
 
-/// Linear elasticity of a deformable block.
+/// Elastic constants of a linear elastic material.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Elasticity {
     /// Young's modulus \[Pa\].
@@ -17,13 +17,13 @@ pub struct Elasticity {
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(rename_all = "lowercase")]
 pub enum Plane {
-    /// Free out of the plane: `sigma_z = 0`.
+    /// Plane stress, free to strain out of the plane: `sigma_z = 0`.
     Stress,
-    /// Held out of the plane: `eps_z = 0`.
+    /// Plane strain, without strain out of the plane: `eps_z = 0`.
     Strain,
 }
 
-/// The mortar of a film.
+/// The mortar of a film: its elastic constants and the plane idealisation.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FilmMaterial {
     /// Elastic constants.
@@ -32,7 +32,7 @@ pub struct FilmMaterial {
     pub plane: Plane,
 }
 
-/// The matrix that maps `eps_x, eps_y, gamma_xy` to `sigma_x, sigma_y, tau_xy` \[Pa\].
+/// Returns the matrix that maps `eps_x, eps_y, gamma_xy` to `sigma_x, sigma_y, tau_xy` \[Pa\].
 pub fn constitutive(elasticity: Elasticity, plane: Plane) -> Matrix3<f64> {
     let Elasticity { young, poisson } = elasticity;
     // Plane strain is plane stress with the constants of an infinitely long body.

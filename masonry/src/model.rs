@@ -1,7 +1,7 @@
 //! The model: blocks, supports, joints and contact points of a scene, in SI units.
 //!
-//! A [`Model`] is geometry and data only: nothing is assembled and no system is solved here. Its blocks, supports and
-//! joints are those of the [`scene`](crate::scene), in their places.
+//! A [`Model`] has only geometry and data: it does not assemble or solve any equations. Its blocks, supports and
+//! joints are those of the [`scene`](crate::scene), placed in the structure.
 //!
 //! # Signs
 //! At an interface `a` is the body behind and `b` the body in front: the unit normal `n` points
@@ -41,42 +41,43 @@ use crate::model::mesh::BlockMesh;
 pub use crate::scene::{Movement, Plane, PointRule};
 use crate::units::Units;
 
-/// The data for the mechanics, in SI units (m, N, Pa, kg/m^3).
+/// A structure for analysis: its blocks, supports, joints, contact points and loads, in SI units (m, N, Pa, kg/m^3).
 #[derive(Debug, Clone)]
 pub struct Model {
     /// The blocks, in the order of the scene.
     pub blocks: Vec<PlacedBlock>,
     /// The rigid supports, in the order of the scene.
     pub supports: Vec<PlacedSupport>,
-    /// The places at which two blocks, or a block and a support, can touch.
+    /// The joints: overlaps of edges at which two blocks, or a block and a support, can touch.
     pub joints: Vec<PlacedJoint>,
     /// The points at which the contact law is enforced, joint by joint.
     pub contacts: Vec<JointPoint>,
-    /// The frictional classes that the joints refer to.
+    /// The classes to which the joints refer, each with its law.
     pub joint_classes: Vec<JointClass>,
     /// Plane stress or plane strain.
     pub plane: Plane,
     /// Thickness out of the plane \[m\].
     pub thickness: f64,
-    /// Gravity as an acceleration \[m/s^2\]; zero when the scene has none.
+    /// Gravity as an acceleration \[m/s^2\]; zero if the scene has none.
     pub gravity: Vector2<f64>,
     /// Accelerations among the loads, which act on mass in addition to gravity.
     pub accelerations: Vec<Acceleration>,
     /// Names and factors of the loads, in the order of the scene.
     pub loads: Vec<LoadCase>,
-    /// The corners of single blocks that were moved, and the changes of their drawing; `None` if nothing was changed.
+    /// The corners of single blocks that were moved, and the changes that were made when a drawing was read; `None` if
+    /// nothing was changed.
     pub healed: Option<Healed>,
     /// The units of the scene, in which results are reported.
     pub units: Units,
 }
 
 impl Model {
-    /// Whether mortar films are strips, which have stresses along the joints.
+    /// Returns whether mortar films are strips, which have stresses along the joints.
     pub fn has_strips(&self) -> bool {
         self.contacts.iter().any(|it| it.film.is_some_and(|film| film.stretch.is_some()))
     }
 
-    /// Takes cohesion and tensile strength from all joints, and leaves their friction.
+    /// Removes cohesion and tensile strength from all joints; friction remains.
     pub(crate) fn remove_strength(&mut self) {
         for contact in &mut self.contacts {
             contact.law = PointLaw::friction(contact.law.mu);
@@ -84,32 +85,32 @@ impl Model {
     }
 }
 
-/// A block in its place (brick, voussoir): a simple polygon; star-shaped about its centroid if it is elastic.
+/// A block of the structure (brick or voussoir): a simple polygon; star-shaped about its centroid if it is elastic.
 #[derive(Debug, Clone)]
 pub struct PlacedBlock {
-    /// The name by which messages and files refer to it.
+    /// The name of the block in messages and files.
     pub name: String,
     /// The corners, counter-clockwise \[m\]. Edge `k` runs from corner `k` to the next.
     pub corners: Vec<Point2<f64>>,
     /// Elastic constants; `None` for a rigid block, which has no mesh and no stiffness.
     pub elasticity: Option<Elasticity>,
-    /// Mass density \[kg/m^3\]; `None` without self weight.
+    /// Mass density \[kg/m^3\]; `None` for a block without self weight.
     pub density: Option<f64>,
-    /// The Q4 mesh; `None` for a rigid block.
+    /// The mesh of four-node elements; `None` for a rigid block.
     pub mesh: Option<BlockMesh>,
     /// Loads on the edges of the block and at places in it.
     pub loads: Vec<BlockLoad>,
 }
 
 impl PlacedBlock {
-    /// The loads on the edges of the block.
+    /// Returns the loads on the edges of the block.
     pub fn edge_loads(&self) -> impl Iterator<Item = &EdgeLoad> {
         self.loads
             .iter()
             .filter_map(|it| if let BlockLoad::Edge(load) = it { Some(load) } else { None })
     }
 
-    /// The forces at places in the block.
+    /// Returns the forces at places in the block.
     pub fn point_loads(&self) -> impl Iterator<Item = &PointLoad> {
         self.loads
             .iter()
@@ -117,21 +118,22 @@ impl PlacedBlock {
     }
 }
 
-/// A rigid straight support in its place.
+/// A rigid straight support of the structure.
 #[derive(Debug, Clone)]
 pub struct PlacedSupport {
-    /// The name by which messages and reports refer to it.
+    /// The name of the support in messages and reports.
     pub name: String,
-    /// One end \[m\].
+    /// One end of the support \[m\].
     pub from: Point2<f64>,
-    /// The other end \[m\].
+    /// The other end of the support \[m\].
     pub to: Point2<f64>,
-    /// The movement of the support from these ends, lengths in metres; gaps and slips of its contact points include it.
+    /// The movement of the support from its place in the scene \[m\]; gaps and slips of its contact points include the
+    /// movement.
     pub movement: Movement,
 }
 
 impl PlacedSupport {
-    /// The displacement \[m\] of the support at a place on or near it.
+    /// Returns the displacement \[m\] of the support at a place on or near it.
     pub fn displacement_at(&self, place: Point2<f64>) -> Vector2<f64> {
         let Movement { x, y, turn } = self.movement;
         let arm = place - nalgebra::center(&self.from, &self.to);
@@ -139,37 +141,38 @@ impl PlacedSupport {
     }
 }
 
-/// The law of a class of joints.
+/// A class of joints: its name, law, contact points and mortar.
 #[derive(Debug, Clone, PartialEq)]
 pub struct JointClass {
-    /// The name in the scene: `bed`, `head`, or that of a support's joint.
+    /// The name in the scene: `bed`, `head`, or the class of a support or of another group of joints.
     pub name: String,
-    /// Resistance to sliding and opening.
+    /// The law of sliding and opening of the joints.
     pub law: JointLaw,
-    /// Position of the contact points on the joints; `None` for the default of the scene.
+    /// The rule for the positions of contact points on the joints; `None` for the rule of the whole scene.
     pub points: Option<PointRule>,
     /// The mortar that fills the joints; `None` for dry joints.
     pub mortar: Option<Mortar>,
 }
 
-/// A layer of mortar.
+/// A layer of mortar of some thickness and material.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Mortar {
     /// Thickness `t_y` \[m\].
     pub thickness: f64,
-    /// The material.
+    /// The material of the mortar.
     pub material: FilmMaterial,
 }
 
 impl Mortar {
-    /// Compression and shear \[m\] of a layer of an area \[m^2\] under a unit of force \[m/N\]:
-    /// `t_y / (C_22 area)` and `t_y / (G area)`, without strain along the joint.
+    /// Returns the normal and the tangential compliance \[m/N\] of a layer with an area \[m^2\], if it is not strained
+    /// along the joint: `t_y / (C_22 area)` and `t_y / (G area)`.
     pub fn compliance(&self, area: f64) -> [f64; 2] {
         let matrix = constitutive(self.material.elasticity, self.material.plane);
         [1, 2].map(|k| self.thickness / (matrix[(k, k)] * area))
     }
 
-    /// The effect of strain along the joint on a part of a strip of a given length, in a wall of a given thickness \[m\].
+    /// Returns the terms of a part of a strip that depend on the strain along the joint; the part has a length \[m\],
+    /// and the wall a thickness \[m\].
     pub fn stretch(&self, length: f64, wall: f64) -> Stretch {
         let matrix = constitutive(self.material.elasticity, self.material.plane);
         let coupling = matrix[(0, 1)] / matrix[(1, 1)];
@@ -180,7 +183,8 @@ impl Mortar {
 
 /// The terms of a strip of mortar (3.28)-(3.39) that need the strain `eps_x` along the joint.
 ///
-/// The energy of a strip with `eps_x` is that of a bar, whether its faces press or not, and of the compliances:
+/// The energy density `w` of a strip with `eps_x` is the sum of the energy of a bar, which acts whether the faces
+/// press or not, and of the energy of the compliances:
 ///
 /// ```text
 ///  w = 1/2 [ (C_11 - C_12^2 / C_22) eps_x^2 + sigma_y^2 / C_22 + tau^2 / G ],
@@ -188,43 +192,43 @@ impl Mortar {
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Stretch {
-    /// Force of the bar for a unit of elongation, `(C_11 - C_12^2 / C_22) t_y t_z / length` \[N/m\].
+    /// Stiffness of the bar, its force divided by its elongation: `(C_11 - C_12^2 / C_22) t_y t_z / length` \[N/m\].
     pub stiffness: f64,
-    /// `C_12 / C_22` \[-\]: a film that is stretched at constant thickness opens by `t_y (C_12 / C_22) eps_x`, or is in
-    /// tension.
+    /// Ratio `C_12 / C_22` \[-\]: a film whose thickness is held opens by `t_y (C_12 / C_22) eps_x` if it is
+    /// stretched, or gets tension.
     pub coupling: f64,
 }
 
-/// The mortar of one joint.
+/// The film of mortar in one joint.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Film {
     /// The index of the film among the films of the model.
     pub id: FilmId,
-    /// Thickness and material.
+    /// Thickness and material of the mortar.
     pub mortar: Mortar,
 }
 
-/// One of the two sides of a joint.
+/// A body on one side of a joint.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize)]
 pub enum Body {
-    /// A block.
+    /// A block of the model.
     Block(BlockId),
-    /// A rigid support.
+    /// A rigid support of the model.
     Support(SupportId),
 }
 
-/// The overlap of an edge of one block with an edge of another, or with a support.
+/// A joint: the overlap of an edge of one block with an edge of another block, or with a support.
 #[derive(Debug, Clone)]
 pub struct PlacedJoint {
-    /// The body behind: the normal points away from it. A support is always this side.
+    /// The body behind the joint, from which the normal points away. A support is always on this side.
     pub a: Body,
-    /// The body in front.
+    /// The block in front of the joint, into which the normal points.
     pub b: BlockId,
-    /// The class, an index into [`Model::joint_classes`].
+    /// The class of the joint, an index into [`Model::joint_classes`].
     pub class: usize,
-    /// Start of the overlap \[m\]; for a film, in the middle between its faces.
+    /// Start of the overlap \[m\]; for a film, it lies in the middle between the faces.
     pub from: Point2<f64>,
-    /// End of the overlap \[m\]; for a film, in the middle between its faces.
+    /// End of the overlap \[m\]; for a film, it lies in the middle between the faces.
     pub to: Point2<f64>,
     /// Unit normal from `a` to `b`.
     pub normal: Vector2<f64>,
@@ -233,17 +237,17 @@ pub struct PlacedJoint {
 }
 
 impl PlacedJoint {
-    /// The unit tangent: the normal turned by -90 degrees.
+    /// Returns the unit tangent: the normal turned by -90 degrees.
     pub fn tangent(&self) -> Vector2<f64> {
         Vector2::new(self.normal.y, -self.normal.x)
     }
 
-    /// Length of the overlap \[m\].
+    /// Returns the length of the overlap \[m\].
     pub fn length(&self) -> f64 {
         (self.to - self.from).norm()
     }
 
-    /// Start and end of the face on side `a`, and of that on side `b` \[m\].
+    /// Returns start and end of the face on side `a`, and of the face on side `b` \[m\].
     pub fn faces(&self) -> [[Point2<f64>; 2]; 2] {
         let half = self.normal * (0.5 * self.film.map_or(0.0, |film| film.mortar.thickness));
         [[self.from - half, self.to - half], [self.from + half, self.to + half]]
@@ -253,18 +257,18 @@ impl PlacedJoint {
 /// A place on the boundary of a block: a fraction of one of its edges.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Anchor {
-    /// The block.
+    /// The block of the place.
     pub block: BlockId,
-    /// The edge, from 0.
+    /// The edge of the block, from 0.
     pub edge: usize,
-    /// Fraction of the edge from its first corner, 0..=1.
+    /// The place as a fraction of the edge from its first corner, from 0 to 1.
     pub at: f64,
 }
 
 /// A point at which the contact law is enforced.
 #[derive(Debug, Clone)]
 pub struct JointPoint {
-    /// The joint of the point.
+    /// The joint to which the point belongs.
     pub joint: JointId,
     /// The place of the point \[m\]; half way between the faces of a film, where the film's forces act.
     pub position: Point2<f64>,
@@ -274,52 +278,53 @@ pub struct JointPoint {
     pub a: Option<Anchor>,
     /// The place of the point on side `b`.
     pub b: Anchor,
-    /// Initial gap `x_0` \[m\]; the gap across a film is the excess of the distance of the faces over its thickness:
-    /// zero for a film in contact.
+    /// Initial gap `x_0` \[m\]. The gap of a film is the distance of its faces minus its thickness: zero for a film in
+    /// contact.
     pub gap: f64,
-    /// Initial slip `s_0` \[m\]: from the slip at the start of a step and the movement of a support.
+    /// Initial slip `s_0` \[m\], due to the slip at the start of the step and the movement of a support.
     pub slip: f64,
     /// The law of the joint's class, for the area that the point stands for.
     pub law: PointLaw,
-    /// Compression and shear of the joint itself, by its [stiffness](JointLaw::stiffness), under a unit of force
-    /// \[m/N\]; zeros if the joint does not give way.
+    /// Normal and tangential compliance of the joint itself, from its [stiffness](JointLaw::stiffness) \[m/N\]; zeros
+    /// if the joint is rigid.
     pub compliance: [f64; 2],
     /// Additional data of a point of a film; `None` in a dry joint.
     pub film: Option<FilmPoint>,
 }
 
 impl JointPoint {
-    /// Compression and shear of the joint and of a film in it, in series, under a unit of force \[m/N\].
+    /// Returns the normal and the tangential compliance of the joint and of a film in it, in series \[m/N\].
     pub fn gives(&self) -> [f64; 2] {
         let film = self.film.map_or([0.0; 2], |film| film.compliance);
         [0, 1].map(|k| self.compliance[k] + film[k])
     }
 }
 
-/// A contact point of a film.
+/// The data of a contact point in a film.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FilmPoint {
-    /// Half the thickness of the film, from either face to the point \[m\].
+    /// Half the thickness of the film \[m\], the distance of the point from either face.
     pub half: f64,
     /// Length of the film that the point stands for \[m\].
     pub length: f64,
-    /// Start and end of this length along the tangent, on side `a`; `None` when that side is a support.
+    /// Start and end of this length on side `a`, along the tangent; `None` if that side is a support.
     pub a: Option<[Anchor; 2]>,
     /// Start and end of this length on side `b`.
     pub b: [Anchor; 2],
-    /// Compression and shear of this part of the film under a unit of force \[m/N\].
+    /// Normal and tangential compliance of this part of the film \[m/N\].
     pub compliance: [f64; 2],
-    /// The terms along the joint; `None` if films act across their joints only.
+    /// The terms that depend on the strain along the joint; `None` if films are compliances only.
     pub stretch: Option<Stretch>,
 }
 
 impl FilmPoint {
-    /// Start and end of the film's length on side `a` and on side `b`; `None` on a support.
+    /// Returns start and end of the film's length on side `a` and on side `b`; `None` for a support.
     pub fn faces(&self) -> [Option<[Anchor; 2]>; 2] {
         [self.a, Some(self.b)]
     }
 
-    /// The gap per unit of elongation, `t_y (C_12 / C_22) / length` \[-\]; zero without [`stretch`](Self::stretch).
+    /// Returns the gap per unit of elongation, `t_y (C_12 / C_22) / length` \[-\]; zero if [`stretch`](Self::stretch)
+    /// is `None`.
     pub fn gap_per_elongation(&self) -> f64 {
         self.stretch.map_or(0.0, |stretch| 2.0 * self.half * stretch.coupling / self.length)
     }

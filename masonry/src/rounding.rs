@@ -1,28 +1,30 @@
-//! Rounding errors of numbers, which would act as couplings or loads in the equations.
+//! Removal of rounding errors, which would otherwise act as couplings or loads in the equations, and rounding of
+//! numbers in messages.
 
 use std::borrow::Borrow;
 
-/// The relative error of sums and products of the data, by their largest term.
+/// Relative rounding error of sums and products of the data, relative to their largest term \[-\].
 const ROUNDING: f64 = 1.0 / (1_u64 << 48) as f64;
 
-/// The value, or zero if it is a rounding error beside numbers of this size.
+/// Returns the value, or zero if the value is only a rounding error compared with numbers of this size.
 pub fn cleared(value: f64, size: f64) -> f64 {
     if value.abs() <= ROUNDING * size { 0.0 } else { value }
 }
 
-/// The largest size of some numbers.
+/// Returns the largest absolute value of some numbers.
 pub fn largest(values: impl IntoIterator<Item = impl Borrow<f64>>) -> f64 {
     values.into_iter().fold(0.0, |largest, v| largest.max(v.borrow().abs()))
 }
 
-/// The side of a number on which its text lies.
+/// The side of a number to which its text is rounded.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum BoundSide {
     Below,
     Above,
 }
 
-/// The text of a bound, rounded to its own side: the nearest text on that side.
+/// Returns the text of a bound, rounded to the given side: the nearest text that is not on the other side of the
+/// bound.
 pub fn outwards(bound: f64, side: BoundSide, text: impl Fn(f64) -> String) -> String {
     let is_outside = |text: &str| {
         text.parse().is_ok_and(|read: f64| match side {
@@ -41,7 +43,7 @@ pub fn outwards(bound: f64, side: BoundSide, text: impl Fn(f64) -> String) -> St
     }
 }
 
-/// A number to six digits: messages show sizes of mistakes, not their rounding errors.
+/// Rounds a number to six digits: messages show sizes of mistakes, not their rounding errors.
 pub fn rounded(number: f64) -> f64 {
     format!("{number:.5e}").parse().unwrap_or(number)
 }

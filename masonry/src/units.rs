@@ -57,15 +57,15 @@ pub struct Units {
 }
 
 impl Units {
-    /// Metres and newtons.
+    /// SI units: metres and newtons.
     pub const SI: Self = Self { length: LengthUnit::M, force: ForceUnit::N };
 
-    /// A place of a scene \[m\].
+    /// Converts a place of a scene to a point \[m\].
     pub(crate) fn point(self, [x, y]: [f64; 2]) -> Point2<f64> {
         Point2::new(x, y) * self.length_to_si()
     }
 
-    /// Metres in one unit of length.
+    /// Returns the number of metres in one unit of length.
     pub fn length_to_si(self) -> f64 {
         match self.length {
             LengthUnit::Mm => 1e-3,
@@ -75,7 +75,7 @@ impl Units {
         }
     }
 
-    /// Newtons in one unit of force.
+    /// Returns the number of newtons in one unit of force.
     pub fn force_to_si(self) -> f64 {
         match self.force {
             ForceUnit::N => 1.0,
@@ -85,22 +85,22 @@ impl Units {
         }
     }
 
-    /// Pascals in one unit of stress.
+    /// Returns the number of pascals in one unit of stress.
     pub fn stress_to_si(self) -> f64 {
         self.force_to_si() / (self.length_to_si() * self.length_to_si())
     }
 
-    /// Pascals per metre in one unit of the stiffness of a joint, force / length^3.
+    /// Returns the number of pascals per metre in one unit of joint stiffness, which is force / length^3.
     pub fn stiffness_to_si(self) -> f64 {
         self.stress_to_si() / self.length_to_si()
     }
 
-    /// Joules in one unit of energy (and newton metres in one unit of moment).
+    /// Returns the number of joules in one unit of energy, and of newton metres in one unit of moment.
     pub fn energy_to_si(self) -> f64 {
         self.force_to_si() * self.length_to_si()
     }
 
-    /// Symbol of the unit of length.
+    /// Returns the symbol of the unit of length.
     pub fn length_name(self) -> &'static str {
         match self.length {
             LengthUnit::Mm => "mm",
@@ -110,7 +110,7 @@ impl Units {
         }
     }
 
-    /// Symbol of the unit of force.
+    /// Returns the symbol of the unit of force.
     pub fn force_name(self) -> &'static str {
         match self.force {
             ForceUnit::N => "N",
@@ -120,12 +120,12 @@ impl Units {
         }
     }
 
-    /// Symbol of the unit of stress, such as `kN/m2`.
+    /// Returns the symbol of the unit of stress, such as `kN/m2`.
     pub fn stress_name(self) -> String {
         format!("{}/{}2", self.force_name(), self.length_name())
     }
 
-    /// Symbol of the unit of energy and moment, such as `kNm`.
+    /// Returns the symbol of the unit of energy and moment, such as `kNm`.
     pub fn energy_name(self) -> String {
         format!("{}{}", self.force_name(), self.length_name())
     }

@@ -1,4 +1,4 @@
-//! The overestimate of the stiffness of slender blocks in bending by their meshes.
+//! Bending of slender blocks: an upper bound of the factor by which a mesh is stiffer than its block.
 //!
 //! Let `x` be the longer and `y` the shorter main axis of a block, from its centroid. Under a curvature `k` along `x`
 //! the displacements `k x y` and `-k (x^2 + nu y^2) / 2` have the stress `E k y` along `x` and no other, and the energy
@@ -11,9 +11,9 @@
 //! ```
 //!
 //! which is the quotient of the stiffnesses for one row (R. D. Cook et al., Concepts and Applications of Finite Element
-//! Analysis, 4th edition, 2002, section 3.6). Other meshes may take less energy by other displacements: the quotient is
-//! a bound for them. It is 1 % above the quotient of the stiffnesses for four rows, and two times it for patches around
-//! a centroid with four elements a side.
+//! Other meshes may have less energy by other displacements, so that the quotient is an upper bound for them. It
+//! exceeds the quotient of the stiffnesses by 1 % for four rows, and is twice the quotient of the stiffnesses for
+//! patches around a centroid with four elements a side.
 
 use nalgebra::{Matrix2, Matrix3, SVector, Vector2};
 
@@ -21,17 +21,17 @@ use super::mesh::BlockMesh;
 use crate::element::{quad4, quadrature};
 use crate::geometry;
 
-/// A block in bending.
+/// The bending of a block: its slenderness, and the stiffness of its mesh relative to that of the block.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Bending {
-    /// Length over height of the rectangle with the same second moments of area.
+    /// Length divided by height of the rectangle with the same second moments of area \[-\].
     pub slenderness: f64,
-    /// The stiffness of the mesh over that of the block, at most.
+    /// Stiffness of the mesh in bending divided by that of the block, at most \[-\].
     pub stiffness: f64,
 }
 
 impl Bending {
-    /// The bending of a meshed block, with the constitutive matrix \[Pa\]; `None` if an element is folded.
+    /// Computes the bending of a meshed block with the constitutive matrix `d` \[Pa\]; `None` if an element is folded.
     pub fn of(mesh: &BlockMesh, d: &Matrix3<f64>) -> Option<Self> {
         let elements = || mesh.elements.iter().map(|it| it.map(|node| mesh.nodes[node]));
         let rim: Vec<_> = mesh.rim().map(|node| mesh.nodes[node]).collect();

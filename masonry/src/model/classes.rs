@@ -1,4 +1,4 @@
-//! The classes of joints: of a support, of a wall, of a pair of blocks, or `bed` and `head`.
+//! The choice of the class of each joint: that of a support, of a wall, of a pair of blocks, or `bed` and `head`.
 
 use nalgebra::Rotation2;
 
@@ -10,40 +10,40 @@ use crate::material::FilmMaterial;
 use crate::scene::rules::unknown;
 use crate::scene::{self, BED, Fault, HEAD, KeyPath, Opening, Scene, SceneErrorKind, Wall};
 
-/// The classes of all joints.
+/// The classes of a scene, and the data that decide which class a joint gets.
 pub(super) struct Classes {
-    /// The classes of the scene, and then classes that are named and not given, which are refused when a joint needs
-    /// them.
+    /// The classes of the scene, followed by classes that are named but not given. The latter are refused if a joint
+    /// needs them.
     list: Vec<JointClass>,
     given: usize,
-    /// Classes of beds and heads.
+    /// Indices of the classes `bed` and `head`.
     usual: [usize; 2],
-    /// Classes of the walls, then of the arches.
+    /// Indices of the bed and head classes of the walls, followed by those of the arches.
     of_walls: Vec<[usize; 2]>,
-    /// Angles \[rad\] by which the walls, and so their beds and heads, are turned.
+    /// Angles \[rad\] by which the walls, and so their bed and head joints, are turned.
     turns: Vec<f64>,
     of_supports: Vec<usize>,
     of_pairs: Vec<([Members; 2], usize)>,
-    /// Classes between the rings of the arches.
+    /// Indices of the classes between the rings of the arches.
     of_rings: Vec<Option<usize>>,
-    /// Classes of the lintels of the openings of the walls.
+    /// Indices of the classes of the lintels above the openings of the walls.
     of_lintels: Vec<Vec<Option<usize>>>,
-    /// The place of every block of a wall or an arch.
+    /// The wall or arch, ring and lintel of every brick and voussoir.
     places: Vec<BlockPlace>,
 }
 
-/// The place of a block in a wall or an arch.
+/// The wall or arch to which a block belongs, and its ring or lintel.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct BlockPlace {
-    /// The wall, or the arch, counted after the walls.
+    /// The index of the wall, or of the arch, which are counted after the walls.
     pub(super) wall: usize,
-    /// The ring of a voussoir.
+    /// The ring of a voussoir, from the intrados.
     pub(super) ring: Option<u32>,
-    /// The opening of a lintel.
+    /// The index of the opening above which the block is the lintel.
     pub(super) lintel: Option<usize>,
 }
 
-/// The blocks of one name.
+/// The blocks that a name in `between` refers to: those of a wall, or a single block.
 enum Members {
     Wall(usize),
     Block(BlockId),
@@ -106,7 +106,7 @@ impl Classes {
         &self.list
     }
 
-    /// The class of a joint, an index into the [`list`](Self::list).
+    /// Returns the class of a joint, an index into the [`list`](Self::list).
     pub(super) fn class_of(&self, kind: JointKind, a: Body, b: BlockId) -> usize {
         let normal = match kind {
             JointKind::Support(id) => return self.of_supports[id.index()],
@@ -137,7 +137,7 @@ impl Classes {
         pairs.filter(|(groups, _)| fits(groups)).map(|(_, class)| *class).next()
     }
 
-    /// The class of a joint between two rings of an arch, or beside a lintel.
+    /// Returns the class of a joint between two rings of an arch, or beside a lintel; `None` for other joints.
     fn of_places(&self, a: BlockId, b: BlockId) -> Option<usize> {
         let [a, b] = [a, b].map(|block| self.places.get(block.index()));
         let (a, b) = a.zip(b).filter(|(a, b)| a.wall == b.wall)?;
@@ -153,7 +153,7 @@ impl Classes {
         self.places.get(block.index()).map(|place| place.wall)
     }
 
-    /// The classes of a model with these joints.
+    /// Returns the list of classes for a model with these joints.
     pub(super) fn of_joints(
         mut self,
         blocks: &[PlacedBlock],
@@ -206,7 +206,7 @@ fn mortar(scene: &Scene, joint: &scene::Joint) -> Option<Mortar> {
     (thickness > 0.0).then_some(Mortar { thickness, material })
 }
 
-/// Supports have classes of their own, which were looked up before.
+/// Returns the error of a joint between blocks whose class is not given. Classes of supports were looked up before.
 fn missing_class(blocks: &[PlacedBlock], joint: &PlacedJoint, class: &str) -> Fault {
     let name = |body| match body {
         Body::Block(id) => blocks[id.index()].name.clone(),

@@ -1,14 +1,15 @@
-//! The stiffness of dry joints between rigid blocks, without which the distribution of forces is not determined.
+//! The stiffness of dry joints between rigid blocks. Without a stiffness the distribution of forces is not determined.
 
 use super::{Body, JointPoint, Model};
 
-/// Stiffness of dry joints across and along them \[Pa/m\]. Block models of dry stone use 1e9 to 1e10 Pa/m across and about a
-/// half along; see the review of J. V. Lemos, Discrete element modeling of masonry structures, International Journal of
-/// Architectural Heritage 1 (2007), [doi:10.1080/15583050601176868](https://doi.org/10.1080/15583050601176868).
+/// Stiffness of dry joints \[Pa/m\], perpendicular to the joint and along it. Block models of dry stone use 1e9 to
+/// 1e10 Pa/m perpendicular to the joint and about half of this along it; see the review of J. V. Lemos, Discrete
+/// element modeling of masonry structures, International Journal of Architectural Heritage 1 (2007),
+/// [doi:10.1080/15583050601176868](https://doi.org/10.1080/15583050601176868).
 pub const DRY_JOINT: [f64; 2] = [2e9, 1e9];
 
 impl Model {
-    /// Gives the stiffness [`DRY_JOINT`] to joints between rigid blocks and supports if nothing in them gives way.
+    /// Gives the stiffness [`DRY_JOINT`] to joints between rigid bodies that have neither a stiffness nor mortar.
     pub(crate) fn give_stiffness_to_dry_joints(&mut self) {
         let hard: Vec<bool> = self.contacts.iter().map(|point| self.is_hard(point)).collect();
         for (point, _) in self.contacts.iter_mut().zip(hard).filter(|(_, is_hard)| *is_hard) {
@@ -16,7 +17,7 @@ impl Model {
         }
     }
 
-    /// Number of joints that have the stiffness of dry ones although their class has none.
+    /// Counts the joints that got the stiffness of dry joints because their class has none.
     pub fn dry_joints(&self) -> usize {
         let has_default = |point: &&JointPoint| {
             let class = &self.joint_classes[self.joints[point.joint.index()].class];
@@ -27,7 +28,7 @@ impl Model {
         joints.len()
     }
 
-    /// The warning about joints with the stiffness of dry ones.
+    /// Returns the warning about joints that got the stiffness of dry joints; `None` if there are no such joints.
     pub(crate) fn of_dry_joints(&self) -> Option<String> {
         let [across, along] = DRY_JOINT;
         (self.dry_joints() > 0).then(|| {
@@ -38,7 +39,7 @@ impl Model {
         })
     }
 
-    /// The advice to give joints a stiffness, if none has one.
+    /// Returns the advice to give joints a stiffness; `None` if a joint has one.
     pub(crate) fn of_hard_joints(&self) -> Option<String> {
         let [across, along] = DRY_JOINT;
         let is_hard = |point: &JointPoint| point.gives().iter().all(|c| *c <= 0.0);
@@ -50,7 +51,7 @@ impl Model {
         })
     }
 
-    /// Whether neither the joint nor the bodies on its sides give way.
+    /// Returns whether neither the joint nor the bodies on its two sides can deform.
     fn is_hard(&self, point: &JointPoint) -> bool {
         let joint = &self.joints[point.joint.index()];
         let is_rigid = |body: Body| match body {

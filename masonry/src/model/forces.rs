@@ -1,4 +1,4 @@
-//! The forces that act on a block, apart from those of its contacts.
+//! The forces that act on a block, without the contact forces.
 
 use nalgebra::Vector2;
 
@@ -6,7 +6,7 @@ use super::{BlockLoad, Model, PlacedBlock, PlacedForce};
 use crate::geometry;
 use crate::ids::LoadId;
 
-/// The cause of a force.
+/// The cause of a force on a block.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Cause {
     /// The weight of the block.
@@ -16,14 +16,14 @@ pub enum Cause {
 }
 
 impl Model {
-    /// The acceleration of all mass \[m/s^2\]: gravity and those among the loads.
+    /// Returns the acceleration of all mass \[m/s^2\]: the sum of gravity and of the accelerations among the loads.
     pub fn acceleration(&self) -> Vector2<f64> {
         // The sum starts from gravity: -0 would become 0 in a sum from zero.
         self.accelerations.iter().fold(self.gravity, |sum, it| sum + it.value)
     }
 
-    /// The resultants of all forces on a block, and their causes: its weight, each acceleration of
-    /// its mass, and each load on it.
+    /// Returns the resultants of all forces on a block with their causes: its weight, each acceleration of its mass,
+    /// and each load on it.
     pub fn causes_on(&self, block: &PlacedBlock) -> Vec<(Cause, PlacedForce)> {
         let mut forces = Vec::with_capacity(1 + self.accelerations.len() + block.loads.len());
         if let Some(density) = block.density {
@@ -43,7 +43,7 @@ impl Model {
         forces
     }
 
-    /// The forces of [`causes_on`](Self::causes_on) alone.
+    /// Returns the resultants of [`causes_on`](Self::causes_on) without their causes.
     pub fn forces_on(&self, block: &PlacedBlock) -> Vec<PlacedForce> {
         self.causes_on(block).into_iter().map(|(_, force)| force).collect()
     }

@@ -1,4 +1,4 @@
-//! The way from a scene to a model: conversion to SI units, meshes, joints.
+//! Conversion of a scene to a model: SI units, meshes, joints.
 
 use nalgebra::Vector2;
 
@@ -16,21 +16,21 @@ use crate::scene::{self, Fault, KeyPath, Scene, SceneError, SceneErrorKind};
 use crate::units::Units;
 
 impl Model {
-    /// The model of a scene: blocks laid and meshed, joints found, all in SI units.
+    /// Builds the model of a scene in SI units: lays and meshes the blocks, and finds the joints.
     ///
     /// Blocks come wall by wall, course by course, then arch by arch, then the single blocks, in the order of the
     /// scene. Only blocks of elastic materials are meshed.
     ///
-    /// The mistakes that [`Scene::check`] finds, and those of the whole: overlapping blocks, a support that runs
-    /// through a block, lies on another or meets none, a load on no free edge or outside of its block, a block that
-    /// meets nothing, a joint whose class is not given. Each error has its line and column if the scene was read from
-    /// text.
+    /// Fails for the mistakes that [`Scene::check`] finds, and for mistakes of the whole structure: overlapping
+    /// blocks; a support that runs through a block, lies on another support or meets no block; a load on no free edge
+    /// or outside of its block; a block that meets nothing; a joint whose class is not given. Each error has its line
+    /// and column if the scene was read from text.
     pub fn from_scene(scene: &Scene) -> Result<Self, SceneError> {
         scene.check()?;
         build(scene).map_err(|fault| fault.locate(scene))
     }
 
-    /// Whether there are several steps, and friction makes the last state depend on the earlier ones.
+    /// Returns whether the last state depends on the earlier ones: there are several steps, and joints with friction.
     pub(crate) fn depends_on_way(&self, scene: &Scene) -> bool {
         scene.steps() > 1 && self.contacts.iter().any(|point| point.law.resists_sliding())
     }
@@ -80,7 +80,7 @@ fn build(scene: &Scene) -> Result<Model, Fault> {
     Ok(model)
 }
 
-/// Puts corners of single blocks onto the corners and edges that they miss by rounding, if a tolerance is given or
+/// Moves corners of single blocks onto the corners and edges that they miss by rounding, if a tolerance is given or if
 /// blocks overlap.
 fn heal_corners(
     scene: &Scene,
@@ -122,12 +122,12 @@ fn heal_corners(
     Ok(Some(healed))
 }
 
-/// Blocks as they are laid.
+/// The blocks of a scene after they were laid, each with its key and its place in a wall or an arch.
 struct Laid {
     blocks: Vec<PlacedBlock>,
     /// The key of the scene that describes each block.
     keys: Vec<KeyPath>,
-    /// The place of every brick and voussoir; single blocks come after all of these.
+    /// The place of every brick and voussoir in its wall or arch; single blocks come after bricks and voussoirs.
     places: Vec<BlockPlace>,
 }
 
@@ -193,7 +193,8 @@ fn block(
     PlacedBlock { name, corners, elasticity, density, mesh, loads: Vec::new() }
 }
 
-/// Refuses bricks that are cut to almost nothing, and blocks that are damaged because corners were moved too far.
+/// Refuses bricks that are cut to almost nothing, and blocks that lost their shape because their corners were moved
+/// too far.
 fn check_shapes(blocks: &[PlacedBlock], keys: &[KeyPath]) -> Result<(), Fault> {
     for (block, key) in blocks.iter().zip(keys) {
         let name = || block.name.clone();
@@ -219,7 +220,7 @@ fn support(support: &scene::Support, units: Units) -> PlacedSupport {
     }
 }
 
-/// Joints, their contact points and the classes that they refer to.
+/// The joints of a model, their contact points and the classes to which they refer.
 struct Meetings {
     joints: Vec<PlacedJoint>,
     contacts: Vec<JointPoint>,

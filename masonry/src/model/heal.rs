@@ -1,21 +1,23 @@
-//! Corners of single blocks are put onto the corners and edges of others that they miss by rounding: drawings are
-//! written with some decimals, and blocks that touch in a drawing overlap or stand apart by the last decimal.
+//! Moves corners of single blocks onto the corners and edges of other blocks that they miss by rounding. Drawings are
+//! written with a limited number of decimals, so that blocks that touch in a drawing overlap or stand apart by the
+//! last decimal.
 //!
 //! # Equations
-//! Corners that are nearer to each other than the tolerance share one place `x`, whose weight is their number `w`. A
-//! place nearer to an edge than the tolerance is on the line through the ends of the edge. Places move by the least
-//! `sum w |dx|^2` for which all lines are straight, by steps of Gauss and Newton: `dx = -W^-1 A^T (A W^-1 A^T)^-1 r`.
+//! Corners that are nearer to each other than the tolerance share one place `x`, whose weight `w` is the number of
+//! these corners. A place that is nearer to an edge than the tolerance lies on the line through the ends of the edge.
+//! Places move such that `sum w |dx|^2` is least and all lines are straight, by Gauss-Newton steps: `dx = -W^-1 A^T (A
+//! W^-1 A^T)^-1 r`.
 //!
-//! Every condition is stated once. Two conditions that are equal on straight lines differ on lines that are not
-//! straight yet: their difference is of the order of the error `e` on an edge of length `l`, and demands that places
-//! slide along the line by the error of second order, `e^2 / l`, divided by the difference of both directions, `e / l`:
-//! by as much as `e` for every pair of such conditions. So corners at one place are one unknown. A corner is on one
-//! edge of another block; if it is near to two edges, it is near to their common corner once it is on the first. Lines
-//! with two places in common that are apart are one line, whatever edges and supports they come from: the lines of a
-//! bed joint are linked through the corners on both of its sides. A line through `n` places has `n - 2` conditions: the
-//! middle place is on the line between the first and the last one, and so on in both halves. These conditions are
-//! independent, as each has a place that the conditions before it do not have. A line with two places that do not move
-//! has one condition for each place that moves.
+//! Every condition must occur only once. Two conditions that are equal on straight lines differ on lines that are not
+//! straight yet. If an edge of length `l` has an error `e`, the difference is of the order of `e`. It would make
+//! places slide along the line by the error of second order, `e^2 / l`, divided by the difference of the two
+//! directions, `e / l`: by as much as `e` for every pair of such conditions. So corners at one place are one unknown.
+//! A corner is put on one edge of another block only: if it is near to two edges, it is near to their common corner
+//! once it is on the first edge. Lines that have two separate places in common are one line, whatever edges and
+//! supports they come from: the lines of a bed joint are linked through the corners on both of its sides. A line
+//! through `n` places has `n - 2` conditions: the middle place is on the line between the first and the last place,
+//! and so on in both halves. These conditions are independent, since each has a place that the conditions before it do
+//! not have. A line with two places that do not move has one condition for each place that moves.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
@@ -28,37 +30,38 @@ use super::{PlacedBlock, PlacedSupport};
 use crate::geometry::{self, SAME_PLACE};
 use crate::model::joints::near_pairs;
 
-/// The default tolerance, relative to the shortest edge of the single blocks of a scene. Theory: coordinates of a wall
-/// in metres with six decimals are off by 2e-6 of a brick.
+/// Default tolerance, relative to the shortest edge of the single blocks of a scene \[-\]. Theory: coordinates of a
+/// wall in metres with six decimals have errors of 2e-6 of a brick.
 const OF_SHORTEST_EDGE: f64 = 1e-5;
-/// Steps of Gauss and Newton. Theory: each leaves the square of an error, and half of its digits are those of the
-/// regular matrix; as many steps again for places that come near to others by the first steps.
+/// Largest number of Gauss-Newton steps. Theory: each step squares the error, and the regularised matrix gives half of
+/// the digits. The number is doubled for places that come near to others only during the first steps.
 const STEPS: usize = 10;
-/// The tolerance, relative to the shortest edge, at most. Theory: the ends of an edge must not meet.
+/// Largest tolerance, relative to the shortest edge \[-\]. Theory: the two ends of an edge must not meet.
 const LARGEST: f64 = 0.25;
 
-/// The corners that were moved, and the changes of a drawing when it was read.
+/// A record of corners that were moved, and of changes that were made when a drawing was read.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Healed {
-    /// Corners that were moved.
+    /// Number of corners that were moved.
     pub corners: usize,
     /// The largest distance \[m\] by which a corner was moved.
     pub largest: f64,
-    /// The tolerance \[m\].
+    /// The tolerance that was used \[m\].
     pub tolerance: f64,
-    /// Changes and omissions of the drawing with the blocks, in sentences.
+    /// Changes to the drawing of the blocks and omissions from it, in sentences.
     pub drawing: Vec<String>,
 }
 
-/// The reason for which corners cannot be healed, in words that follow the tolerance.
+/// The reason why corners could not be moved onto others, in words that follow the tolerance in a sentence.
 pub type Unhealed = &'static str;
 
-/// Moves corners of the last `count` blocks by as little as possible, so that each corner nearer than the tolerance
-/// \[m\] to a corner or an edge of another block, or to a support, lies on it. `None` if nothing had to be moved.
+/// Moves corners of the last `count` blocks by as little as possible, so that each corner that is nearer than the
+/// tolerance \[m\] to a corner or an edge of another block, or to a support, lies on it. Returns `None` if nothing had
+/// to be moved.
 ///
 /// # Errors
-/// The tolerance is too large for the blocks, or some corners cannot meet their neighbours by movements within the
-/// tolerance. The blocks are not changed then.
+/// The tolerance is too large for the blocks, or some corners cannot be put onto their neighbours by movements within
+/// the tolerance. In both cases the blocks are not changed.
 pub fn heal(
     blocks: &mut [PlacedBlock],
     count: usize,
@@ -111,16 +114,16 @@ fn shortest_edge(blocks: &[PlacedBlock]) -> f64 {
     edges.fold(f64::INFINITY, f64::min)
 }
 
-/// The corners of all blocks, and the ends of supports.
+/// The points of a structure whose corners are moved: the corners of all blocks, and the ends of supports.
 struct Drawing {
     points: Vec<Point2<f64>>,
-    /// The points of every block, then of every support, which has an edge in both directions.
+    /// The ranges of points of every block, then of every support, which has an edge in both directions.
     bodies: Vec<Range<usize>>,
-    /// The points that may move: bricks, voussoirs and supports stay.
+    /// The range of points that may move; bricks, voussoirs and supports stay.
     free: Range<usize>,
-    /// Bodies that are near each other.
+    /// The pairs of bodies that are near each other.
     pairs: Vec<[usize; 2]>,
-    /// The distances below which points meet: if both bodies are fixed, and if one may move.
+    /// The distances below which points meet \[m\]: first if both bodies are fixed, then if one of them may move.
     reach: [f64; 2],
 }
 
@@ -154,8 +157,8 @@ impl Drawing {
         Self { points: shapes.concat(), bodies, free, pairs, reach }
     }
 
-    /// Moves points that are near each other together, to first order; returns their largest distance before \[m\].
-    /// `None` if memory does not suffice.
+    /// Makes one step that puts points near each other together, to first order. Returns the largest distance of such
+    /// points before the step \[m\]; `None` if memory does not suffice.
     fn step(&mut self) -> Option<f64> {
         let Neighbours { mut joined, beside } = self.neighbours();
         let places: Vec<usize> = (0..self.points.len()).map(|it| joined.root(it)).collect();
@@ -171,7 +174,7 @@ impl Drawing {
         Some(apart.max(gathered))
     }
 
-    /// Finds all corners that meet others, and for every edge its ends and the points on it.
+    /// Finds all corners that meet other corners, and for every edge the points on it with the two ends of the edge.
     fn neighbours(&self) -> Neighbours {
         let mut joined = Joined((0..self.points.len()).collect());
         let mut beside = vec![BTreeSet::new(); self.points.len()];
@@ -204,8 +207,8 @@ impl Drawing {
         Neighbours { joined, beside }
     }
 
-    /// Moves the first corner of every place to the middle of all its corners, if it may move; returns the number of
-    /// corners of each place, and their largest distance from it \[m\].
+    /// Moves the first corner of every place to the mean of all corners of the place, unless it is fixed. Returns the
+    /// number of corners of each place, and the largest distance of a corner from its place \[m\].
     fn gather(&mut self, places: &[usize]) -> (Vec<f64>, f64) {
         let before = self.points.clone();
         let mut weights = vec![0.0; self.points.len()];
@@ -223,7 +226,7 @@ impl Drawing {
         (weights, apart.fold(0.0, f64::max))
     }
 
-    /// Joins lines that have two places in common, apart from each other, until no such lines are left.
+    /// Joins lines that have two separate places in common, until no such lines are left.
     fn one_line_each(&self, mut lines: Vec<BTreeSet<usize>>) -> Vec<BTreeSet<usize>> {
         let mut through: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
         for (k, line) in lines.iter().enumerate() {
@@ -235,7 +238,7 @@ impl Drawing {
         for k in 0..lines.len() {
             let mut line = std::mem::take(&mut lines[k]);
             let mut new: Vec<usize> = line.iter().copied().collect();
-            // The first place that another line has in common.
+            // For each other line, the first place that it has in common with this line.
             let mut common: BTreeMap<usize, usize> = BTreeMap::new();
             while let Some(place) = new.pop() {
                 for other in &through[&place] {
@@ -251,7 +254,7 @@ impl Drawing {
         whole
     }
 
-    /// The conditions that put the places of a line onto one straight line.
+    /// Returns the conditions that put the places of a line onto one straight line.
     fn rows(&self, line: BTreeSet<usize>) -> Vec<Collinear> {
         let (free, fixed): (Vec<_>, Vec<_>) =
             line.iter().copied().partition(|it| self.free.contains(it));
@@ -263,7 +266,7 @@ impl Drawing {
         rows
     }
 
-    /// Places of a line from one of its ends to the other.
+    /// Sorts the places of a line from one of its ends to the other.
     fn along(&self, mut places: Vec<usize>) -> Vec<usize> {
         let Some(any) = places.first().copied() else { return places };
         let distance = |a: usize, b: usize| (self.points[a] - self.points[b]).norm();
@@ -273,8 +276,8 @@ impl Drawing {
         places
     }
 
-    /// Makes the least movements of places for which all conditions hold, to first order; returns their largest
-    /// violation before \[m\].
+    /// Makes the least movements of places for which all conditions hold, to first order. Returns the largest
+    /// violation of a condition before the movements \[m\]; `None` if memory does not suffice.
     fn straighten(&mut self, rows: &[Collinear], weights: &[f64]) -> Option<f64> {
         let (mut entries, mut apart) = (Vec::new(), Vec::with_capacity(rows.len()));
         let mut columns = BTreeMap::new();
@@ -320,13 +323,13 @@ impl Drawing {
     }
 }
 
-/// Points that are near each other.
+/// The points that are near each other, and the points on every edge.
 struct Neighbours {
     joined: Joined,
     beside: Vec<BTreeSet<usize>>,
 }
 
-/// Sets of points, each as a tree with its least point as the root.
+/// Disjoint sets of points, each a tree whose root is the point with the least index.
 struct Joined(Vec<usize>);
 
 impl Joined {
@@ -345,14 +348,15 @@ impl Joined {
     }
 }
 
-/// The nearest point of a body, if it is within reach.
+/// Returns the nearest point of a body; `None` if its distance exceeds `reach`.
 fn nearest(body: &Range<usize>, distance: impl Fn(usize) -> f64, reach: f64) -> Option<usize> {
     let distances = body.clone().map(|it| (it, distance(it)));
     let nearest = distances.min_by(|(_, a), (_, b)| a.total_cmp(b));
     nearest.filter(|(_, distance)| *distance <= reach).map(|(it, _)| it)
 }
 
-/// Puts the middle place on the line between the first and the last one, and so on in both halves.
+/// Adds the conditions that put the middle place on the line between the first and the last one, and so on in both
+/// halves.
 fn halve(places: &[usize], rows: &mut Vec<Collinear>) {
     if let [from, _, .., to] = *places {
         let middle = places.len() / 2;

@@ -25,7 +25,7 @@ pub use crate::scene::{ContactError, Films, PointRule};
 mod points;
 mod search;
 
-/// The kind of joint that two sides make, which decides its class.
+/// The bodies that a joint is between, which decide its class.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum JointKind {
     /// A joint between two blocks, with the unit normal that it would have.
@@ -34,12 +34,12 @@ pub enum JointKind {
     Support(SupportId),
 }
 
-/// The settings of the search for joints and of the places of points.
+/// The settings of the search for joints and of the positions of contact points.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct JointSearch {
-    /// The places of the contact points.
+    /// The rule for the positions of the contact points.
     pub points: PointRule,
-    /// The largest initial gap across which two edges make a joint \[m\], beyond the mortar.
+    /// The largest initial gap \[m\], in addition to the thickness of mortar, at which two edges make a joint.
     pub gap_limit: f64,
     /// The terms of mortar films that are kept; strips need [`PointRule::Gauss`].
     pub films: Films,
@@ -47,12 +47,13 @@ pub struct JointSearch {
 
 /// Finds all joints and places their contact points.
 ///
-/// `class_of` maps the kind of a joint and its two sides to an index into `classes`, `thickness` \[m\] turns lengths into
-/// the areas that points stand for. Joints come in the order of their blocks, those with supports after those between
-/// blocks; points come joint by joint, along the joint's tangent. Blocks that only touch at a corner make no joint.
+/// `class_of` maps the kind of a joint and its two sides to an index into `classes`. Lengths times the `thickness`
+/// \[m\] are the areas that points stand for. Joints between blocks come first, in the order of their blocks, and then
+/// joints with supports. Points come joint by joint, along the tangent of the joint. Blocks that touch only at a
+/// corner make no joint.
 ///
-/// [`ContactError::NoNodalPair`] with [`PointRule::NodalPairs`] on meshes that do not match, and
-/// [`ContactError::NoRoomForFilm`] for edges whose distance is less than the thickness of the mortar between them.
+/// Fails with [`ContactError::NoNodalPair`] if [`PointRule::NodalPairs`] is used on meshes that do not match, and with
+/// [`ContactError::NoRoomForFilm`] if the distance of two edges is less than the thickness of the mortar between them.
 ///
 /// # Panics
 /// If `class_of` returns an index outside `classes`.
@@ -112,7 +113,7 @@ pub fn find(
     Ok((joints, contacts))
 }
 
-/// The edges of two sides; the edge of a support is edge 0.
+/// The edges of two bodies between which joints are sought; the edge of a support is edge 0.
 #[derive(Clone, Copy)]
 struct Sides {
     a: Body,
@@ -121,17 +122,17 @@ struct Sides {
     b_edge: usize,
 }
 
-/// Two edges that face each other, at any distance.
+/// Two edges that face each other, at any distance, and so could make a joint.
 struct Candidate {
     kind: JointKind,
     sides: Sides,
     /// The edge of side `a`, and of side `b`.
     edges: [[Point2<f64>; 2]; 2],
-    /// The distance that counts as touching \[m\].
+    /// The largest distance of edges that count as touching \[m\].
     slack: f64,
 }
 
-/// The pairs of edges of two blocks that could make a joint.
+/// Returns the pairs of edges of two blocks that could make a joint.
 fn between_blocks(blocks: &[PlacedBlock], first: BlockId, second: BlockId) -> Vec<Candidate> {
     let [p, q] = [first, second].map(|id| &blocks[id.index()].corners);
     let slack = SAME_PLACE * geometry::size(p).min(geometry::size(q));
@@ -153,13 +154,14 @@ fn between_blocks(blocks: &[PlacedBlock], first: BlockId, second: BlockId) -> Ve
     pairs.filter_map(candidate).collect()
 }
 
-/// Whether a joint between blocks is a bed, with its normal within 45 degrees of the vertical, and not a head.
+/// Returns whether a joint between blocks is a bed joint, whose normal is within 45 degrees of the vertical, and not a
+/// head joint.
 pub fn is_bed(normal: Vector2<f64>) -> bool {
     // Rounding must not decide at exactly 45 degrees.
     normal.y.abs() >= normal.x.abs() * (1.0 - SAME_PLACE)
 }
 
-/// The edges of a block that could rest on a support, on either side of the support's line.
+/// Returns the edges of a block that could rest on a support, on either side of the support's line.
 fn on_support(
     support: &PlacedSupport,
     id: SupportId,
@@ -179,9 +181,11 @@ fn on_support(
 }
 
 impl Candidate {
-    /// The overlap of the two edges, with mortar on the edge of side `a` if there is any; `None` if they do not meet.
+    /// Returns the overlap of the two edges, after the edge of side `a` is shifted by the thickness of mortar; `None`
+    /// if the edges do not meet.
     ///
-    /// The error has the distances of the edges at both ends of the overlap if the mortar does not fit between them.
+    /// The error has the distances of the edges at both ends of the overlap, if the mortar does not fit between the
+    /// edges.
     fn overlap(
         &self,
         mortar: Option<Mortar>,
@@ -203,11 +207,11 @@ impl Candidate {
     }
 }
 
-/// Two sides that meet in a joint of a class.
+/// Two edges that meet in a joint of some class.
 struct Meeting<'a> {
     blocks: &'a [PlacedBlock],
     sides: Sides,
-    /// The overlap; side `a` is its first segment.
+    /// The overlap of the edges; its first segment is that of side `a`.
     overlap: SegmentOverlap,
     class: &'a JointClass,
     films: Films,
@@ -216,7 +220,7 @@ struct Meeting<'a> {
 }
 
 impl Meeting<'_> {
-    /// The placed joint. The overlap runs along the first segment, opposite to the joint's tangent.
+    /// Makes the joint. The overlap runs along the first segment, opposite to the tangent of the joint.
     fn joint(&self, class: usize, film: Option<Film>) -> PlacedJoint {
         let Sides { a, b, .. } = self.sides;
         let normal = self.overlap.normal;
@@ -281,7 +285,8 @@ impl Meeting<'_> {
     }
 }
 
-/// Places of the nodes of a block's edge; a rigid block has its corners only.
+/// Returns the places of the nodes of a block's edge as fractions of the edge; the edge of a rigid block has only its
+/// two corners.
 fn edge_fractions(block: &PlacedBlock, edge: usize) -> Vec<f64> {
     block.mesh.as_ref().map_or_else(|| vec![0.0, 1.0], |mesh| mesh.edge_fractions(edge))
 }

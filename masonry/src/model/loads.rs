@@ -1,4 +1,4 @@
-//! Loads on blocks by kind: the resultant of each load and its nodal forces on a mesh.
+//! Loads on blocks: the resultant of each load, and its nodal forces on a mesh.
 
 use nalgebra::{Point2, Vector2};
 
@@ -9,21 +9,21 @@ use crate::model::mesh::BlockMesh;
 /// A force and a moment at a place of a block.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PlacedForce {
-    /// The place \[m\].
+    /// The place at which the force acts \[m\].
     pub at: Point2<f64>,
-    /// The force \[N\].
+    /// The force in global axes \[N\].
     pub force: Vector2<f64>,
     /// The moment about the place, counter-clockwise \[N m\].
     pub moment: f64,
 }
 
 impl PlacedForce {
-    /// A force without a moment.
+    /// Makes a force without a moment.
     pub(super) fn new(at: Point2<f64>, force: Vector2<f64>) -> Self {
         Self { at, force, moment: 0.0 }
     }
 
-    /// The size \[N\] of the force and of a couple for the moment, two forces at a distance \[m\].
+    /// Returns the size \[N\] of the force, plus that of a couple of two forces at this distance \[m\] for the moment.
     pub fn size(&self, distance: f64) -> f64 {
         self.force.norm() + self.moment.abs() / distance
     }
@@ -34,11 +34,11 @@ impl PlacedForce {
 pub struct LoadCase {
     /// The name of the load.
     pub name: String,
-    /// The group of the load; a load without a group in the scene has a group with its own name.
+    /// The group of the load; by default a group with the name of the load.
     pub group: String,
-    /// The factor \[-\] of the load, times that of the step; loads on blocks include it.
+    /// The factor \[-\] of the load times the factor of the step; loads on blocks include it.
     pub factor: f64,
-    /// The part of the load that is the weight of a mass, from 0 to 1; `None` if the scene gives none.
+    /// The part of the load that is the weight of a mass, from 0 to 1; `None` if the scene does not give it.
     pub mass: Option<f64>,
 }
 
@@ -54,11 +54,11 @@ pub enum BlockLoad {
 /// A traction on a part of a block's edge, uniform or linear along it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct EdgeLoad {
-    /// The edge, from 0.
+    /// The edge of the block, from 0.
     pub edge: usize,
-    /// Start of the loaded part as a fraction of the edge, from its first corner.
+    /// Start of the loaded part as a fraction of the edge from its first corner.
     pub from: f64,
-    /// End of the loaded part as a fraction of the edge.
+    /// End of the loaded part as a fraction of the edge from its first corner.
     pub to: f64,
     /// Traction on the block at the start and at the end of the loaded part \[Pa\] in global axes.
     pub traction: [Vector2<f64>; 2],
@@ -69,27 +69,27 @@ pub struct EdgeLoad {
 /// A force and a moment at a place inside or on the edge of a block.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PointLoad {
-    /// The place \[m\].
+    /// The place at which force and moment act \[m\].
     pub at: Point2<f64>,
     /// The force on the block over its whole thickness \[N\] in global axes.
     pub force: Vector2<f64>,
     /// The moment on the block over its whole thickness, counter-clockwise \[N m\].
     pub moment: f64,
-    /// The load of the scene.
+    /// The load of the scene to which the force belongs.
     pub load: LoadId,
 }
 
-/// An acceleration that acts like gravity on all that has mass.
+/// An acceleration that acts on all mass, as gravity does.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Acceleration {
-    /// The acceleration \[m/s^2\]: the force on a mass is the mass times the acceleration.
+    /// The acceleration \[m/s^2\]; the force on a mass is the mass times this acceleration.
     pub value: Vector2<f64>,
-    /// The load of the scene.
+    /// The load of the scene to which the acceleration belongs.
     pub load: LoadId,
 }
 
 impl BlockLoad {
-    /// The load of the scene to which this load belongs.
+    /// Returns the load of the scene to which this load belongs.
     pub fn load(&self) -> LoadId {
         match self {
             Self::Edge(edge) => edge.load,
@@ -97,7 +97,7 @@ impl BlockLoad {
         }
     }
 
-    /// Whether any part of the load has a component against a direction.
+    /// Returns whether any part of the load has a component against a direction.
     pub(super) fn acts_against(&self, direction: Vector2<f64>) -> bool {
         let is_against = |force: Vector2<f64>| force.dot(&direction) < 0.0;
         match self {
@@ -106,7 +106,8 @@ impl BlockLoad {
         }
     }
 
-    /// A part of another load in the place of this one, with another force or traction, and without a moment.
+    /// Makes the load `load` of the scene at the place of this one. Its force or traction is computed by `of` from
+    /// that of this one; it has no moment.
     pub(super) fn instead(&self, load: LoadId, of: impl Fn(Vector2<f64>) -> Vector2<f64>) -> Self {
         match *self {
             Self::Edge(it) => Self::Edge(EdgeLoad { traction: it.traction.map(of), load, ..it }),
@@ -116,7 +117,7 @@ impl BlockLoad {
         }
     }
 
-    /// The resultant of the load on a block with these corners in a wall of a thickness \[m\].
+    /// Returns the resultant of the load on a block with these corners in a wall of this thickness \[m\].
     pub fn resultant(&self, corners: &[Point2<f64>], thickness: f64) -> PlacedForce {
         match self {
             Self::Edge(load) => load.resultant(corners, thickness),
@@ -126,8 +127,8 @@ impl BlockLoad {
         }
     }
 
-    /// The nodal forces \[N\] that do the same work as the load on all displacements of the mesh; a node may come
-    /// twice.
+    /// Returns the nodal forces \[N\] that do the same work as the load in all displacements of the mesh; a node may
+    /// occur twice.
     pub fn nodal_forces(
         &self,
         corners: &[Point2<f64>],
@@ -144,7 +145,7 @@ impl BlockLoad {
         }
     }
 
-    /// Multiplies the load by a factor.
+    /// Multiplies the load by a factor \[-\].
     pub fn scale(&mut self, factor: f64) {
         match self {
             Self::Edge(load) => load.traction.iter_mut().for_each(|it| *it *= factor),
@@ -157,14 +158,15 @@ impl BlockLoad {
 }
 
 impl EdgeLoad {
-    /// The traction \[Pa\] at a fraction of the edge.
+    /// Returns the traction \[Pa\] at a fraction of the edge.
     fn traction_at(&self, at: f64) -> Vector2<f64> {
         let [first, last] = self.traction;
         first + (last - first) * ((at - self.from) / (self.to - self.from))
     }
 
-    /// The mean traction in the centroid of the loaded part if the traction has one direction; otherwise the mean
-    /// traction in the middle of the part, with the moment of the change along it.
+    /// Returns the resultant of the traction. If the traction has one direction, it acts at the centroid of the
+    /// traction. Otherwise it acts in the middle of the loaded part, with the moment of the change of the traction
+    /// along the part.
     fn resultant(&self, corners: &[Point2<f64>], thickness: f64) -> PlacedForce {
         let [start, end] = [self.from, self.to].map(|at| geometry::on_edge(corners, self.edge, at));
         let (along, [first, last]) = (end - start, self.traction);
@@ -183,7 +185,7 @@ impl EdgeLoad {
         }
     }
 
-    /// Integrals of the traction times the shape functions over the loaded part, as fractions of the edge \[Pa\].
+    /// Integrates the traction times the shape functions over the loaded part, in fractions of the edge \[Pa\].
     fn on_nodes(&self, mesh: &BlockMesh) -> Vec<(usize, Vector2<f64>)> {
         let fractions = mesh.edge_fractions(self.edge);
         let parts = fractions.windows(2).filter_map(|part| {
@@ -203,8 +205,8 @@ impl EdgeLoad {
 }
 
 impl PointLoad {
-    /// Nodal forces of force and moment. A moment does its work on the mean rotation of the material at the place,
-    /// `(dv/dx - du/dy) / 2`.
+    /// Returns the nodal forces of force and moment. The moment does work on the mean rotation of the material at its
+    /// place, `(dv/dx - du/dy) / 2`.
     fn on_nodes(&self, mesh: &BlockMesh) -> Vec<(usize, Vector2<f64>)> {
         let mut forces = mesh.interpolate_inside(self.at).map(|(node, n)| (node, self.force * n));
         if self.moment.abs() > 0.0 {

@@ -1,10 +1,11 @@
-//! Q4 meshes of single blocks.
+//! Meshes of single blocks by four-node quadrilateral elements (Q4).
 //!
-//! A block is divided into quadrilaterals, its patches, and each patch by its bilinear map into equal numbers of
-//! elements. A convex quadrilateral is one patch. Another convex polygon has a patch at every corner, between the
-//! middles of both edges and the centroid; these patches are convex, since the centroid lies beyond the line between
-//! the middles beside a corner. A polygon that is star-shaped about its centroid has three patches in the triangle of
-//! each edge with the centroid. Corners on straight edges are left out before.
+//! A block is divided into quadrilaterals, its patches. The bilinear map of each patch divides it into equal numbers
+//! of elements. A convex quadrilateral is one patch. Another convex polygon has one patch per corner, whose vertices
+//! are the corner, the middles of the two edges at the corner, and the centroid. These patches are convex, since the
+//! centroid lies beyond the line between the two middles. A polygon that is star-shaped about its centroid but not
+//! convex has three patches in the triangle of each edge with the centroid. Corners on straight edges are removed
+//! beforehand.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -16,18 +17,19 @@ use crate::geometry::{self, Quad};
 /// A mesh of four-node quadrilaterals in one block, with the nodes on its edges.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BlockMesh {
-    /// Numbers of elements along both directions of every patch.
+    /// Numbers of elements of every patch along its two directions.
     divisions: [usize; 2],
-    /// Positions of the nodes \[m\].
+    /// Coordinates of the nodes \[m\].
     pub nodes: Vec<Point2<f64>>,
-    /// Nodes of each element, counter-clockwise; patch by patch, and row by row from the first side of the patch.
+    /// Nodes of each element, counter-clockwise; elements come patch by patch, and row by row from the first side of
+    /// the patch.
     pub elements: Vec<[usize; 4]>,
-    /// The nodes on each edge, from its first corner to its second.
+    /// Nodes on each edge of the block, from the first corner of the edge to the second.
     edges: Vec<Vec<usize>>,
 }
 
 impl BlockMesh {
-    /// Divides a quadrilateral by the bilinear map: every edge is divided evenly.
+    /// Divides a quadrilateral by its bilinear map: every edge is divided evenly.
     ///
     /// Nodes are numbered row by row from corner 0: node `(i, j)` is `j * (nx + 1) + i`, with `i` along
     /// edge 0 (corner 0 to corner 1) and `j` from edge 0 to edge 2.
@@ -40,11 +42,11 @@ impl BlockMesh {
         patches.divided([nx, ny])
     }
 
-    /// Divides a block. A convex quadrilateral gets `nx` by `ny` elements, `nx` along edges 0 and 2; another block gets patches of
-    /// `nx` by `nx`.
+    /// Divides a block. A convex quadrilateral gets `nx` by `ny` elements, `nx` along edges 0 and 2. Any other block
+    /// is divided into patches of `nx` by `nx` elements.
     ///
-    /// `None` if the block is not a convex quadrilateral and the numbers differ, or if it is not convex and an edge
-    /// lies [behind its centroid](geometry::edge_behind_centroid).
+    /// Returns `None` if the block is not a convex quadrilateral and the two numbers differ, or if it is not convex
+    /// and an edge lies [behind its centroid](geometry::edge_behind_centroid).
     ///
     /// # Panics
     /// If a number of elements is zero.
@@ -64,38 +66,38 @@ impl BlockMesh {
         (nx == ny).then(|| patches.divided(divisions))
     }
 
-    /// Numbers of elements along both directions of every patch.
+    /// Returns the numbers of elements of every patch along its two directions.
     pub fn divisions(&self) -> [usize; 2] {
         self.divisions
     }
 
-    /// Number of elements along an edge.
+    /// Returns the number of elements along an edge of the block.
     ///
     /// # Panics
-    /// If there is no such edge.
+    /// If the block has no such edge.
     pub fn edge_elements(&self, edge: usize) -> usize {
         self.edges[edge].len() - 1
     }
 
-    /// The nodes on an edge, from its first corner to its second.
+    /// Returns the nodes on an edge of the block, from the first corner of the edge to the second.
     ///
     /// # Panics
-    /// If there is no such edge.
+    /// If the block has no such edge.
     pub fn edge_nodes(&self, edge: usize) -> &[usize] {
         &self.edges[edge]
     }
 
-    /// The node at every corner.
+    /// Returns the node at every corner of the block.
     pub fn corner_nodes(&self) -> impl Iterator<Item = usize> {
         self.edges.iter().map(|nodes| nodes[0])
     }
 
-    /// The nodes around the block, counter-clockwise from corner 0.
+    /// Returns the nodes around the block, counter-clockwise from corner 0.
     pub fn rim(&self) -> impl Iterator<Item = usize> {
         self.edges.iter().flat_map(|nodes| &nodes[..nodes.len() - 1]).copied()
     }
 
-    /// The lines between elements, each as its nodes.
+    /// Returns the lines between elements, each as a list of nodes.
     pub fn lines(&self) -> Vec<Vec<usize>> {
         let [nx, ny] = self.divisions;
         let rim: BTreeSet<usize> = self.rim().collect();
@@ -118,39 +120,41 @@ impl BlockMesh {
         lines
     }
 
-    /// The places of the nodes on an edge as fractions of it, from 0 to 1.
+    /// Returns the places of the nodes on an edge as fractions of the edge, from 0 to 1.
     ///
     /// # Panics
-    /// If there is no such edge.
+    /// If the block has no such edge.
     pub fn edge_fractions(&self, edge: usize) -> Vec<f64> {
         let n = self.edge_elements(edge);
         (0..=n).map(|k| k as f64 / n as f64).collect()
     }
 
-    /// The two nodes between which a place on an edge lies, each with its shape function there.
+    /// Returns the two nodes between which a place on an edge lies, each with the value of its shape function at the
+    /// place.
     ///
-    /// `at` is the fraction of the edge, clamped to 0..=1.
+    /// `at` is the place as a fraction of the edge, clamped to 0..=1.
     ///
     /// # Panics
-    /// If there is no such edge.
+    /// If the block has no such edge.
     pub fn interpolate(&self, edge: usize, at: f64) -> [(usize, f64); 2] {
         let nodes = &self.edges[edge];
         let (first, s) = within(self.edge_elements(edge), at);
         [(nodes[first], 1.0 - s), (nodes[first + 1], s)]
     }
 
-    /// The four nodes of the element in which a point \[m\] of the block lies, each with its shape function there; zero exactly
-    /// if the point lies on the other side of the element up to rounding.
+    /// Returns the four nodes of the element in which a point \[m\] of the block lies, each with the value of its
+    /// shape function at the point. The value is exactly zero if the point lies, up to rounding, on the side of the
+    /// element opposite to the node.
     ///
-    /// The map of an element is that of its patch on a part of the unit square, so that the element is found in a patch
-    /// without a search.
+    /// The map of an element is the map of its patch on a part of the unit square, so that the element of a point in a
+    /// patch is found without a search.
     pub fn interpolate_inside(&self, point: Point2<f64>) -> [(usize, f64); 4] {
         let ([a, b, c, d], [r, s]) = self.element_at(point);
         [(a, (1.0 - r) * (1.0 - s)), (b, r * (1.0 - s)), (c, r * s), (d, (1.0 - r) * s)]
     }
 
-    /// The four nodes of the element at a point, each with the gradient of its shape function there \[1/m\]. A place
-    /// between elements belongs to one of them.
+    /// Returns the four nodes of the element at a point, each with the gradient of its shape function at the point
+    /// \[1/m\]. A point between elements belongs to one of these elements.
     ///
     /// # Panics
     /// If an element is folded, which does not occur in the mesh of a checked block.
@@ -162,7 +166,8 @@ impl BlockMesh {
         std::array::from_fn(|k| (nodes[k], gradients[k]))
     }
 
-    /// The nodes of the element in which a point of the block lies, and the place in the unit square of this element.
+    /// Returns the nodes of the element in which a point of the block lies, and the place of the point in the unit
+    /// square of the element.
     fn element_at(&self, point: Point2<f64>) -> ([usize; 4], [f64; 2]) {
         let [nx, ny] = self.divisions;
         let outside = |patch: usize| geometry::outside(&self.quad(patch), point);
@@ -177,13 +182,13 @@ impl BlockMesh {
         self.elements.len() / (self.divisions[0] * self.divisions[1])
     }
 
-    /// The corners of a patch.
+    /// Returns the corners of a patch.
     fn quad(&self, patch: usize) -> Quad {
         let [nx, ny] = self.divisions;
         [[0, 0], [nx, 0], [nx, ny], [0, ny]].map(|at| self.nodes[self.node(patch, at)])
     }
 
-    /// The node of a patch at a place of its grid.
+    /// Returns the node of a patch at column `i` and row `j` of its grid.
     fn node(&self, patch: usize, [i, j]: [usize; 2]) -> usize {
         let [nx, ny] = self.divisions;
         let (column, row) = (i.min(nx - 1), j.min(ny - 1));
@@ -197,18 +202,18 @@ impl BlockMesh {
     }
 }
 
-/// The patches of a block before they are divided.
+/// The patches of a block, before they are divided into elements.
 struct Patches {
-    /// The vertices; the corners of the block come first.
+    /// The vertices of all patches; the corners of the block come first.
     vertices: Vec<Point2<f64>>,
     /// The corners of each patch, counter-clockwise.
     quads: Vec<[usize; 4]>,
-    /// The vertices on each edge of the block.
+    /// The vertices on each edge of the block, in order.
     edges: Vec<Vec<usize>>,
 }
 
 impl Patches {
-    /// A patch at every corner, to the middles of its edges and to the centroid.
+    /// Makes one patch per corner, from the corner to the middles of its edges and to the centroid.
     fn at_corners(corners: &[Point2<f64>]) -> Self {
         let count = corners.len();
         let centre = 2 * count;
@@ -221,7 +226,7 @@ impl Patches {
         Self { vertices, quads, edges: (0..count).map(edge).collect() }
     }
 
-    /// Three patches in the triangle of each edge with the centroid, one at each of its corners.
+    /// Makes three patches in the triangle of each edge with the centroid, one at each corner of the triangle.
     fn at_edges(corners: &[Point2<f64>]) -> Self {
         let count = corners.len();
         let [middles, spokes, triangles, centre] = [1, 2, 3, 4].map(|k| k * count);
@@ -248,7 +253,7 @@ impl Patches {
         Self { vertices, quads, edges: (0..count).map(edge).collect() }
     }
 
-    /// The mesh with every patch divided; patches share the nodes on their common sides.
+    /// Divides every patch into elements; patches share the nodes on their common sides.
     fn divided(&self, divisions: [usize; 2]) -> BlockMesh {
         let [nx, ny] = divisions;
         assert!(nx > 0 && ny > 0, "a mesh has at least one element in each direction");
@@ -286,12 +291,12 @@ impl Patches {
     }
 }
 
-/// A place on a side of a patch, the same for both patches beside it.
+/// A place on a side of a patch, described in the same way for both patches beside the side.
 #[derive(PartialEq, Eq, PartialOrd, Ord)]
 struct OnSide {
-    /// The ends, in increasing order; the same vertex twice at a corner.
+    /// The vertices at the ends of the side, in increasing order; at a corner twice the same vertex.
     side: [usize; 2],
-    /// Elements from the first end.
+    /// Number of elements between the first end and the place.
     step: usize,
 }
 
@@ -308,7 +313,7 @@ impl OnSide {
         }
     }
 
-    /// The place `step` elements from one end to the other, of `count`.
+    /// Returns the place after `step` of the `count` elements from the end `from` to the end `to`.
     fn step([from, to]: [usize; 2], step: usize, count: usize) -> Self {
         if step == 0 || step == count {
             Self { side: [if step == 0 { from } else { to }; 2], step: 0 }
@@ -320,14 +325,15 @@ impl OnSide {
     }
 }
 
-/// The index of the one of `n` equal parts of an edge in which a fraction of it lies, and the place in this part.
+/// Finds the part in which a fraction of an edge lies if the edge has `n` equal parts; returns the index of the part,
+/// and the place as a fraction of the part.
 fn within(n: usize, at: f64) -> (usize, f64) {
     let place = at.clamp(0.0, 1.0) * n as f64;
     let first = (1..n).take_while(|k| *k as f64 <= place).count();
     (first, place - first as f64)
 }
 
-/// The place with coordinates `r` (along edge 0) and `s` (along edge 3, reversed) in 0..=1.
+/// Returns the point with bilinear coordinates `r` (along edge 0) and `s` (along edge 3, reversed), both from 0 to 1.
 fn bilinear(corners: &Quad, r: f64, s: f64) -> Point2<f64> {
     let [a, b, c, d] = corners.map(|p| p.coords);
     Point2::from((a * (1.0 - r) + b * r) * (1.0 - s) + (d * (1.0 - r) + c * r) * s)

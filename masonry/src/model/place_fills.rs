@@ -1,10 +1,10 @@
-//! Fill over blocks, and axles on it, as loads on the edges that face upwards.
+//! Fill on blocks, and axles on the fill, as loads on the edges that face upwards.
 //!
 //! The weight of the column of fill above an edge varies linearly along the edge. The force of an axle spreads along
-//! straight rays, equally many for every unit of `u`, the horizontal distance over the depth, up to `u = tan angle`:
-//! the pressure on a horizontal plane is uniform. An edge takes the rays that meet it first,
-//! `(u_2 - u_1) / (2 tan angle)` of the force. An edge below another one of the structure, such as the sill of a
-//! window, carries no fill.
+//! straight rays. Let `u` be the horizontal distance divided by the depth; there are equally many rays for every unit
+//! of `u`, up to `u = tan angle`, so that the pressure on a horizontal plane is uniform. Each ray loads the edge that
+//! it meets first: an edge met by the rays from `u_1` to `u_2` takes `(u_2 - u_1) / (2 tan angle)` of the force. An
+//! edge below another edge of the structure, such as the sill of a window, carries no fill.
 
 use nalgebra::{Point2, Vector2};
 
@@ -12,7 +12,7 @@ use super::{EdgeLoad, PlacedBlock, PointLoad};
 use crate::geometry::{self, SAME_PLACE};
 use crate::ids::LoadId;
 
-/// A part of an edge that faces upwards, from left to right.
+/// A part of an edge that faces upwards; its ends are in order from left to right.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Top {
     block: usize,
@@ -22,31 +22,33 @@ pub(super) struct Top {
     fractions: [f64; 2],
 }
 
-/// A part of a force.
+/// The part of a force that one edge or one place of a block takes.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Share {
-    /// The whole force at one place of a block.
+    /// The whole force, at one place of a block.
     Place { block: usize, at: Point2<f64> },
-    /// A part on an edge.
+    /// A part of the force, distributed on an edge.
     Strip {
         on: Top,
-        /// The part at both ends, per unit of length along the edge: linear between them \[1/m\], or \[m\] for a fill.
+        /// The densities at both ends, per unit of length along the edge, with linear variation between the ends:
+        /// \[1/m\] for a part of a force, \[m\] for a fill.
         density: [f64; 2],
     },
 }
 
-/// An axle in its place.
+/// An axle: its place, and the fill below it.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct PlacedAxle {
     /// The place of the axle along x \[m\].
     pub(super) x: f64,
-    /// The top of the fill \[m\], if there is one.
+    /// The height of the top of the fill \[m\]; `None` if there is no fill.
     pub(super) level: Option<f64>,
-    /// The tangent of the angle of spread.
+    /// The tangent of the angle at which the fill spreads the force \[-\].
     pub(super) slope: f64,
 }
 
-/// The free parts of upward edges of a body's blocks, without the parts below other edges of the structure.
+/// Returns the free parts of the edges of a body that face upwards, without the parts that lie below other edges of
+/// the structure.
 pub(super) fn tops(
     blocks: &[PlacedBlock],
     over: &str,
@@ -70,7 +72,7 @@ pub(super) fn tops(
 }
 
 impl Top {
-    /// The whole edges of a block that face upwards.
+    /// Returns the edges of a block that face upwards, at full length.
     fn of(blocks: &[PlacedBlock], block: usize) -> Vec<Self> {
         let corners = &blocks[block].corners;
         let top = |edge: usize| {
@@ -82,7 +84,8 @@ impl Top {
         (0..corners.len()).filter_map(top).collect()
     }
 
-    /// The part of the edge that lies below another edge.
+    /// Returns the part of the edge that lies below another edge, in fractions of the edge; `None` if there is no such
+    /// part.
     fn below_other(&self, other: &Self) -> Option<[f64; 2]> {
         let [from, to] = [self.ends[0].x.max(other.ends[0].x), self.ends[1].x.min(other.ends[1].x)];
         let [low, high] = [self, other].map(|it| it.at(it.part_at(0.5 * (from + to))).y);
@@ -90,7 +93,7 @@ impl Top {
         (from < to && low < high - near).then(|| [from, to].map(|x| self.part_at(x)))
     }
 
-    /// The part of the edge up to a place along x \[m\].
+    /// Returns the place on the edge with the coordinate `x` \[m\], as a fraction of the edge.
     fn part_at(&self, x: f64) -> f64 {
         let [a, b] = self.ends;
         (x - a.x) / (b.x - a.x)
@@ -107,7 +110,8 @@ impl Top {
         Self { ends, fractions: part.map(|it| first + (last - first) * it), ..*self }
     }
 
-    /// The part that lies below a level, with the depths of its ends \[m\].
+    /// Returns the part of the edge that lies below a level, with the depths of its two ends \[m\]; `None` if all of
+    /// the edge lies above the level.
     fn below(&self, level: f64) -> Option<(Self, [f64; 2])> {
         let [depth, other] = self.ends.map(|end| level - end.y);
         let crossing = depth / (depth - other);
@@ -125,7 +129,8 @@ impl Top {
 }
 
 impl Share {
-    /// Presses on the block, downwards. `force` is the total force \[N\], or that of a fill \[N/m^2\].
+    /// Adds the share to the loads of its block, as a downward load. `force` is the total force \[N\], or the weight
+    /// of a fill divided by its area \[N/m^2\].
     pub(super) fn press(
         &self,
         blocks: &mut [PlacedBlock],
@@ -149,7 +154,7 @@ impl Share {
     }
 }
 
-/// The columns of fill up to a level.
+/// Returns for each edge the column of fill above it, up to a level.
 pub(super) fn columns(tops: &[Top], level: f64) -> Vec<Share> {
     let column = |top: &Top| {
         let (on, depths) = top.below(level)?;
@@ -160,19 +165,19 @@ pub(super) fn columns(tops: &[Top], level: f64) -> Vec<Share> {
     tops.iter().filter_map(column).collect()
 }
 
-/// An edge that rays of an axle reach through a fill.
+/// An edge that rays of an axle reach through the fill.
 struct Reached {
     top: Top,
     /// The depths of the ends of the edge \[m\].
     depths: [f64; 2],
-    /// The rays to the ends of the edge.
+    /// The rays to the two ends of the edge, as distances divided by depths (`u`).
     rays_to_ends: [f64; 2],
-    /// The rays that meet the edge within the angle of spread.
+    /// The first and the last ray that meet the edge within the angle of spread.
     rays: [f64; 2],
 }
 
 impl PlacedAxle {
-    /// The parts of the axle's force on edges. Rays that meet no edge are left out.
+    /// Returns the parts of the axle's force on edges. Rays that meet no edge carry nothing.
     pub(super) fn shares(&self, tops: &[Top]) -> Vec<Share> {
         let highest = tops.iter().filter_map(|top| Some((top, self.above(top)?)));
         let highest = highest.max_by(|a, b| a.1.y.total_cmp(&b.1.y));
@@ -187,14 +192,14 @@ impl PlacedAxle {
         }
     }
 
-    /// The place on an edge straight below the axle.
+    /// Returns the place on an edge straight below the axle; `None` if the axle is beside the edge.
     fn above(&self, top: &Top) -> Option<Point2<f64>> {
         let part = top.part_at(self.x);
         (0.0..=1.0).contains(&part).then(|| top.at(part))
     }
 
-    /// The parts that edges take through a fill up to a level above the axle's foot; each edge takes the rays that meet
-    /// it first.
+    /// Returns the parts of the force that edges take through the fill, whose top is above the edge below the axle;
+    /// each edge takes the rays that meet it first.
     fn through(&self, level: f64, tops: &[Top]) -> Vec<Share> {
         let reached: Vec<_> = tops.iter().filter_map(|top| self.reached(level, top)).collect();
         let shares = |it: &Reached| {
@@ -214,20 +219,21 @@ impl PlacedAxle {
         (rays[0] < rays[1]).then_some(Reached { top, depths, rays_to_ends, rays })
     }
 
-    /// The rays that meet another edge before this one.
+    /// Returns the rays that meet the edge `other` before the edge `it`; `None` if there are no such rays.
     fn behind(&self, it: &Reached, other: &Reached) -> Option<[f64; 2]> {
         let [from, to] = [it.rays[0].max(other.rays[0]), it.rays[1].min(other.rays[1])];
         let [deep, less] = [it, other].map(|it| it.depth(self.met(it, 0.5 * (from + to))));
         (from < to && less < deep).then_some([from, to])
     }
 
-    /// The part of an edge up to the place at which a ray meets it.
+    /// Returns the place at which a ray meets an edge, as a fraction of the edge.
     fn met(&self, it: &Reached, ray: f64) -> f64 {
         let ([a, b], [depth, other]) = (it.top.ends, it.depths);
         (self.x + ray * depth - a.x) / (b.x - a.x - ray * (other - depth))
     }
 
-    /// The part of some rays, linear along pieces of the edge; each piece has the resultant of its rays.
+    /// Returns the load of some rays on an edge, linear along pieces of the edge; the load of each piece has the
+    /// resultant of its rays.
     fn linear(&self, it: &Reached, rays: [f64; 2]) -> Vec<Share> {
         let [first, last] = it.rays_to_ends;
         let start = if first >= rays[0] { 0.0 } else { self.met(it, rays[0]) };
@@ -252,13 +258,13 @@ impl Reached {
     }
 }
 
-/// The mean of the places on a segment, as fractions of it, at which rays meet it, if the depth grows by the factor
-/// `1 + r` along it.
+/// Returns the mean of the places at which rays meet a segment, as a fraction of the segment, if the depth grows by
+/// the factor `1 + r` along the segment.
 ///
 /// The density of rays at the fraction `s` is proportional to `1 / (1 + r s)^2`: the mean is
 /// `((1 + r) ln(1 + r) - r) / r^2`.
 fn mean_of_rays(r: f64) -> f64 {
-    // Chosen: series and formula agree to twelve digits there.
+    // Chosen: at this value series and formula agree to twelve digits.
     if r.abs() > 0.1 {
         return ((1.0 + r) * r.ln_1p() - r) / (r * r);
     }

@@ -1,4 +1,4 @@
-//! The loads of a scene on its blocks: edges on a segment, places in a block, and all mass.
+//! Application of the loads of a scene to its blocks: on edges along a segment, at places in a block, and on all mass.
 
 mod edges;
 
@@ -15,11 +15,11 @@ use crate::rounding::rounded;
 use crate::scene::{Fault, KeyPath, LoadError, LoadKind, Scene, SceneErrorKind};
 use crate::units::Units;
 
-/// The number of names in a message about one that does not exist.
+/// Number of similar names that a message shows if a name does not exist.
 const NAMES: usize = 3;
 
-/// Puts the loads of a scene on its blocks, whose corners were moved by up to a distance \[m\]; returns the names of
-/// the loads, and the loads that act on all mass.
+/// Applies the loads of a scene to its blocks, whose corners were moved by up to a distance \[m\]. Returns the names
+/// and factors of the loads, and the loads that act on all mass.
 pub(super) fn place(
     scene: &Scene,
     blocks: &mut [PlacedBlock],
@@ -103,14 +103,14 @@ pub(super) fn place(
     Ok((loads, accelerations))
 }
 
-/// The free edges of a body that face upwards.
+/// Returns the free edges of a body that face upwards.
 fn tops(blocks: &[PlacedBlock], over: &str, joined: &[Vec<Vec<EdgePart>>]) -> Vec<Top> {
     place_fills::tops(blocks, over, |block, edge| {
         geometry::without([0.0, 1.0], &joined[block][edge])
     })
 }
 
-/// Lets accelerations act on the masses whose weights are loads, at the places of these loads.
+/// Adds the forces of accelerations on the masses whose weights are loads, at the places of these loads.
 fn accelerate(
     scene: &Scene,
     blocks: &mut [PlacedBlock],
@@ -141,7 +141,7 @@ fn accelerate(
     Ok(())
 }
 
-/// The error that no block has this name, with the nearest names.
+/// Returns the error that no block has this name, with the most similar names.
 fn unknown(blocks: &[PlacedBlock], name: &str) -> LoadError {
     let mut near: Vec<&str> = blocks.iter().map(|block| block.name.as_str()).collect();
     // The sort keeps the order of the scene among names that are equally near.
@@ -151,7 +151,7 @@ fn unknown(blocks: &[PlacedBlock], name: &str) -> LoadError {
     LoadError::NoBlock { name: name.to_owned(), near }
 }
 
-/// A place on a block. A place that is outside by rounding is moved to the edge.
+/// Returns a place on a block. A place that is outside of the block only by rounding is moved to the edge.
 fn place_in(
     block: &PlacedBlock,
     at: Point2<f64>,

@@ -1,4 +1,4 @@
-//! Checks of the places of blocks and supports relative to each other.
+//! Checks of the positions of blocks and supports relative to each other.
 
 use std::collections::BTreeMap;
 
@@ -10,7 +10,7 @@ use crate::rounding::rounded;
 use crate::scene::{Fault, KeyPath, Scene, SceneErrorKind};
 use crate::units::Units;
 
-/// Refuses two blocks of one name: a single block with the name of a brick of a wall, for instance.
+/// Refuses two blocks with the same name: for instance, a single block with the name of a brick of a wall.
 pub(super) fn check_names(blocks: &[PlacedBlock], keys: &[KeyPath]) -> Result<(), Fault> {
     let mut taken = BTreeMap::new();
     for (block, key) in blocks.iter().zip(keys) {
@@ -44,8 +44,8 @@ pub(super) fn check_overlaps(
     Ok(())
 }
 
-/// Refuses supports that move farther than the blocks reach: displacements are small, and larger movements would
-/// leave no digits for the deformation.
+/// Refuses supports that move farther than the blocks reach. The theory is for small displacements, and larger
+/// movements would leave no digits for the deformation.
 pub(super) fn check_movements(scene: &Scene, blocks: &[PlacedBlock]) -> Result<(), Fault> {
     let extent = Extent::of(blocks.iter().flat_map(|block| &block.corners)).longer_side();
     let extent = extent / scene.units.length_to_si();
@@ -90,7 +90,7 @@ pub(super) fn check_supports(
     Ok(())
 }
 
-/// Refuses supports that lie on each other along a block: the strength of their joint would count twice.
+/// Refuses two supports that lie on each other along a block: the strength of their joints would count twice.
 pub(super) fn check_overlapping_supports(
     blocks: &[PlacedBlock],
     supports: &[PlacedSupport],
@@ -122,7 +122,7 @@ pub(super) fn check_overlapping_supports(
     Ok(())
 }
 
-/// The length over which two parallel joints lie beside each other.
+/// Returns the length along which two parallel joints lie beside each other.
 fn common_length(joint: &PlacedJoint, other: &PlacedJoint) -> f64 {
     let along = (joint.to - joint.from).normalize();
     let [a, b] = [joint, other].map(|it| {
@@ -133,7 +133,7 @@ fn common_length(joint: &PlacedJoint, other: &PlacedJoint) -> f64 {
 }
 
 impl PlacedSupport {
-    /// Whether another support lies on this one, in either direction.
+    /// Returns whether another support lies on this one, in either direction.
     fn is_along(&self, other: &Self, near: f64) -> bool {
         let lies_on =
             |line| geometry::facing_overlap([self.from, self.to], line, near, 0.0).is_some();
@@ -141,7 +141,7 @@ impl PlacedSupport {
     }
 }
 
-/// Refuses blocks and supports that meet nothing.
+/// Refuses blocks and supports that touch nothing.
 pub(super) fn check_touching(
     blocks: &[PlacedBlock],
     keys: &[KeyPath],

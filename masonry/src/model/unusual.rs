@@ -1,4 +1,4 @@
-//! Magnitudes that no wall has, mostly mistakes of units.
+//! Warnings about magnitudes that no wall has, which are mostly mistakes of units.
 
 use std::ops::RangeInclusive;
 
@@ -9,26 +9,27 @@ use super::{Acceleration, BlockLoad, Healed, LoadCase, Model};
 use crate::geometry::Extent;
 use crate::material::constitutive;
 
-/// Elastic moduli of stone, brick, and mortar from fresh to hard \[Pa\].
+/// Usual elastic moduli, of stone, brick, and fresh to hard mortar \[Pa\].
 const YOUNG: RangeInclusive<f64> = 1e6..=1e12;
-/// Stiffnesses from pads of rubber to polished stone \[Pa/m\].
+/// Usual stiffnesses of joints, from rubber pads to polished stone \[Pa/m\].
 const STIFFNESS: RangeInclusive<f64> = 1e6..=1e14;
-/// Densities from light concrete to lead \[kg/m^3\].
+/// Usual densities, from light concrete to lead \[kg/m^3\].
 const DENSITY: RangeInclusive<f64> = 100.0..=20_000.0;
-/// Gravity, up to several times that of the earth \[m/s^2\].
+/// Usual gravity, up to several times that of the earth \[m/s^2\].
 const GRAVITY: RangeInclusive<f64> = 0.1..=100.0;
-/// A load below this \[N\] is unusual on a structure larger than the next constant \[m\].
+/// A total load below `LITTLE` \[N\] is unusual on a structure larger than `LARGE` \[m\].
 const LITTLE: f64 = 10.0;
 const LARGE: f64 = 0.5;
 
-/// Blocks with at least this length over height bend like beams. Chosen: bricks are shorter, and lie on all of their
-/// bed.
+/// Slenderness (length divided by height) from which blocks bend like beams \[-\]. Chosen: bricks are shorter, and
+/// rest on the whole length of their bed.
 const BEAM: f64 = 4.0;
-/// The stiffness of a mesh in bending over that of the block. Chosen: moduli of masonry are not known better.
+/// Largest stiffness of a mesh in bending divided by that of its block \[-\]. Chosen: moduli of masonry are not known
+/// better.
 const STIFF: f64 = 1.2;
 
 impl Model {
-    /// Unusual magnitudes of a scene, in sentences; empty if there are none.
+    /// Lists the unusual magnitudes of a scene in sentences; empty if there are none.
     pub fn unusual(&self) -> Vec<String> {
         let lists = [
             self.elasticities(),
@@ -43,7 +44,7 @@ impl Model {
         lists.concat()
     }
 
-    /// The changes of a drawing, and corners that were moved so that blocks touch.
+    /// Describes the changes of a drawing, and the corners that were moved so that blocks touch.
     fn moved_corners(&self) -> Vec<String> {
         let in_scene = |metres: f64| format!("{:.1e}", metres / self.units.length_to_si());
         let sentence = |it: &Healed| {
@@ -61,7 +62,7 @@ impl Model {
         healed.drawing.iter().cloned().chain(moved).collect()
     }
 
-    /// Loads that press down beside an acceleration, without a `mass`.
+    /// Lists loads that press down while an acceleration acts, but have no `mass`.
     fn massless(&self) -> Vec<String> {
         let aside = |it: &&Acceleration| it.value.perp(&self.gravity).abs() > 0.0;
         let Some(quake) = self.accelerations.iter().find(aside) else { return Vec::new() };
@@ -87,7 +88,7 @@ impl Model {
         self.loads.iter().enumerate().filter(is_massless).map(sentence).collect()
     }
 
-    /// Axles that stand beside their bridges.
+    /// Lists axles that stand beside their bridges.
     fn idle(&self) -> Vec<String> {
         let mut acts = vec![false; self.loads.len()];
         let on_blocks = self.blocks.iter().flat_map(|block| &block.loads).map(BlockLoad::load);
@@ -118,7 +119,7 @@ impl Model {
         odd.into_iter().map(sentence).collect()
     }
 
-    /// Slender blocks whose meshes bend too little, with the name of the worst.
+    /// Lists slender blocks whose meshes are too stiff in bending, with the name of the worst block.
     fn stiff_meshes(&self) -> Vec<String> {
         let stiff = self.blocks.iter().filter_map(|block| {
             let d = constitutive(block.elasticity?, self.plane);
@@ -196,7 +197,7 @@ impl Model {
     }
 }
 
-/// The values outside of a range, each once, in increasing order.
+/// Lists the values outside of a range, each once, in increasing order.
 fn outside(usual: &RangeInclusive<f64>, values: impl Iterator<Item = f64>) -> Vec<f64> {
     let mut odd: Vec<f64> = values.filter(|value| !usual.contains(value)).collect();
     odd.sort_by(f64::total_cmp);

@@ -2,36 +2,36 @@
 
 use super::PointRule;
 
-/// One side of a joint: its nodes, and the overlap, as fractions of the side's edge.
+/// One side of a joint: its nodes and the overlap, in fractions of the edge of this side.
 pub(super) struct Face {
-    /// Fractions of the edge at which nodes lie, increasing.
+    /// Places of the nodes as fractions of the edge, increasing.
     pub(super) fractions: Vec<f64>,
-    /// Fractions of the edge at the start and at the end of the joint.
+    /// Start and end of the joint as fractions of the edge.
     pub(super) overlap: [f64; 2],
 }
 
-/// A contact point on a joint.
+/// The place of a contact point on a joint and on the edges of both sides.
 pub(super) struct PointPlace {
-    /// Fraction of the joint from its start.
+    /// Place of the point as a fraction of the joint from its start.
     pub(super) along: f64,
-    /// Fraction of the edge of side `a`; zero for a support.
+    /// Place of the point as a fraction of the edge of side `a`; zero for a support.
     pub(super) on_a: f64,
-    /// Fraction of the edge of side `b`.
+    /// Place of the point as a fraction of the edge of side `b`.
     pub(super) on_b: f64,
     /// Length that the point stands for \[m\].
     pub(super) weight: f64,
-    /// Start and end of this length as fractions of the edge of side `a`; zeros for a support.
+    /// Start and end of the length of `weight` as fractions of the edge of side `a`; zeros for a support.
     pub(super) span_on_a: [f64; 2],
-    /// This length as fractions of the edge of side `b`.
+    /// Start and end of the length of `weight` as fractions of the edge of side `b`.
     pub(super) span_on_b: [f64; 2],
 }
 
-/// The place of a point on the joint, its weight, and the part that the point stands for, in fractions of
+/// A point on a joint: its place, its weight, and start and end of the part that it stands for, all in fractions of
 /// the joint.
 type Weighted = (f64, f64, [f64; 2]);
 
-/// Places the points of a joint of the given length \[m\]; fractions of the joint closer than `slack` are
-/// one place. Empty if the rule is nodal pairs and there are no such pairs.
+/// Places the points of a joint of the given length \[m\]. Places that are closer than `slack`, a fraction of the
+/// joint, count as one. Returns no points if the rule is nodal pairs and there are no such pairs.
 pub(super) fn place(
     rule: PointRule,
     a: Option<&Face>,
@@ -60,7 +60,7 @@ pub(super) fn place(
 }
 
 impl Face {
-    /// Fractions of the joint at which nodes of this side lie, increasing; some outside 0..=1.
+    /// Returns the nodes of this side as fractions of the joint, increasing; some lie outside of 0..=1.
     fn nodes_on_joint(&self) -> Vec<f64> {
         let [start, end] = self.overlap;
         let mut places: Vec<f64> =
@@ -75,7 +75,8 @@ impl Face {
     }
 }
 
-/// Ends of the parts on which both sides are linear: both ends of the joint and all nodes inside.
+/// Returns the ends of the parts on which displacements of both sides are linear: both ends of the joint and all nodes
+/// inside.
 fn vertices(a: Option<&[f64]>, b: &[f64], slack: f64) -> Vec<f64> {
     let nodes = a.unwrap_or_default().iter().chain(b);
     let mut inside: Vec<f64> = nodes.copied().filter(|x| *x > slack && *x < 1.0 - slack).collect();
@@ -87,14 +88,14 @@ fn vertices(a: Option<&[f64]>, b: &[f64], slack: f64) -> Vec<f64> {
     all
 }
 
-/// Places at which both sides have a node; the nodes of side `b` if the other side is a support.
+/// Returns the places at which both sides have a node; the nodes of side `b` if side `a` is a support.
 fn common(a: Option<&[f64]>, b: &[f64], slack: f64) -> Vec<f64> {
     let on_joint = b.iter().filter(|x| **x >= -slack && **x <= 1.0 + slack);
     let paired = on_joint.filter(|x| a.is_none_or(|a| a.iter().any(|y| (*x - y).abs() <= slack)));
     paired.map(|x| x.clamp(0.0, 1.0)).collect()
 }
 
-/// Weights that give half of every part to each of its ends.
+/// Returns the points with trapezoidal weights: half of every part goes to each of its ends.
 fn trapezoid(places: &[f64]) -> Vec<Weighted> {
     let mut weighted: Vec<Weighted> = places.iter().map(|x| (*x, 0.0, [*x; 2])).collect();
     for k in 1..places.len() {
@@ -108,7 +109,8 @@ fn trapezoid(places: &[f64]) -> Vec<Weighted> {
     weighted
 }
 
-/// Weights for which every point stands for the part nearer to it than to any other point.
+/// Returns the points with tributary weights: every point stands for the part that is nearer to it than to any other
+/// point.
 fn tributary(places: &[f64]) -> Vec<Weighted> {
     let middle = |k: usize| 0.5 * (places[k - 1] + places[k]);
     let last = places.len();
@@ -121,7 +123,7 @@ fn tributary(places: &[f64]) -> Vec<Weighted> {
         .collect()
 }
 
-/// Two Gauss points in every part.
+/// Returns two Gauss points in every part.
 fn gauss(places: &[f64]) -> Vec<Weighted> {
     let offset = 0.5 / 3.0_f64.sqrt();
     places

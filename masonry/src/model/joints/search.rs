@@ -1,10 +1,10 @@
-//! Pairs of shapes close enough to touch.
+//! Search for pairs of shapes that are close enough to touch.
 
 use nalgebra::Point2;
 
 use crate::geometry::{self, Extent, SAME_PLACE};
 
-/// Pairs of shapes whose bounding boxes come within `reach` \[m\], in increasing order.
+/// Returns the pairs of shapes whose bounding boxes come within `reach` \[m\] of each other, in increasing order.
 ///
 /// Boxes are swept along the longer side of the whole structure, so that only neighbours in that direction are compared.
 pub(crate) fn near_pairs<'a>(

@@ -8,7 +8,7 @@ use crate::model::{EdgeLoad, JointPoint, PlacedBlock, PlacedJoint};
 use crate::scene::{self, Earth, EdgeStress};
 use crate::units::Units;
 
-/// A part of an edge, as fractions of it.
+/// A part of an edge: its start and end as fractions of the edge.
 pub(super) type EdgePart = [f64; 2];
 
 /// A load on all free parts of edges that lie on a segment.
@@ -25,8 +25,8 @@ pub(super) struct OnEdges<'a> {
 }
 
 impl OnEdges<'_> {
-    /// Puts the load on blocks; returns whether it acts. Parts of edges that make joints are not free and carry no
-    /// load except one inside.
+    /// Applies the load to the blocks; returns whether it acts on any block. Parts of edges in joints (`joined`) are
+    /// not free: they carry no load unless `inside` is true.
     pub(super) fn place(&self, blocks: &mut [PlacedBlock], joined: &[Vec<Vec<EdgePart>>]) -> bool {
         let mut acts = false;
         for (block, joined) in blocks.iter_mut().zip(joined) {
@@ -50,7 +50,7 @@ impl OnEdges<'_> {
         acts
     }
 
-    /// Traction on the block at a fraction of an edge \[Pa\].
+    /// Returns the traction on the block at a fraction of an edge \[Pa\].
     fn traction(&self, corners: &[Point2<f64>], edge: usize, at: f64) -> Vector2<f64> {
         let in_scene = match self.stress {
             EdgeStress::Traction(traction) => Vector2::from(traction),
@@ -67,13 +67,14 @@ impl OnEdges<'_> {
         in_scene * self.units.stress_to_si() * self.load.factor
     }
 
-    /// Whether the load's traction presses an edge, whatever its factor.
+    /// Returns whether the traction of the load, without its factor, presses on an edge.
     fn presses(&self, corners: &[Point2<f64>], edge: usize) -> bool {
         let EdgeStress::Traction(traction) = self.stress else { return false };
         Vector2::from(traction).dot(&geometry::outward_normal(corners, edge)) < 0.0
     }
 
-    /// Cuts a part of an edge at the level of earth; `None` above it.
+    /// Returns the part of an edge below the level of earth, if the load is earth; `None` if all of the part is above
+    /// the level.
     fn loaded_part(
         &self,
         corners: &[Point2<f64>],
@@ -92,19 +93,19 @@ impl OnEdges<'_> {
         (part[1] - part[0] > SAME_PLACE).then_some(part)
     }
 
-    /// The height of a place on an edge in units of the scene.
+    /// Returns the height of a place on an edge, in units of the scene.
     fn height(&self, corners: &[Point2<f64>], edge: usize, at: f64) -> f64 {
         geometry::on_edge(corners, edge, at).y / self.units.length_to_si()
     }
 
-    /// A place on the segment as a fraction of it.
+    /// Returns a place on the segment as a fraction of the segment.
     fn fraction(&self, place: Point2<f64>) -> f64 {
         let [from, to] = self.ends;
         (place - from).dot(&(to - from)) / (to - from).norm_squared()
     }
 }
 
-/// The part of an edge that lies on a segment; `None` when they share no length.
+/// Returns the part of an edge that lies on a segment; `None` if edge and segment have no length in common.
 fn covered_part(
     corners: &[Point2<f64>],
     edge: usize,
@@ -124,7 +125,8 @@ fn covered_part(
     if high - low <= slack {
         return None;
     }
-    // The segment must lie on the edge only beside it: rounding may move it off the edge's line farther away.
+    // Only the part of the segment beside the edge must lie on the edge: rounding may move parts farther away off the
+    // edge's line.
     let distance = |s: f64| (from + (to - from) * ((s - a) / (b - a)) - start).dot(&normal);
     if distance(low).abs() > slack || distance(high).abs() > slack {
         return None;
@@ -132,7 +134,7 @@ fn covered_part(
     Some([low, high].map(|s| geometry::snap(s / length)))
 }
 
-/// The parts of every edge of every block that make joints.
+/// Returns the parts of every edge of every block that belong to joints.
 pub(super) fn joined_parts(
     blocks: &[PlacedBlock],
     joints: &[PlacedJoint],
@@ -156,7 +158,7 @@ pub(super) fn joined_parts(
     joined
 }
 
-/// The part of an edge in front of a joint.
+/// Returns the part of an edge that lies in front of a joint.
 fn projected(corners: &[Point2<f64>], edge: usize, joint: &PlacedJoint) -> EdgePart {
     let [start, end] = geometry::edge(corners, edge);
     let along = (end - start) / (end - start).norm_squared();
