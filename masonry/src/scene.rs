@@ -1,8 +1,8 @@
-//! Scenes: walls and arches as described by their authors, in a TOML file or built in Rust.
+//! Scenes: walls and arches as their authors describe them, in a TOML file or in Rust.
 //!
-//! A [`Scene`] holds the data as they were written, in the units of the scene; conversion to SI
-//! happens once, in [`Model::from_scene`](crate::model::Model::from_scene). A scene that is read
-//! from text and one that is built in Rust are the same type, so either can be written as TOML.
+//! A [`Scene`] holds the data as they were written, in the units of the scene.
+//! [`Model::from_scene`](crate::model::Model::from_scene) converts them to SI, once. A scene that is read from text
+//! has the same type as one that is built in Rust, so that both can be written as TOML.
 //!
 //! ```
 //! use masonry::scene::{Block, Joint, Material, Scene, Support};
@@ -82,32 +82,33 @@ strict::tables!(Arch, Axle, Between, Block, Brick, Combination, Contact, Earth, 
 strict::tables!(LimitLoad, Lintel, Load, Material, Movement, Opening, Output, Piers, Seismic);
 strict::tables!(SolverSettings, Stage, Support, Train, Units, Wall, WallJoints);
 
-/// Name of the class of the joints between blocks whose normal is closer to the vertical.
+/// Name of the class of bed joints: joints between blocks whose normal is closer to the vertical than to the
+/// horizontal.
 pub(crate) const BED: &str = "bed";
-/// Name of the class of the other joints between blocks.
+/// Name of the class of head joints: all other joints between blocks.
 pub(crate) const HEAD: &str = "head";
 
 /// A scene as described by its author, in the scene's own units.
 ///
-/// The fields are the keys of the TOML file. Unknown keys are errors, and no physical quantity is guessed if its key is left
-/// out: see [`Scene::check`].
+/// The fields are the keys of the TOML file. Unknown keys are errors, and the value of a physical quantity is never
+/// guessed if its key is missing: see [`Scene::check`].
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Scene {
-    /// Title of reports and pictures.
+    /// Title of the scene in reports and pictures.
     pub title: String,
-    /// Plane stress or plane strain; required when a material is elastic.
+    /// Plane stress or plane strain; required if a material is elastic.
     pub plane: Option<Plane>,
     /// Thickness out of the plane \[length\]; required.
     pub thickness: Option<f64>,
     /// Gravity \[m/s^2\]; acts only on materials that have a density.
     #[serde(default, deserialize_with = "strict::read")]
     pub gravity: Option<[f64; 2]>,
-    /// A file with more blocks, relative to the scene file: a JSON list of objects with `material` and `corners`, and `name`
-    /// and `mesh` as single blocks have them; or a drawing as `masonry import` reads it. Programs in Rust read drawings by
-    /// `masonry_import::read_scene`; `Scene::read` alone reads JSON lists only. A scene that was read from text has these
-    /// blocks after its own, and no list.
+    /// A file with more blocks, with a path relative to the scene file: a JSON list, or a drawing as `masonry import`
+    /// reads it. Each item of a JSON list has `material` and `corners`, and may have `name` and `mesh` as single
+    /// blocks do. Programs in Rust read drawings by `masonry_import::read_scene`; `Scene::read` alone reads JSON lists
+    /// only. After a scene was read from text, these blocks follow its own blocks, and this key is empty.
     pub block_list: Option<PathBuf>,
     /// Units of length and force.
     #[serde(deserialize_with = "strict::read")]
@@ -127,7 +128,7 @@ pub struct Scene {
         deserialize_with = "strict::read"
     )]
     pub joints: BTreeMap<String, Joint>,
-    /// Classes of the joints between certain blocks, instead of `bed` and `head`; the last matching entry counts.
+    /// The classes of joints between certain bodies, instead of `bed` and `head`; the last matching entry counts.
     #[serde(default, skip_serializing_if = "Vec::is_empty", deserialize_with = "strict::read")]
     pub between: Vec<Between>,
     /// Walls of bricks in courses.
@@ -142,56 +143,56 @@ pub struct Scene {
     /// Rigid supports.
     #[serde(default, skip_serializing_if = "Vec::is_empty", deserialize_with = "strict::read")]
     pub supports: Vec<Support>,
-    /// Loads on edges, at places in blocks, and on all mass.
+    /// Loads on edges, at places in blocks and on all mass.
     #[serde(default, skip_serializing_if = "Vec::is_empty", deserialize_with = "strict::read")]
     pub loads: Vec<Load>,
-    /// The load history; all loads act at once without stages.
+    /// The stages of the load history; without stages, all loads act at once.
     #[serde(default, skip_serializing_if = "Vec::is_empty", deserialize_with = "strict::read")]
     pub stages: Vec<Stage>,
-    /// Combinations of loads, in the place of stages: each is solved by itself.
+    /// Combinations of loads, instead of stages; each combination is solved by itself.
     #[serde(default, skip_serializing_if = "Vec::is_empty", deserialize_with = "strict::read")]
     pub combinations: Vec<Combination>,
-    /// Limit loads: the load that grows, and the seismic check.
+    /// Settings of limit loads: the load that grows, and the seismic check.
     #[serde(
         default,
         deserialize_with = "strict::read",
         skip_serializing_if = "LimitLoad::is_empty"
     )]
     pub limit: LimitLoad,
-    /// Contact: positions of contact points, gaps that close, and mortar films.
+    /// Settings of contact: positions of contact points, gaps that may close, and mortar films.
     #[serde(default, deserialize_with = "strict::read")]
     pub contact: Contact,
     /// Settings of the solver of the complementarity problem.
     #[serde(default, deserialize_with = "strict::read")]
     pub solver: SolverSettings,
-    /// The results that are computed besides displacements and forces.
+    /// The results that are computed in addition to displacements and forces.
     #[serde(default, deserialize_with = "strict::read")]
     pub output: Output,
-    /// The text that the scene was read from, for the places of errors.
+    /// The text from which the scene was read, for the line and column of errors.
     #[serde(skip)]
     source: Source,
 }
 
-/// A single block: a simple polygon, of an elastic material convex or star-shaped about its centroid.
+/// A single block: a simple polygon. A block of an elastic material must be convex, or star-shaped about its centroid.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Block {
     /// Name of the block.
     pub name: String,
-    /// Name of its material.
+    /// Name of the material of the block.
     pub material: String,
     /// Corners, counter-clockwise \[length\].
     #[serde(deserialize_with = "strict::read")]
     pub corners: Vec<[f64; 2]>,
-    /// Elements along edges 0 and 2, and along edges 1 and 3, of a convex quadrilateral; any other block has one
-    /// number, and twice as many elements along every edge. Required when the material is elastic.
+    /// Numbers of elements; required if the material is elastic. A convex quadrilateral has two numbers: along edges 0
+    /// and 2, and along edges 1 and 3. Any other block has one number, and twice as many elements along every edge.
     #[serde(default, deserialize_with = "strict::mesh")]
     #[cfg_attr(test, schemars(with = "Option<Elements>"))]
     pub mesh: Option<[u32; 2]>,
 }
 
-/// Elements along both directions, or along each.
+/// The numbers of elements: one number for both directions, or one for each.
 #[cfg(test)]
 #[derive(schemars::JsonSchema)]
 #[serde(untagged)]
@@ -201,29 +202,29 @@ enum Elements {
     Each([u32; 2]),
 }
 
-/// A rigid straight support, which moves only if a [`Stage`] moves it. Blocks may lie on either side of it.
+/// A rigid straight support, which moves only if a [`Stage`] moves it. Blocks may be on both sides of the support.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Support {
     /// Name of the support.
     pub name: String,
-    /// One end \[length\].
+    /// One end of the support \[length\].
     #[serde(deserialize_with = "strict::read")]
     pub from: [f64; 2],
-    /// The other end \[length\].
+    /// The other end of the support \[length\].
     #[serde(deserialize_with = "strict::read")]
     pub to: [f64; 2],
     /// The class of the joints of the support.
     pub joint: String,
 }
 
-/// Output.
+/// Settings of the results that are written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(default, deny_unknown_fields)]
 pub struct Output {
-    /// Whether stresses are recovered and written.
+    /// Whether stresses are computed and written.
     pub stresses: bool,
 }
 

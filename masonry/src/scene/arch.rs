@@ -1,4 +1,4 @@
-//! Arches: voussoirs between joints, by shape, with springings or piers.
+//! Arches: voussoirs of an arch of some shape, with the springings or piers on which it rests.
 
 mod lines;
 mod place;
@@ -11,11 +11,11 @@ pub(crate) use place::{NamedBlock, blocks, supports};
 use super::setters::setters;
 use super::strict;
 
-/// An arch of voussoirs, from the left springing to the right.
+/// An arch of voussoirs, which are counted from the left springing to the right.
 ///
-/// The voussoirs are called `name/1`, `name/2` and so on, or `name/1/1` if `rings` is given, with the ring first, from the
-/// intrados; blocks of piers `name/left/1` and `name/right/1` from the bottom, and
-/// the supports below both ends `name/left` and `name/right`.
+/// The names of the voussoirs are `name/1`, `name/2` and so on, or, if `rings` is given, `name/1/1` with the number of
+/// the ring first, from the intrados. Blocks of piers are `name/left/1` and `name/right/1` from the bottom, and the
+/// supports below both ends `name/left` and `name/right`.
 ///
 /// ```
 /// use masonry::scene::Arch;
@@ -30,7 +30,7 @@ pub struct Arch {
     pub name: String,
     /// Name of the material of voussoirs and piers.
     pub material: String,
-    /// Shape of the intrados.
+    /// Shape of the arch.
     pub shape: Shape,
     /// The left end of the intrados \[length\].
     #[serde(default, deserialize_with = "strict::read")]
@@ -39,35 +39,35 @@ pub struct Arch {
     pub span: Option<f64>,
     /// Height of the crown of the intrados above its ends \[length\].
     pub rise: Option<f64>,
-    /// Angle of a segmental arch at the centre of its circle \[degrees\], instead of the rise.
+    /// Angle of a segmental arch, seen from the centre of its circle \[degrees\], instead of the rise.
     pub embrace_deg: Option<f64>,
-    /// Angle of the springings of a flat arch with a straight intrados from the vertical \[degrees\].
+    /// Angle between the springings and the vertical, of a flat arch with a straight intrados \[degrees\].
     pub skew_deg: Option<f64>,
     /// Depth of the ring, or height of a flat arch \[length\].
     pub thickness: Option<f64>,
-    /// Number of voussoirs, in every ring.
+    /// Number of voussoirs in each ring.
     pub voussoirs: Option<u32>,
     /// Number of rings, into which the thickness is divided.
     pub rings: Option<u32>,
     /// The class of the joints between rings, instead of `joint`.
     pub ring_joint: Option<String>,
-    /// The joints from left to right, each from the intrados to the extrados \[length\], if no shape gives them.
+    /// The joints of the shape `joints`, from left to right, each from the intrados to the extrados \[length\].
     #[serde(default, deserialize_with = "strict::read")]
     pub lines: Option<Vec<JointLine>>,
     /// The class of the joints within the arch, instead of `bed` and `head`.
     pub joint: Option<String>,
-    /// The class of the joints with rigid supports below both ends; there are no such supports without it.
+    /// The class of the joints with the rigid supports below both ends; without it there are no such supports.
     pub springing: Option<String>,
     /// Piers or buttresses below both ends.
     #[serde(default, deserialize_with = "strict::read")]
     pub piers: Option<Piers>,
-    /// Elements of every block; required when the material is elastic.
+    /// Numbers of elements of every block; required if the material is elastic.
     #[serde(default, deserialize_with = "strict::mesh")]
     #[cfg_attr(test, schemars(with = "Option<super::Elements>"))]
     pub mesh: Option<[u32; 2]>,
 }
 
-/// A joint from the intrados to the extrados \[length\].
+/// The two ends of a joint, on the intrados and on the extrados \[length\].
 pub type JointLine = [[f64; 2]; 2];
 
 /// The shape of an arch.
@@ -75,34 +75,35 @@ pub type JointLine = [[f64; 2]; 2];
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(rename_all = "lowercase")]
 pub enum Shape {
-    /// An arc of a circle: `span`, and `rise` or `embrace_deg`; joints towards the centre.
+    /// An arc of a circle, given by `span` and either `rise` or `embrace_deg`; joints point towards the centre.
     Segmental,
-    /// Half a circle: `span`.
+    /// Half a circle, given by `span`.
     Semicircular,
-    /// Two arcs that meet at the crown: `span` and `rise`; an even number of voussoirs.
+    /// Two arcs that meet at the crown, given by `span` and `rise`; the number of voussoirs is even.
     Pointed,
-    /// A level top: `span`, and `skew_deg` of a straight intrados or `rise` of an arc; joints towards one point below.
+    /// An arch with a level top, given by `span` and either `skew_deg` for a straight intrados or `rise` for an arc;
+    /// joints point towards one point below.
     Flat,
-    /// The joints are given: `lines`.
+    /// An arch whose joints are given by `lines`.
     Joints,
 }
 
-/// Piers below both ends of an arch. The inner face is in line with the end of the intrados; if the springing is inclined, a
-/// block with that face lies on top.
+/// Piers below both ends of an arch. The inner face of a pier is in line with the end of the intrados. If the
+/// springing is inclined, a block with the face of the springing lies on top of the pier.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Piers {
     /// Width of a pier \[length\].
     pub width: f64,
-    /// Height up to the end of the intrados \[length\].
+    /// Height of a pier up to the end of the intrados \[length\].
     pub height: f64,
-    /// Number of blocks on top of each other.
+    /// Number of blocks on top of each other in a pier.
     pub courses: u32,
 }
 
 impl Arch {
-    /// An arc of a circle by span and rise of the intrados, thickness \[length\] and number of voussoirs.
+    /// Makes a segmental arch by span and rise of the intrados and thickness \[length\], and number of voussoirs.
     pub fn segmental(
         name: &str,
         material: &str,
@@ -117,7 +118,7 @@ impl Arch {
         }
     }
 
-    /// Half a circle by the span of the intrados, thickness \[length\] and number of voussoirs.
+    /// Makes a semicircular arch by the span of the intrados and thickness \[length\], and number of voussoirs.
     pub fn semicircular(
         name: &str,
         material: &str,
@@ -128,7 +129,8 @@ impl Arch {
         Self::new(name, material, Shape::Semicircular, span, thickness, voussoirs)
     }
 
-    /// Two arcs that meet at the crown, by span and rise of the intrados, thickness \[length\] and an even number of voussoirs.
+    /// Makes a pointed arch by span and rise of the intrados and thickness \[length\], and an even number of
+    /// voussoirs.
     pub fn pointed(
         name: &str,
         material: &str,
@@ -141,7 +143,8 @@ impl Arch {
         Self { rise, ..Self::new(name, material, Shape::Pointed, span, thickness, voussoirs) }
     }
 
-    /// A flat arch by span, angle of the springings from the vertical \[degrees\], height \[length\] and number of voussoirs.
+    /// Makes a flat arch by span \[length\], angle of the springings from the vertical \[degrees\], height \[length\]
+    /// and number of voussoirs.
     pub fn flat(
         name: &str,
         material: &str,
@@ -154,7 +157,7 @@ impl Arch {
         Self { skew_deg, ..Self::new(name, material, Shape::Flat, span, height, voussoirs) }
     }
 
-    /// Voussoirs between joints from left to right, each from the intrados to the extrados \[length\].
+    /// Makes an arch by its joints from left to right, each from the intrados to the extrados \[length\].
     ///
     /// ```
     /// use masonry::scene::Arch;
@@ -169,17 +172,17 @@ impl Arch {
     setters! {
         /// Puts the left end of the intrados at this point \[length\].
         pub fn origin(mut self, origin: [f64; 2]) { self.origin = Some(origin) }
-        /// Gives the joints between voussoirs a class, instead of `bed` and `head`.
+        /// Sets the class of the joints within the arch, instead of `bed` and `head`.
         pub fn joint(mut self, joint: &str) { self.joint = Some(joint.to_owned()) }
-        /// Divides the thickness into rings.
+        /// Divides the thickness into this number of rings.
         pub fn rings(mut self, rings: u32) { self.rings = Some(rings) }
-        /// Gives the joints between rings a class.
+        /// Sets the class of the joints between rings.
         pub fn ring_joint(mut self, joint: &str) { self.ring_joint = Some(joint.to_owned()) }
-        /// Puts piers below both ends.
+        /// Puts piers below both ends of the arch.
         pub fn piers(mut self, piers: Piers) { self.piers = Some(piers) }
-        /// Gives every block a mesh, which elastic blocks need.
+        /// Sets the numbers of elements of every block, which elastic blocks need.
         pub fn mesh(mut self, mesh: [u32; 2]) { self.mesh = Some(mesh) }
-        /// Puts rigid supports below both ends, whose joints are of a class.
+        /// Puts rigid supports below both ends, and sets the class of their joints.
         pub fn springing(mut self, joint: &str) { self.springing = Some(joint.to_owned()) }
     }
 

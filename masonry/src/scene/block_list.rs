@@ -1,11 +1,11 @@
-//! A JSON file with single blocks, their corners and material, as written by other programs.
+//! Lists of single blocks with their corners and material, in JSON files that other programs write.
 
 use serde::Deserialize;
 
 use super::source::{Excerpt, List};
 use super::{Block, SceneError, strict};
 
-/// A block of the list.
+/// One item of the list: the data of a block.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Listed {
@@ -18,10 +18,10 @@ struct Listed {
     mesh: Option<[u32; 2]>,
 }
 
-/// The blocks of a list. Blocks without a name are named after the file and their number in the list.
+/// Returns the blocks of a list. Blocks without a name are named after the file and their number in the list.
 ///
 /// # Errors
-/// The first part that does not fit the format, and its place.
+/// The first part of the file that does not fit the format, with its place.
 pub(super) fn blocks(list: &List) -> Result<Vec<Block>, SceneError> {
     let listed: Vec<Listed> = serde_json::from_str(&list.text).map_err(|error| {
         let message = error.to_string();

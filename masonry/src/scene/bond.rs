@@ -1,4 +1,4 @@
-//! The bricks of a wall: laid in a bond and cut at openings, or given brick by brick in courses.
+//! The bricks of a wall: laid in a bond and cut at openings, or given in courses, brick by brick.
 
 mod openings;
 
@@ -10,14 +10,14 @@ pub(crate) use openings::{taken, voussoirs};
 /// Thicknesses \[length\] of the joints between the bricks of a wall; zero for dry joints.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct JointThickness {
-    /// Thickness of the beds: the pitch of courses is the height of a brick plus this thickness.
+    /// Thickness of the bed joints: the vertical distance of courses is the height of a brick plus this thickness.
     pub bed: f64,
-    /// Thickness of the heads: the pitch of bricks is the length of a brick plus this thickness.
+    /// Thickness of the head joints: the distance of bricks in a course is the length of a brick plus this thickness.
     pub head: f64,
 }
 
 impl JointThickness {
-    /// The thicknesses of the classes of a wall's joints.
+    /// Returns the thicknesses of the joint classes of a wall.
     pub fn of(scene: &Scene, wall: &Wall) -> Self {
         let of = |class: &str| scene.joints.get(class).map_or(0.0, Joint::mortar_thickness);
         let [bed, head] = wall.joints.names().map(of);
@@ -25,39 +25,40 @@ impl JointThickness {
     }
 }
 
-/// A brick in its place, in the units of the scene.
+/// A brick of a wall at its place, in the units of the scene.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PlacedBrick {
     /// The course, from 1 at the bottom.
     pub course: usize,
-    /// The place in the course, from 1 at the left; openings are not counted.
+    /// The number of the brick in its course, from 1 at the left; openings are not counted.
     pub place: usize,
-    /// Lower left corner \[length\].
+    /// Lower left corner of the brick \[length\].
     pub low: [f64; 2],
-    /// Upper right corner \[length\].
+    /// Upper right corner of the brick \[length\].
     pub high: [f64; 2],
-    /// Length in units of one brick \[-\], without mortar.
+    /// Length of the brick divided by that of a whole brick, without mortar \[-\].
     pub fraction: f64,
-    /// The lengths by which the bottom reaches beyond the top, left and right \[length\], beside a flat arch.
+    /// The lengths by which the bottom of a brick beside a flat arch reaches beyond its top, left and right
+    /// \[length\].
     pub leans: [f64; 2],
-    /// The number of the opening above which the brick is the lintel, from 0.
+    /// The index of the opening above which the brick is the lintel; `None` for other bricks.
     pub lintel: Option<usize>,
 }
 
 impl PlacedBrick {
-    /// The name of the brick, `wall/course/place`.
+    /// Returns the name of the brick, `wall/course/place`.
     pub fn name(&self, wall: &Wall) -> String {
         format!("{}/{}/{}", wall.name, self.course, self.place)
     }
 
-    /// The corners, counter-clockwise from the lower left \[length\].
+    /// Returns the corners of the brick, counter-clockwise from the lower left \[length\].
     pub fn corners(&self) -> [[f64; 2]; 4] {
         let ([x0, y0], [x1, y1], [left, right]) = (self.low, self.high, self.leans);
         [[x0 - left, y0], [x1 + right, y0], [x1, y1], [x0, y1]]
     }
 
-    /// The mesh of this brick if a whole brick has `mesh`: a cut brick gets its share of the elements along its length,
-    /// rounded up.
+    /// Returns the numbers of elements of this brick if a whole brick has `mesh`: along the length, a cut brick gets
+    /// its share of the elements, rounded up.
     pub fn mesh(&self, mesh: [u32; 2]) -> [usize; 2] {
         let [whole, high] = mesh;
         let share = f64::from(whole) * (self.fraction - SAME_PLACE);
@@ -69,19 +70,19 @@ impl PlacedBrick {
     }
 }
 
-/// The bricks of a dry wall, course by course from the bottom, each from left to right.
+/// Returns the bricks of a wall with dry joints: course by course from the bottom, each course from left to right.
 ///
-/// Ends of bricks that meet, in one course or one above another, have the same coordinates bit by bit if the lengths
-/// are halves of a brick.
+/// Ends of bricks that meet, in one course or in courses above one another, have exactly equal coordinates if the
+/// lengths are multiples of half a brick.
 pub fn bricks(wall: &Wall) -> Vec<PlacedBrick> {
     bricks_in_mortar(wall, JointThickness::default())
 }
 
-/// The bricks of a wall with mortar between them, in the order of [`bricks`].
+/// Returns the bricks of a wall with mortar between them, in the order of [`bricks`].
 ///
-/// Every brick is laid with a head joint at its right end, so that lengths in courses count brick and joint: whole
-/// bricks have their length `l`, half bricks `(l - t_y) / 2`. The wall ends with a brick: a wall of `n` whole bricks is
-/// `n (l + t_y) - t_y` wide, and a wall of `n` courses `n (h + t_y) - t_y` high.
+/// Every brick is laid with a head joint at its right end, so that lengths in courses count a brick and its joint:
+/// whole bricks have their length `l`, half bricks `(l - t_y) / 2`. The last joint of a course is left out: a wall of
+/// `n` whole bricks is `n (l + t_y) - t_y` wide, and a wall of `n` courses is `n (h + t_y) - t_y` high.
 ///
 /// ```
 /// use masonry::scene::bond::{JointThickness, bricks_in_mortar};
@@ -101,8 +102,8 @@ pub fn bricks_in_mortar(wall: &Wall, joints: JointThickness) -> Vec<PlacedBrick>
         .collect()
 }
 
-/// Finds the first brick of which the head joint would leave no length: its course and its place in the course, both
-/// from 0, with openings counted.
+/// Finds the first brick that has no length left after its head joint is subtracted. Returns its course and its place
+/// in the course, both from 0, with openings counted.
 pub(crate) fn first_without_length(wall: &Wall, joints: JointThickness) -> Option<[usize; 2]> {
     let gone = |&[start, end]: &Span| left_of(end - start, wall, joints) <= SAME_PLACE;
     // Two courses represent all courses of a bond without openings.
@@ -117,7 +118,7 @@ pub(crate) fn first_without_length(wall: &Wall, joints: JointThickness) -> Optio
     })
 }
 
-/// The stretches of all courses in units of one brick and its head joint.
+/// Returns the stretches of the bricks in all courses, in units of one brick and its head joint.
 fn courses(wall: &Wall, joints: JointThickness) -> Box<dyn Iterator<Item = Vec<Span>> + '_> {
     match &wall.courses {
         Courses::RunningBond(count) => {
@@ -133,24 +134,24 @@ fn courses(wall: &Wall, joints: JointThickness) -> Box<dyn Iterator<Item = Vec<S
     }
 }
 
-/// Length of the brick on a stretch without the head joint, in units of one brick.
+/// Returns the length of the brick on a stretch, without the head joint, in units of one brick.
 fn left_of(stretch: f64, wall: &Wall, joints: JointThickness) -> f64 {
     stretch + joints.head / wall.brick.length * (stretch - 1.0)
 }
 
-/// Rounds a length in bricks to half bricks if within [`SAME_PLACE`].
+/// Rounds a length in bricks to half bricks if the difference is at most [`SAME_PLACE`].
 fn snap(bricks: f64) -> f64 {
     let halves = 0.5 * (2.0 * bricks).round();
     if (bricks - halves).abs() < SAME_PLACE { halves } else { bricks }
 }
 
-/// A stretch of a course in units of one brick and its head joint, from its start to its end.
+/// A stretch of a course, from its start to its end, in units of one brick and its head joint.
 type Span = [f64; 2];
 
-/// The ends of the bricks of a course of a wall `width` bricks wide, from 0 on.
+/// Returns the ends of the bricks in a course of a wall that is `width` bricks wide, starting with 0.
 fn ends(bond: Bond, course: usize, width: f64) -> Vec<f64> {
     let is_even = course.is_multiple_of(2);
-    // The first end after a closer, if there is one, and the alternating lengths of the bricks from there on.
+    // The first end after a closer, if there is one, and the alternating lengths of the bricks that follow.
     let (first, lengths) = match bond {
         Bond::Running if !is_even => (0.5, [1.0, 1.0]),
         Bond::English if !is_even => (0.75, [0.5, 0.5]),
@@ -181,7 +182,7 @@ fn bricks_between(ends: &[f64]) -> Vec<Span> {
     ends.windows(2).map(|pair| [pair[0], pair[1]]).collect()
 }
 
-/// The bricks of a course given as a list of lengths, without the openings.
+/// Returns the stretches of the bricks of a course that is given as a list of lengths; openings are left out.
 fn given(lengths: &[f64]) -> Vec<Span> {
     let mut end = 0.0;
     let mut stretches = Vec::with_capacity(lengths.len());

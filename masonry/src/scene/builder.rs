@@ -1,4 +1,4 @@
-//! Scenes built in Rust.
+//! Methods that build scenes in Rust.
 
 use std::collections::BTreeMap;
 
@@ -12,14 +12,14 @@ use super::{
 use crate::units::Units;
 
 impl Scene {
-    /// The number of steps of all stages.
+    /// Returns the number of steps of all stages.
     pub(crate) fn steps(&self) -> usize {
         self.stages.iter().map(|stage| stage.steps as usize).sum()
     }
 }
 
 impl Scene {
-    /// An empty scene.
+    /// Makes a scene without any blocks.
     pub fn new(title: &str, units: Units) -> Self {
         Self {
             title: title.to_owned(),
@@ -61,7 +61,7 @@ impl Scene {
         pub fn joint(mut self, name: &str, joint: Joint) {
             self.joints.insert(name.to_owned(), joint);
         }
-        /// Gives the joints between two bodies, each the name of a block or of a wall, their own class.
+        /// Sets the class of the joints between two bodies, each given by the name of a block or of a wall.
         pub fn between(mut self, first: &str, second: &str, joint: &str) {
             let blocks = [first, second].map(str::to_owned);
             self.between.push(Between { blocks, joint: joint.to_owned() });
@@ -88,57 +88,59 @@ impl Scene {
         pub fn seismic(mut self, seismic: Seismic) { self.limit.seismic = Some(seismic) }
         /// Sets the train whose limit load is found at every position.
         pub fn train(mut self, train: Train) { self.limit.train = Some(train) }
-        /// Sets the places on a joint at which the contact law is enforced.
+        /// Sets the rule for the places on a joint at which the contact law is enforced.
         pub fn contact_points(mut self, points: PointRule) { self.contact.points = points }
-        /// Sets the terms of mortar films that are kept.
+        /// Sets which terms of mortar films are kept.
         pub fn films(mut self, films: Films) { self.contact.films = films }
-        /// Sets the distance \[length\] below which bodies may meet.
+        /// Sets the distance \[length\] below which bodies may come into contact.
         pub fn gap_limit(mut self, gap_limit: f64) { self.contact.gap_limit = gap_limit }
-        /// Sets the distance \[length\] below which corners of single blocks are moved onto others.
+        /// Sets the distance \[length\] below which corners of single blocks are moved onto corners and edges of
+        /// others.
         pub fn contact_tolerance(mut self, tolerance: f64) {
             self.contact.tolerance = Some(tolerance);
         }
-        /// Sets the requested residual of the solver \[-\].
+        /// Sets the largest residual of a solution \[-\].
         pub fn tolerance(mut self, tolerance: f64) { self.solver.tolerance = tolerance }
-        /// Sets the route to the solution, or [`RouteSetting::Auto`].
+        /// Sets the route to the solution; [`RouteSetting::Auto`] chooses it.
         pub fn route(mut self, route: impl Into<RouteSetting>) { self.solver.route = route.into() }
-        /// Sets the stiffness of the springs, on the routes that have springs, relative to that of the blocks \[-\].
+        /// Sets the stiffness of the springs on all displacements, relative to that of the blocks \[-\], for routes
+        /// that have springs.
         pub fn soft(mut self, stiffness: f64) { self.solver.soft = Some(stiffness) }
         /// Sets the form of the complementarity problem.
         pub fn form(mut self, form: Form) { self.solver.form = form }
         /// Sets the largest number of pivots of one attempt.
         pub fn max_pivots(mut self, max_pivots: u32) { self.solver.max_pivots = Some(max_pivots) }
-        /// Sets the largest number of steps of one attempt of the interior points.
+        /// Sets the largest number of steps of one attempt of the interior-point method.
         pub fn max_steps(mut self, max_steps: u32) { self.solver.max_steps = Some(max_steps) }
-        /// Sets whether stresses are recovered and written.
+        /// Sets whether stresses are computed and written.
         pub fn stresses(mut self, stresses: bool) { self.output.stresses = stresses }
     }
 }
 
 impl Material {
-    /// A material of rigid blocks.
+    /// Makes the material of rigid blocks.
     pub fn rigid() -> Self {
         Self::default()
     }
 
-    /// A linear elastic material: Young's modulus \[force/length^2\] and Poisson's ratio \[-\].
+    /// Makes a linear elastic material with Young's modulus \[force/length^2\] and Poisson's ratio \[-\].
     pub fn elastic(young: f64, poisson: f64) -> Self {
         Self { young: Some(young), poisson: Some(poisson), density: None }
     }
 
     setters! {
-        /// Gives the material a mass density \[kg/m^3\].
+        /// Sets the mass density of the material \[kg/m^3\].
         pub fn density(mut self, density: f64) { self.density = Some(density) }
     }
 }
 
 impl Joint {
-    /// A class with a coefficient of friction \[-\].
+    /// Makes a joint class with a coefficient of friction \[-\].
     pub fn mu(mu: f64) -> Self {
         Self { mu: Some(mu), ..Self::default() }
     }
 
-    /// A class with an angle of friction \[degrees\].
+    /// Makes a joint class with an angle of friction \[degrees\].
     pub fn phi_deg(phi_deg: f64) -> Self {
         Self { phi_deg: Some(phi_deg), ..Self::default() }
     }
@@ -146,11 +148,11 @@ impl Joint {
     setters! {
         /// Sets the cohesion \[force/length^2\].
         pub fn cohesion(mut self, cohesion: f64) { self.cohesion = Some(cohesion) }
-        /// Sets the tensile strength \[force/length^2\], at most cohesion / mu.
+        /// Sets the tensile strength \[force/length^2\], which is at most the cohesion divided by `mu`.
         pub fn tension(mut self, tension: f64) { self.tension = Some(tension) }
-        /// Sets the normal and the tangential stiffness of the faces \[force/length^3\].
+        /// Sets the normal and the tangential stiffness of the joints \[force/length^3\].
         pub fn stiffness(mut self, stiffness: [f64; 2]) { self.stiffness = Some(stiffness) }
-        /// Sets the places on the joints of the class at which the law is enforced.
+        /// Sets the rule for the places on the joints of the class at which the law is enforced.
         pub fn points(mut self, points: PointRule) { self.points = Some(points) }
         /// Fills the joints of the class with mortar of a thickness \[length\] and an elastic material.
         pub fn mortar(mut self, thickness: f64, material: &str) {
@@ -161,7 +163,7 @@ impl Joint {
 }
 
 impl Wall {
-    /// A wall of `courses` in running bond, cut to `width` \[length\].
+    /// Makes a wall of `courses` in running bond, cut to `width` \[length\].
     pub fn running_bond(
         name: &str,
         material: &str,
@@ -173,18 +175,18 @@ impl Wall {
         Self { width: Some(width), ..Self::new(name, material, brick, courses) }
     }
 
-    /// A wall of given courses, bottom to top, each a list of brick lengths in units of one brick;
-    /// a negative number is an opening of that length.
+    /// Makes a wall of given courses from bottom to top, each a list of brick lengths in units of one brick; a
+    /// negative number is an opening of this length.
     pub fn from_courses(name: &str, material: &str, brick: Brick, courses: Vec<Vec<f64>>) -> Self {
         Self::new(name, material, brick, Courses::List(courses))
     }
 
     setters! {
-        /// Sets the bond of the bricks.
+        /// Sets the bond of the courses.
         pub fn bond(mut self, bond: Bond) { self.bond = Some(bond) }
-        /// Adds an opening.
+        /// Adds an opening to the wall.
         pub fn opening(mut self, opening: Opening) { self.openings.push(opening) }
-        /// Sets the classes of the beds and heads within the wall.
+        /// Sets the classes of the bed and head joints within the wall.
         pub fn joints(mut self, bed: &str, head: &str) {
             self.joints = WallJoints { bed: Some(bed.to_owned()), head: Some(head.to_owned()) }
         }
@@ -192,10 +194,10 @@ impl Wall {
         pub fn origin(mut self, origin: [f64; 2]) { self.origin = origin }
         /// Turns the wall about its origin, counter-clockwise \[degrees\].
         pub fn turn_deg(mut self, degrees: f64) { self.turn_deg = degrees }
-        /// Puts the other end of the bottom of the wall at this point \[length\], which gives its turn, and its width
-        /// if it has none.
+        /// Puts the other end of the bottom of the wall at this point \[length\]. The point determines the angle by
+        /// which the wall is turned, and its width if no width is given.
         pub fn to(mut self, corner: [f64; 2]) { self.to = Some(corner) }
-        /// Sets the elements along the length and height of a whole brick.
+        /// Sets the numbers of elements along the length and the height of a whole brick.
         pub fn mesh(mut self, mesh: [u32; 2]) { self.mesh = Some(mesh) }
     }
 
@@ -218,20 +220,20 @@ impl Wall {
 }
 
 impl Block {
-    /// A block with corners \[length\] in counter-clockwise order.
+    /// Makes a block with corners \[length\] in counter-clockwise order.
     pub fn new(name: &str, material: &str, corners: impl Into<Vec<[f64; 2]>>) -> Self {
         let (name, material) = (name.to_owned(), material.to_owned());
         Self { name, material, corners: corners.into(), mesh: None }
     }
 
     setters! {
-        /// Sets the elements along edges 0 and 2, and along edges 1 and 3.
+        /// Sets the numbers of elements along edges 0 and 2, and along edges 1 and 3.
         pub fn mesh(mut self, mesh: [u32; 2]) { self.mesh = Some(mesh) }
     }
 }
 
 impl Support {
-    /// A support between two points \[length\], with the class of its joints.
+    /// Makes a support between two points \[length\], and sets the class of its joints.
     pub fn new(name: &str, from: [f64; 2], to: [f64; 2], joint: &str) -> Self {
         Self { name: name.to_owned(), from, to, joint: joint.to_owned() }
     }

@@ -1,4 +1,4 @@
-//! Checks of the data of a scene that need no geometry of several blocks.
+//! Checks of the data of a scene that do not need the geometry of several blocks.
 
 use std::collections::BTreeMap;
 
@@ -22,24 +22,23 @@ mod loads;
 mod openings;
 mod stages;
 
-/// Bricks and blocks of one scene, at most.
+/// Largest number of bricks and blocks of one scene.
 const MOST_BLOCKS: u32 = 1_000_000;
-/// Elements of one wall, at most: a mesh that does not fit into any memory is refused before it is
-/// made.
+/// Largest number of elements of one wall: a mesh that fits into no memory is refused before it is made.
 const MOST_ELEMENTS_OF_WALL: u32 = 20_000_000;
-/// Elements of one block, at most. Chosen: the square of the elements along an edge.
+/// Largest number of elements of one block. Chosen: the square of the largest number along an edge.
 const MOST_ELEMENTS_OF_BLOCK: u32 = 1_000_000;
-/// Elements along one edge, at most. Chosen: more than a plane problem needs.
+/// Largest number of elements along one edge. Chosen: more than a plane problem needs.
 const MOST_ELEMENTS: u32 = 1_000;
 
 impl Scene {
-    /// Checks all data: names that refer to nothing, numbers out of their range, missing keys.
+    /// Checks all data of the scene: names that refer to nothing, numbers out of their range, missing keys.
     ///
-    /// Mistakes of the whole geometry (overlaps, idle supports and loads, loose blocks) are found
+    /// Mistakes of the geometry as a whole (overlaps, supports and loads that touch nothing, loose blocks) are found
     /// by [`Model::from_scene`](crate::model::Model::from_scene).
     ///
     /// # Errors
-    /// The first mistake, with line and column when the scene was read from text.
+    /// The first mistake, with line and column if the scene was read from text.
     pub fn check(&self) -> Result<(), SceneError> {
         self.check_data().map_err(|fault| fault.locate(self))
     }
@@ -114,8 +113,7 @@ impl Scene {
         density.map_or(Ok(()), |density| positive(at.key("density"), density))
     }
 
-    /// Checks that names of walls, arches, blocks, supports and loads are given, and that each is
-    /// unique among its kind.
+    /// Checks that walls, arches, blocks, supports and loads have names, each unique among its kind.
     fn check_names(&self) -> Check {
         unique("wall", "walls", self.walls.iter().map(|wall| &wall.name))?;
         unique("arch", "arches", self.arches.iter().map(|arch| &arch.name))?;
@@ -312,7 +310,7 @@ fn check_mesh(at: &KeyPath, mesh: Option<[u32; 2]>, material: &Material) -> Chec
     Ok(())
 }
 
-/// Refuses blocks that no mesh fits, and numbers of elements that do not fit the block.
+/// Refuses blocks that cannot be meshed, and numbers of elements that do not fit the shape of the block.
 fn check_patches(at: &KeyPath, block: &Block, mesh: [u32; 2]) -> Check {
     let corners: Vec<_> = block.corners.iter().copied().map(Point2::from).collect();
     let name = || block.name.clone();

@@ -1,4 +1,4 @@
-//! Combinations of loads: sets of factors, each of which is a scene of its own.
+//! Combinations of loads: sets of factors, each of which makes a scene of its own.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -9,9 +9,9 @@ use super::rules::unwanted;
 use super::setters::setters;
 use super::{KeyPath, Load, Scene, SceneError};
 
-/// A combination of loads: their factors, and that of the weight.
+/// A combination of loads: the factors of loads, and the factor of the weight.
 ///
-/// A load that is named only in other combinations is zero. A load that is named in none acts in full.
+/// A load that is named only in other combinations is zero. A load that no combination names acts in full.
 ///
 /// ```
 /// use masonry::scene::Combination;
@@ -24,17 +24,17 @@ use super::{KeyPath, Load, Scene, SceneError};
 pub struct Combination {
     /// Name of the combination, in reports.
     pub name: String,
-    /// Factor of the weight of all blocks \[-\], and of their masses; 1 by default.
+    /// Factor of the weight of all blocks, and of their masses \[-\]; 1 by default.
     #[serde(default = "super::load::one", skip_serializing_if = "super::load::is_one")]
     pub gravity: f64,
-    /// Factors of loads \[-\] in addition to their own, by the name of the load or of its group. They multiply the `mass` of a
-    /// load as well.
+    /// Factors of loads \[-\], by the name of the load or of its group. They multiply the factor of the load itself,
+    /// and also its `mass`.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub loads: BTreeMap<String, f64>,
 }
 
 impl Combination {
-    /// A combination of the weight alone.
+    /// Makes a combination in which only the weight acts.
     pub fn new(name: &str) -> Self {
         Self { name: name.to_owned(), gravity: 1.0, loads: BTreeMap::new() }
     }
@@ -49,22 +49,22 @@ impl Combination {
     }
 }
 
-/// A combination's name with its scene, or with its result.
+/// A scene or a result of one combination, with the name of the combination.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Combined<T> {
-    /// The name of the combination; ", opposite" follows if its earthquake comes from the other side.
+    /// The name of the combination, followed by ", opposite" if the earthquake acts in the opposite direction.
     pub name: String,
-    /// The scene, or the result.
+    /// The scene or the result of the combination.
     pub of: T,
 }
 
-/// The end of the name of a combination whose earthquake comes from the other side.
+/// The end of the name of a combination whose earthquake acts in the opposite direction.
 pub const OPPOSITE: &str = ", opposite";
 
 impl Scene {
-    /// A scene for every combination, in their order; empty without combinations. A combination in which accelerations
-    /// act across gravity gives two scenes, since an earthquake comes from both sides, with all loads of its groups
-    /// except weights with `mass`.
+    /// Returns a scene for every combination, in their order; empty without combinations. A combination in which
+    /// accelerations act perpendicular to gravity gives two scenes, since an earthquake may act in both directions. In
+    /// the second scene all loads of the groups with such accelerations are reversed, except weights with `mass`.
     ///
     /// ```
     /// use masonry::scene::{Combination, Load, Scene};
@@ -97,10 +97,10 @@ impl Scene {
         list
     }
 
-    /// Refuses combinations, because one set of loads is required.
+    /// Refuses a scene with combinations if one set of loads is required.
     ///
     /// # Errors
-    /// [`SceneError`] if there are combinations.
+    /// [`SceneError`] if the scene has combinations.
     pub(crate) fn check_single(&self) -> Result<(), SceneError> {
         let because = "are several sets of loads; only `masonry solve` and `masonry limit` take all, the latter without \
                        `--range`, `--thickness` and `--train`";
@@ -119,7 +119,7 @@ impl Scene {
             let otherwise = if is_named(given) { 0.0 } else { 1.0 };
             load.factor *= factor_in(&combination.loads, given).unwrap_or(otherwise);
         }
-        // Masses are multiplied like weights, as those of loads are; there is no weight without masses.
+        // Masses are multiplied like weights, as for loads with `mass`; without masses there is no weight.
         for material in scene.materials.values_mut() {
             let density = material.density.map(|density| density * combination.gravity);
             material.density = density.filter(|density| *density > 0.0);
@@ -127,7 +127,7 @@ impl Scene {
         scene
     }
 
-    /// The scene with its earthquake in the opposite direction, if an earthquake acts.
+    /// Returns the scene with its earthquake in the opposite direction; `None` if no earthquake acts.
     fn with_earthquake_opposite(&self) -> Option<Self> {
         let acts = self.loads.iter().filter(|load| self.acts_across(load) && load.factor != 0.0);
         let groups: BTreeSet<&str> = acts.map(Load::group_name).collect();

@@ -1,26 +1,26 @@
-//! Settings of the search for contact and of its enforcement.
+//! Settings of the search for contacts and of the contact law.
 
 use serde::{Deserialize, Serialize};
 
-/// Settings of the search for contact and of its enforcement.
+/// Settings of the search for contacts: contact points, gaps, tolerance, and mortar films.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(default, deny_unknown_fields)]
 pub struct Contact {
-    /// The places on a joint at which the contact law is enforced.
+    /// The rule for the places on a joint at which the contact law is enforced.
     pub points: PointRule,
-    /// Bodies closer than this may meet \[length\]; zero: only bodies that touch.
+    /// Largest distance of bodies that may come into contact \[length\]; at zero only bodies that touch.
     pub gap_limit: f64,
-    /// Distance \[length\] below which corners of single blocks are put onto corners and edges of other blocks and onto
-    /// supports, by the least movements. If no tolerance is given, corners are moved only if blocks overlap, by up to
-    /// 1e-5 of the shortest edge of a single block: coordinates in metres with six decimals err by less on bricks that
-    /// are 0.2 m high.
+    /// Distance \[length\] below which corners of single blocks are put onto supports and onto corners and edges of
+    /// other blocks, by the least movements. If no tolerance is given, corners are moved only if blocks overlap, by up
+    /// to 1e-5 of the shortest edge of a single block: coordinates in metres with six decimals have smaller errors on
+    /// bricks that are 0.2 m high.
     pub tolerance: Option<f64>,
     /// The terms of mortar films that are kept.
     pub films: Films,
 }
 
-/// The places on a joint at which the contact law is enforced.
+/// The rule for the places on a joint at which the contact law is enforced.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
@@ -29,8 +29,8 @@ pub enum PointRule {
     /// linear, with trapezoidal weights.
     #[default]
     Vertices,
-    /// Places at which each side has a node (on a support: the block), weighted by tributary length: the node pairs of
-    /// the paper.
+    /// Places at which both sides of the joint have a node (on a support: places at which the block has one), weighted
+    /// by tributary length: the node pairs of the paper.
     NodalPairs,
     /// Two Gauss points in every part on which the shape functions of both sides are linear.
     Gauss,
@@ -41,10 +41,11 @@ pub enum PointRule {
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum Films {
-    /// Terms across the joint: a compliance in series with each contact point, without strain along the joint.
+    /// Terms perpendicular to the joint and its shear: a compliance in series with each contact point, without strain
+    /// along the joint.
     #[default]
     Compliance,
-    /// The whole strip (3.28)-(3.39), also with the stress along the joint and the strain that it shares with the
-    /// blocks. It is integrated at its Gauss points: `points` must be `gauss`.
+    /// All terms of a strip (3.28)-(3.39), including the stress along the joint and the strain that the strip shares
+    /// with the blocks. The strip is integrated at its Gauss points: `points` must be `gauss`.
     Strips,
 }

@@ -1,4 +1,4 @@
-//! `courses` in TOML: a number, or a list of lists.
+//! Reading and writing of `courses` in TOML: a number, or a list of lists.
 
 use std::fmt;
 
@@ -12,7 +12,7 @@ impl<'de> Deserialize<'de> for Courses {
     }
 }
 
-// Written by hand because an untagged enum would lose the place of a mistake in the list.
+// The visitor is written by hand because an untagged enum would lose the place of a mistake in the list.
 struct CoursesVisitor;
 
 impl<'de> Visitor<'de> for CoursesVisitor {
@@ -43,7 +43,7 @@ impl<'de> Visitor<'de> for CoursesVisitor {
     }
 }
 
-/// Written by hand like the deserialisation.
+/// Implements the schema by hand, as the deserialisation.
 #[cfg(test)]
 impl schemars::JsonSchema for Courses {
     fn schema_name() -> std::borrow::Cow<'static, str> {

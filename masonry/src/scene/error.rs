@@ -1,4 +1,4 @@
-//! Errors of scenes, with their places.
+//! Errors of scenes, with their places in the text.
 
 mod contact;
 mod kind;
@@ -15,9 +15,9 @@ use known::with_nearest;
 use super::source::{Excerpt, Located};
 use super::{KeyPath, Scene};
 
-/// A mistake in a scene, its place and its remedy.
+/// A mistake in a scene, with its place and its remedy.
 ///
-/// The message of a scene that was read from text shows the line with carets below the mistake.
+/// If the scene was read from text, the message shows the line with carets below the mistake.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SceneError(Box<Details>);
 
@@ -29,33 +29,33 @@ struct Details {
 }
 
 impl SceneError {
-    /// The kind of the mistake.
+    /// Returns the kind of the mistake.
     pub fn kind(&self) -> &SceneErrorKind {
         &self.0.kind
     }
 
-    /// The key of the wrong value, such as `walls[0].brick.length`; empty if the text is not TOML
-    /// or does not fit the format.
+    /// Returns the key of the wrong value, such as `walls[0].brick.length`; empty if the text is not TOML or does not
+    /// fit the format.
     pub fn key(&self) -> String {
         self.0.key.to_string()
     }
 
-    /// The line of the mistake, from 1; `None` when the scene was built or changed in Rust.
+    /// Returns the line of the mistake, from 1; `None` if the scene was built or changed in Rust.
     pub fn line(&self) -> Option<usize> {
         self.0.located.place.as_ref().map(|place| place.line)
     }
 
-    /// The column of the mistake in characters, from 1; `None` as [`SceneError::line`].
+    /// Returns the column of the mistake in characters, from 1; `None` if the scene was built or changed in Rust.
     pub fn column(&self) -> Option<usize> {
         self.0.located.place.as_ref().map(|place| place.column)
     }
 
-    /// The file from which the scene was read.
+    /// Returns the path of the file from which the scene was read; `None` if there is no file.
     pub fn file(&self) -> Option<&Path> {
         self.0.located.file.as_deref()
     }
 
-    /// A text that does not fit the format.
+    /// Makes the error of a text that does not fit the format.
     pub(super) fn syntax(message: &str, place: Option<Excerpt>, file: Option<&Path>) -> Self {
         let kind = SceneErrorKind::Syntax(with_nearest(message));
         let file = file.map(Path::to_owned);
@@ -98,7 +98,7 @@ impl fmt::Display for SceneError {
     }
 }
 
-/// A mistake and the key at which it is, before its place in the text is known.
+/// A mistake and the key at which it occurs, before its place in the text is known.
 #[derive(Debug)]
 pub(crate) struct Fault {
     key: KeyPath,
@@ -110,14 +110,13 @@ impl Fault {
         Self { key, kind: Box::new(kind.into()) }
     }
 
-    /// The error of a name that is already used by the value at `first`; `what` is the kind of
-    /// both.
+    /// Makes the error of a name that is already used by the value at `first`; `what` is the kind of both values.
     pub(crate) fn duplicate(at: KeyPath, what: &'static str, name: &str, first: &KeyPath) -> Self {
         let (name, first) = (name.to_owned(), first.to_string());
         Self::new(at, SceneErrorKind::Duplicate { what, name, first })
     }
 
-    /// The error with its place in the text, if the scene still equals its text.
+    /// Returns the error with its place in the text, if the scene still equals the text from which it was read.
     pub(crate) fn locate(self, scene: &Scene) -> SceneError {
         let source = &scene.source;
         let unchanged = Scene::of(source).is_ok_and(|read| {

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-/// Fill over an arch, a wall or a block: vertical weight on the edges below it.
+/// Fill over an arch, a wall or a block: a vertical load on the edges below the fill.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
@@ -11,32 +11,30 @@ pub struct Fill {
     pub over: String,
     /// Height of the level top of the fill \[length\].
     pub level: f64,
-    /// The weight of the fill \[force/length^3\].
+    /// The weight of the fill per volume \[force/length^3\].
     pub gamma: f64,
 }
 
-/// An axle on the level top of a fill, through which its force spreads, or on the top edge of a block.
+/// An axle, on the level top of a fill, through which its force spreads, or on the top edge of a block.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Axle {
     /// The arch, wall or block that carries the axle.
     pub over: String,
-    /// The place of the axle along x \[length\].
+    /// The coordinate x of the axle \[length\].
     pub x: f64,
-    /// The force of the axle \[force\], which presses down over the whole thickness.
+    /// The downward force of the axle over the whole thickness \[force\].
     pub force: f64,
-    /// Height of the top of the fill \[length\]; the axle stands on the highest edge below it if no level
-    /// is given.
+    /// Height of the top of the fill \[length\]. If no level is given, the axle stands on the highest edge below it.
     pub level: Option<f64>,
-    /// Angle from the vertical at which the fill spreads the force \[degrees\]; with a `level` only.
+    /// Angle from the vertical at which the fill spreads the force \[degrees\]; used only if `level` is given.
     #[serde(default = "spread", skip_serializing_if = "is_spread")]
     pub angle_deg: f64,
 }
 
 impl Axle {
-    /// An axle at `x` \[length\] on the top edge of the body `over` that carries it, with its force
-    /// \[force\].
+    /// Makes an axle at `x` \[length\] on the top edge of the body `over`, with its force \[force\].
     pub fn new(over: &str, x: f64, force: f64) -> Self {
         Self { over: over.to_owned(), x, force, level: None, angle_deg: spread() }
     }
@@ -48,7 +46,8 @@ impl Axle {
     }
 }
 
-/// A slope of one horizontally to two vertically, the usual assumption for roads: 26.565 degrees.
+/// Returns the default angle of spread \[degrees\]: one horizontally to two vertically, the usual assumption for
+/// roads, 26.565 degrees.
 pub(super) fn spread() -> f64 {
     0.5_f64.atan().to_degrees()
 }

@@ -1,4 +1,4 @@
-//! The place of a value in a JSON text.
+//! Search for the place of a value in a JSON text.
 
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -7,7 +7,8 @@ use serde_json::value::RawValue;
 
 use super::key_path::PathStep;
 
-/// The bytes of the value at the end of these steps, or of the innermost one around it.
+/// Returns the range of bytes of the value at the end of the path `steps`, or of the innermost value around it that
+/// exists.
 pub(super) fn locate(text: &str, steps: &[PathStep]) -> Option<Range<usize>> {
     let mut value: &RawValue = serde_json::from_str(text).ok()?;
     for step in steps {

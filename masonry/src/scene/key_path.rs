@@ -1,12 +1,12 @@
-//! The place of a value in a scene: `walls[0].brick.length`.
+//! Paths of values in a scene, such as `walls[0].brick.length`.
 
 use std::fmt;
 
-/// The way from the top of a scene to a value.
+/// The path from the top of a scene to a value, as a list of keys and indices.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct KeyPath(Vec<PathStep>);
 
-/// One step into a table or an array.
+/// One step of a path: a key of a table, or an index of an array.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) enum PathStep {
     Key(String),
@@ -14,17 +14,17 @@ pub(super) enum PathStep {
 }
 
 impl KeyPath {
-    /// The path of a key at the top of the scene.
+    /// Returns the path of a key at the top of the scene.
     pub(crate) fn of(key: &str) -> Self {
         Self::default().key(key)
     }
 
-    /// The path of a key in the table at this path.
+    /// Returns the path of a key in the table at this path.
     pub(crate) fn key(&self, key: &str) -> Self {
         self.then(PathStep::Key(key.to_owned()))
     }
 
-    /// The path of an item of the array at this path.
+    /// Returns the path of an item of the array at this path.
     pub(crate) fn item(&self, index: usize) -> Self {
         self.then(PathStep::Index(index))
     }

@@ -6,7 +6,7 @@ use super::{PointRule, strict};
 use crate::material::Elasticity;
 use crate::units::Units;
 
-/// A material: rigid without `E`, elastic with `E` and `nu`.
+/// A material of blocks or mortar: rigid if `E` is not given, elastic with `E` and `nu`.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
@@ -22,20 +22,20 @@ pub struct Material {
 }
 
 impl Material {
-    /// The elastic constants in SI units; `None` for a rigid material.
+    /// Returns the elastic constants in SI units; `None` for a rigid material.
     pub(crate) fn elasticity(&self, units: Units) -> Option<Elasticity> {
         let young = self.young? * units.stress_to_si();
         Some(Elasticity { young, poisson: self.poisson? })
     }
 }
 
-/// A class of joints: exactly one of `mu` and `phi_deg`, and optionally cohesion, tensile strength, stiffness and mortar.
-/// The law is that of [`law`](crate::law).
+/// A class of joints: exactly one of `mu` and `phi_deg`, and optionally cohesion, tensile strength, stiffness and
+/// mortar. The joints obey the [law](crate::law) of contact with friction.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Joint {
-    /// Coefficient of Coulomb friction \[-\]; zero is a frictionless joint.
+    /// Coefficient of Coulomb friction \[-\]; zero for a frictionless joint.
     pub mu: Option<f64>,
     /// Angle of friction \[degrees\].
     pub phi_deg: Option<f64>,
@@ -43,11 +43,11 @@ pub struct Joint {
     pub cohesion: Option<f64>,
     /// Tensile strength \[force/length^2\], at most the cohesion divided by the coefficient of friction.
     pub tension: Option<f64>,
-    /// Normal and tangential stiffness of the faces `[k_n, k_t]` \[force/length^3\]; the faces do not give way without
-    /// it.
+    /// Normal and tangential stiffness of the joint `[k_n, k_t]` \[force/length^3\]; without it the joint is rigid,
+    /// except for its mortar.
     #[serde(default, deserialize_with = "strict::read")]
     pub stiffness: Option<[f64; 2]>,
-    /// The places on the joints of the class at which the law is enforced, instead of
+    /// The rule for the places on the joints of the class at which the law is enforced, instead of
     /// [`Contact::points`](super::Contact::points).
     pub points: Option<PointRule>,
     /// Thickness of the mortar \[length\]; the joint is dry if it is zero or not given.
@@ -57,25 +57,25 @@ pub struct Joint {
 }
 
 impl Joint {
-    /// The coefficient of friction \[-\]; zero if neither `mu` nor `phi_deg` is given.
+    /// Returns the coefficient of friction \[-\]; zero if neither `mu` nor `phi_deg` is given.
     pub fn friction(&self) -> f64 {
         self.mu.or(self.phi_deg.map(|phi| phi.to_radians().tan())).unwrap_or(0.0)
     }
 
-    /// Thickness of the mortar \[length\]; zero for a dry joint.
+    /// Returns the thickness of the mortar \[length\]; zero for a dry joint.
     pub fn mortar_thickness(&self) -> f64 {
         self.thickness.unwrap_or(0.0)
     }
 }
 
-/// Two bodies, each the name of a block or of a wall, and the class of all joints between them.
+/// The class of all joints between two bodies, each given by the name of a block or of a wall.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Between {
-    /// The two names; twice the same wall for the joints within it.
+    /// The names of the two bodies; twice the same wall for the joints within this wall.
     #[serde(deserialize_with = "strict::read")]
     pub blocks: [String; 2],
-    /// The class of the joints between the two.
+    /// The class of the joints between the two bodies.
     pub joint: String,
 }

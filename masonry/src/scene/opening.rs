@@ -28,20 +28,20 @@ pub enum Bond {
     Running,
     /// All courses are alike, and head joints lie above each other.
     Stack,
-    /// Courses of whole bricks alternate with courses of half bricks with a quarter beside the first and the last: the
-    /// face of an English bond, with its stretchers, headers and closers.
+    /// Courses of whole bricks alternate with courses of half bricks, in which a quarter brick lies beside the first
+    /// and the last half brick: the face of an English bond, with its stretchers, headers and closers.
     English,
-    /// Whole and half bricks alternate in each course, the half ones above and below the middle of whole ones: the face
-    /// of a Flemish bond. Every second course begins and ends with a half brick and a quarter. Widths of `1.5 n + 1`
-    /// bricks need no other pieces.
+    /// Whole and half bricks alternate in each course, with half bricks above and below the middle of whole bricks:
+    /// the face of a Flemish bond. Every second course begins and ends with a half brick and a quarter brick. A wall
+    /// that is `1.5 n + 1` bricks wide needs no other pieces.
     Flemish,
 }
 
 /// An opening in a wall, with a lintel above it.
 ///
-/// Bricks are cut at the sides of the opening; a piece shorter than a quarter of a brick is laid as one with its
-/// neighbour. The lintel is one block in the course above, named like a brick; there is no lintel if the opening
-/// reaches the top of the wall.
+/// Bricks are cut at the sides of the opening. A piece shorter than a quarter of a brick is laid as one with its
+/// neighbour. The lintel is one block in the course above the opening, and is named like a brick; there is no lintel
+/// if the opening reaches the top of the wall.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
@@ -53,7 +53,7 @@ pub struct Opening {
     /// The lowest course of the opening, from 1; 1 by default, as for a door.
     #[serde(default = "first")]
     pub course: u32,
-    /// Height of the opening in courses.
+    /// Height of the opening, as a number of courses.
     pub courses: u32,
     /// Length on which the lintel rests on either side \[length\]; half a brick by default.
     pub bearing: Option<f64>,
@@ -62,7 +62,8 @@ pub struct Opening {
     pub lintel: Option<Lintel>,
 }
 
-/// A lintel of its own material, or a flat arch beside which bricks are cut, with a straight intrados or an arc.
+/// A lintel of its own material, or a flat arch with a straight or an arc-shaped intrados, beside which bricks are
+/// cut.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
@@ -73,34 +74,35 @@ pub struct Lintel {
     pub joint: Option<String>,
     /// Number of voussoirs of a flat arch; the lintel is one block by default.
     pub voussoirs: Option<u32>,
-    /// Angle of the springings of a flat arch with a straight intrados from the vertical \[degrees\].
+    /// Angle between the springings and the vertical, of a flat arch with a straight intrados \[degrees\].
     pub skew_deg: Option<f64>,
-    /// Rise of the intrados of a flat arch, if it is an arc \[length\].
+    /// Rise of the intrados of a flat arch \[length\], if the intrados is an arc.
     pub rise: Option<f64>,
-    /// Height of a flat arch in courses; 1 by default.
+    /// Height of a flat arch, as a number of courses; 1 by default.
     pub courses: Option<u32>,
 }
 
-/// A flat arch above an opening.
+/// The flat arch above an opening.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct FlatArch {
     pub(crate) voussoirs: u32,
-    /// Tangent of the angle of the springings from the vertical.
+    /// Tangent of the angle between the springings and the vertical \[-\].
     slope: f64,
-    /// Height of the arch in courses.
+    /// Height of the arch, as a number of courses.
     pub(crate) courses: u32,
 }
 
 impl FlatArch {
-    /// The distance by which the springings lean outwards over a number of courses of this height \[length\].
+    /// Returns the distance \[length\] by which the springings lean outwards over a number of courses of this height
+    /// \[length\].
     pub(crate) fn lean(&self, courses: usize, height: f64) -> f64 {
         courses as f64 * height * self.slope
     }
 }
 
 impl Opening {
-    /// A door: an opening of a width \[length\] from the lowest course on, `courses` high, at the distance `x` from the
-    /// left end of the wall.
+    /// Makes a door: an opening of a width \[length\] that begins in the lowest course and is `courses` high, at the
+    /// distance `x` \[length\] from the left end of the wall.
     ///
     /// ```
     /// use masonry::scene::Opening;
@@ -112,23 +114,23 @@ impl Opening {
     }
 
     setters! {
-        /// Puts the opening above the given number of courses, as for a window.
+        /// Puts the opening above this number of courses, as for a window.
         pub fn above(mut self, courses: u32) { self.course = courses.saturating_add(1) }
-        /// Gives the length on which the lintel rests on either side \[length\].
+        /// Sets the length on which the lintel rests on either side \[length\].
         pub fn bearing(mut self, length: f64) { self.bearing = Some(length) }
-        /// Makes the lintel of a material, with joints of a class.
+        /// Sets the material of the lintel and the class of its joints.
         pub fn lintel(mut self, material: &str, joint: &str) {
             let (material, joint) = (Some(material.to_owned()), Some(joint.to_owned()));
             self.lintel = Some(Lintel { material, joint, ..Lintel::default() });
         }
     }
 
-    /// The class of the joints of the lintel.
+    /// Returns the class of the joints of the lintel; `None` if it is that of the wall.
     pub(crate) fn lintel_joint(&self) -> Option<&str> {
         self.lintel.as_ref()?.joint.as_deref()
     }
 
-    /// The flat arch above the opening.
+    /// Returns the flat arch above the opening; `None` if the lintel is one block.
     pub(crate) fn arch(&self) -> Option<FlatArch> {
         let lintel = self.lintel.as_ref()?;
         let voussoirs = lintel.voussoirs?;
@@ -137,19 +139,20 @@ impl Opening {
         Some(FlatArch { voussoirs, slope: angle.tan(), courses: lintel.courses.unwrap_or(1) })
     }
 
-    /// The courses of the lintel, from 0.
+    /// Returns the courses of the lintel, counted from 0.
     pub(crate) fn lintel_rows(&self) -> std::ops::Range<usize> {
         let first = self.rows().end;
         first..first.saturating_add(self.arch().map_or(1, |it| it.courses as usize))
     }
 
-    /// The courses of the opening, from 0.
+    /// Returns the courses of the opening, counted from 0.
     pub(crate) fn rows(&self) -> std::ops::Range<usize> {
         let first = self.course.saturating_sub(1) as usize;
         first..first.saturating_add(self.courses as usize)
     }
 
-    /// Length of wall that the lintel needs on either side: its bearing, or a quarter of a brick beside a flat arch.
+    /// Returns the length of wall \[length\] that the lintel needs on either side: its bearing, or a quarter of a
+    /// brick beside a flat arch.
     pub(crate) fn bearing_on(&self, brick: Brick) -> f64 {
         match self.arch() {
             Some(arch) => arch.lean(arch.courses as usize, brick.height) + 0.25 * brick.length,
@@ -158,7 +161,7 @@ impl Opening {
     }
 }
 
-/// A mistake in an opening. Lengths are in units of the scene.
+/// A mistake in the data of an opening. Lengths are in units of the scene.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum OpeningError {
@@ -167,13 +170,13 @@ pub enum OpeningError {
         "an opening of {width} at x = {x} reaches beyond the wall, which is {wall} wide: give a width of at most {room}"
     )]
     TooWide {
-        /// Width of the opening.
+        /// The given width of the opening.
         width: f64,
-        /// Left end of the opening.
+        /// The coordinate of the left end of the opening.
         x: f64,
         /// Width of the wall.
         wall: f64,
-        /// Length of wall to the right of `x`.
+        /// The largest possible width: the length of wall to the right of `x`.
         room: f64,
     },
     /// The opening reaches beyond the top of the wall.
@@ -181,43 +184,43 @@ pub enum OpeningError {
         "an opening of {courses} courses from course {first} on reaches beyond the {wall} of the wall: give at most {room}"
     )]
     TooHigh {
-        /// Height of the opening in courses.
+        /// The given height of the opening, as a number of courses.
         courses: u32,
-        /// The lowest course of the opening.
+        /// The lowest course of the opening, from 1.
         first: u32,
-        /// Courses of the wall.
+        /// The number of courses of the wall.
         wall: u32,
-        /// Courses of the wall from the lowest course of the opening upwards.
+        /// The largest possible height, as a number of courses.
         room: u32,
     },
-    /// The lintel rests on nothing.
+    /// The wall beside an opening is too short for the lintel to rest on.
     #[error(
         "the lintel needs {bearing} of wall on its {side} to rest on, and has {room}: move the opening by at least {}{}",
         rounded(bearing - room), otherwise(*is_arch, *room)
     )]
     NoBearing {
-        /// `left` or `right`.
+        /// The side of the opening: `left` or `right`.
         side: &'static str,
-        /// The bearing of the lintel.
+        /// The length of wall that the lintel needs.
         bearing: f64,
-        /// The length of wall on this side.
+        /// The length of wall that there is on this side.
         room: f64,
         /// Whether the lintel is a flat arch, whose springings lean by the bearing.
         is_arch: bool,
     },
-    /// Two openings, or an opening and a lintel, take the same place.
+    /// Two openings, or an opening and the lintel of another one, overlap.
     #[error(
         "the opening or its lintel runs into openings[{other}] in course {course}: move them apart, or make one smaller"
     )]
     Meets {
         /// The index of the other opening, from 0.
         other: usize,
-        /// The course, from 1.
+        /// The course in which they overlap, from 1.
         course: usize,
     },
 }
 
-/// Another remedy, if there is one.
+/// Returns the words for another remedy; empty if there is no other remedy.
 fn otherwise(is_arch: bool, room: f64) -> String {
     match (is_arch, room > 0.0) {
         (true, _) => ", or let the springings of the arch lean less".to_owned(),

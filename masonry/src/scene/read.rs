@@ -1,4 +1,4 @@
-//! The way from text to scenes and back.
+//! Reading scenes from text, and writing them.
 
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
@@ -10,15 +10,15 @@ use super::source::{List, Source};
 use super::{Fault, KeyPath, Scene, SceneError, SceneErrorKind, block_list};
 use crate::files::read_bounded;
 
-/// The largest size of a scene, and of its list of blocks \[bytes\]. Theory: a hundred for each block of the most that
-/// a scene may have.
+/// The largest size of the file of a scene, and of the file of its list of blocks \[bytes\]. Theory: a hundred bytes
+/// for each block of the largest scene.
 const LARGEST_FILE: usize = 100 << 20;
 
 impl Scene {
     /// Reads a scene from TOML text and [checks](Scene::check) it.
     ///
     /// # Errors
-    /// The first mistake in the text or the data, with line and column.
+    /// The first mistake in the text or in the data, with line and column.
     pub fn from_toml(text: &str) -> Result<Self, SceneError> {
         Self::parse(&Source::new(text, None), None)
     }
@@ -26,8 +26,8 @@ impl Scene {
     /// Reads a scene from a TOML file and [checks](Scene::check) it.
     ///
     /// # Errors
-    /// [`SceneErrorKind::Read`] when the file cannot be read as UTF-8 text, else as [`Scene::from_toml`], with the path
-    /// of the file.
+    /// [`SceneErrorKind::Read`] if the file cannot be read as UTF-8 text; otherwise as [`Scene::from_toml`], with the
+    /// path of the file.
     pub fn read(path: &Path) -> Result<Self, SceneError> {
         Self::read_by(path, None)
     }
@@ -40,21 +40,21 @@ impl Scene {
         Self::parse(&Source::new(&text, Some(path)), drawings)
     }
 
-    /// The scene as TOML text, which reads back as an equal scene.
+    /// Writes the scene as TOML text, which reads back as an equal scene.
     ///
     /// # Errors
-    /// [`SceneErrorKind::Write`] when TOML cannot hold a value.
+    /// [`SceneErrorKind::Write`] if TOML cannot represent a value.
     pub fn to_toml(&self) -> Result<String, SceneError> {
         toml::to_string(self).map_err(|error| SceneError::unwritable(error.to_string()))
     }
 
-    /// The files from which the scene was read: its own and that of its list of blocks.
+    /// Returns the paths of the files from which the scene was read: its own file and that of its list of blocks.
     pub fn files(&self) -> impl Iterator<Item = &Path> {
         let list = self.source.list().map(|list| list.path.as_path());
         self.source.path().into_iter().chain(list)
     }
 
-    /// Changes and omissions of the drawing from which the scene was read, in sentences.
+    /// Returns the changes and omissions that were made when the drawing of the scene was read, in sentences.
     pub(crate) fn changes_of_drawing(&self) -> Vec<String> {
         let Some(list) = self.source.list() else { return Vec::new() };
         let name = list.path.file_name().unwrap_or(list.path.as_os_str()).to_string_lossy();
@@ -82,7 +82,7 @@ impl Scene {
         Ok(scene)
     }
 
-    /// The scene of a source, with the blocks of its list.
+    /// Reads the scene of a source, together with the blocks of its list.
     pub(super) fn of(source: &Source) -> Result<Self, SceneError> {
         let mut scene: Self = toml::from_str(source.as_str()).map_err(|error| {
             // An error without a place, such as a missing key of the whole scene, is shown at the top.
@@ -112,14 +112,15 @@ impl Scene {
     }
 }
 
-/// The line, above that of a place, with the last bracket that is not closed before the place: the parser stops at the
-/// next opening bracket, which may be many lines below. `None` if all of the text is TOML.
+/// Finds the line of the last bracket that is not closed before a place, if the line is above the place. The parser
+/// stops only at the next opening bracket, which may be many lines below the mistake. `None` if all of the text is
+/// TOML.
 fn unclosed_above(text: &str, place: usize) -> Option<usize> {
     DeTable::parse(text).err()?;
     let mut open = Vec::new();
     let before = text.get(..place)?;
     for (row, line) in before.lines().enumerate() {
-        // The mark that ends a string; brackets are letters inside it.
+        // The quotation mark that ends the current string; brackets inside a string do not count.
         let mut string = None;
         for letter in line.chars() {
             match letter {
@@ -136,8 +137,8 @@ fn unclosed_above(text: &str, place: usize) -> Option<usize> {
     open.pop().filter(|row| *row < rows)
 }
 
-/// Reads a file with more blocks: a JSON list, or a drawing if `drawings` is given; the error has the reason of a
-/// failure.
+/// Reads a file with more blocks: a JSON list, or a drawing if `drawings` is given. The error is the reason why the
+/// file could not be read.
 fn more_blocks(path: PathBuf, scene: &Scene, drawings: Option<Drawings>) -> Result<List, String> {
     let bytes = read_bounded(&path, LARGEST_FILE).map_err(|error| {
         format!("{error}: name a JSON list or a drawing, relative to the scene")

@@ -6,10 +6,10 @@ use super::{Fault, KeyPath, Known, SceneErrorKind};
 
 pub(super) type Check = Result<(), Fault>;
 
-/// Magnitudes outside of this range are not those of lengths, moduli or loads, and would overflow.
+/// The allowed magnitudes of numbers: other values are not lengths, moduli or loads, and would overflow.
 pub(super) const MAGNITUDES: std::ops::RangeInclusive<f64> = 1e-100..=1e100;
 
-/// Checks every item of a list with this key.
+/// Checks every item of the list with the key `list`.
 pub(super) fn each<T>(list: &str, items: &[T], check: impl Fn(&KeyPath, &T) -> Check) -> Check {
     items.iter().enumerate().try_for_each(|(k, item)| check(&KeyPath::of(list).item(k), item))
 }
@@ -36,7 +36,7 @@ pub(super) fn exactly_one<A, B>(
     }
 }
 
-/// Checks that terminals, tables and pictures show a text as it is.
+/// Checks that a text has no control characters, so that terminals, tables and pictures show it as it is.
 pub(super) fn plain(at: KeyPath, text: &str) -> Check {
     match text.chars().find(|c| c.is_control()) {
         Some(character) => Err(Fault::new(at, SceneErrorKind::Control(character))),
@@ -67,7 +67,7 @@ pub(super) fn value(at: KeyPath, value: f64, allowed: bool, wanted: &'static str
     if allowed { Ok(()) } else { Err(Fault::new(at, SceneErrorKind::Value { value, wanted })) }
 }
 
-/// Checks a count from 1 on.
+/// Checks that a count is at least one.
 pub(super) fn at_least_one(at: KeyPath, count: u32, wanted: &'static str) -> Check {
     value(at, f64::from(count), count > 0, wanted)
 }
@@ -79,7 +79,7 @@ pub(super) fn at_most(at: KeyPath, what: &'static str, count: f64, limit: u32) -
     Err(Fault::new(at, SceneErrorKind::TooMany { what, count, limit }))
 }
 
-/// The value of a key that other data require.
+/// Returns the value of a key that other data require; fails if the key is missing.
 pub(super) fn needed<T>(
     given: Option<T>,
     at: &KeyPath,
@@ -90,7 +90,7 @@ pub(super) fn needed<T>(
     given.ok_or_else(|| Fault::new(at.clone(), SceneErrorKind::Missing { key, because, remedy }))
 }
 
-/// Refuses a key that has no meaning beside other data.
+/// Refuses a key that has no meaning beside other data of the scene.
 pub(super) fn unwanted(
     given: bool,
     at: &KeyPath,
@@ -102,7 +102,7 @@ pub(super) fn unwanted(
     if given { Err(Fault::new(at.key(key), kind)) } else { Ok(()) }
 }
 
-/// The item of this name in one of the tables of the scene.
+/// Finds the item with a name in one of the tables of the scene.
 pub(super) fn named<'a, T>(
     at: KeyPath,
     name: &str,
@@ -116,7 +116,7 @@ pub(super) fn named<'a, T>(
     })
 }
 
-/// The error of a name that refers to nothing; `missing` would define it.
+/// Makes the error of a name that refers to nothing; `missing` is the table that would define it.
 pub(crate) fn unknown(
     at: KeyPath,
     what: &'static str,

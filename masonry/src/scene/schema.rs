@@ -3,9 +3,9 @@
 use super::Scene;
 
 impl Scene {
-    /// The JSON schema of scene files (draft 2020-12), pretty-printed: keys, types, and their meaning. Editors use it
-    /// to complete and check TOML. Rules for more than one value, such as names that refer to others, are not included:
-    /// see [`Scene::check`].
+    /// Returns the JSON schema of scene files (draft 2020-12), pretty-printed, with keys, types and their meaning.
+    /// Editors use the schema to complete and check TOML. It does not include rules that concern more than one value,
+    /// such as names that refer to others: see [`Scene::check`].
     ///
     /// ```
     /// assert!(masonry::Scene::schema().contains("\"title\""));
@@ -27,7 +27,7 @@ mod tests {
 
     use super::Scene;
 
-    /// A transform that removes Rust-only parts of descriptions.
+    /// A transform of a schema that removes parts of descriptions that only Rust programmers need.
     #[derive(Debug, Clone)]
     struct PlainText;
 
@@ -36,7 +36,7 @@ mod tests {
             if let Some(text) = schema.get("description").and_then(|it| it.as_str()).map(plain) {
                 schema.insert("description".to_owned(), text.into());
             }
-            // Keys without a value are left out.
+            // Default values that are empty are left out.
             match schema.get_mut("default") {
                 Some(Value::Null) => drop(schema.remove("default")),
                 Some(Value::Object(keys)) => keys.retain(|_, value| !value.is_null()),
@@ -46,7 +46,7 @@ mod tests {
         }
     }
 
-    /// The text without examples and without the targets of links, and with plain brackets around units.
+    /// Returns a description without examples and without the targets of links, and with plain brackets around units.
     fn plain(text: &str) -> String {
         let text = text.split("\n```").next().unwrap_or(text).trim_end();
         let mut parts = text.split("](");
@@ -61,7 +61,7 @@ mod tests {
         plain.replace("\\[", "[").replace("\\]", "]").replace('\n', " ").replace("  ", "\n\n")
     }
 
-    /// `UPDATE_SCHEMA=1 cargo test -p masonry --lib schema` writes the file.
+    /// Checks that the schema file is up to date; `UPDATE_SCHEMA=1 cargo test -p masonry --lib schema` writes it.
     #[test]
     fn the_schema_is_that_of_the_types() {
         let settings = SchemaSettings::draft2020_12().with_transform(PlainText);

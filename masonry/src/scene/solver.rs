@@ -1,4 +1,4 @@
-//! The solver of a scene: route, form, limits.
+//! Settings of the solver in a scene: route, form and limits.
 
 use serde::{Deserialize, Deserializer, Serialize};
 
@@ -9,19 +9,20 @@ use crate::data::route::Route;
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(default, deny_unknown_fields)]
 pub struct SolverSettings {
-    /// Tolerance: the largest residual of a solution \[-\].
+    /// Largest residual of a solution \[-\].
     pub tolerance: f64,
-    /// The route to the solution.
+    /// The route to the solution: a form of the problem with a method that solves it.
     pub route: RouteSetting,
-    /// The form of the reduced problem; belongs to [`Route::Lemke`].
+    /// The form of the reduced complementarity problem; used only by [`Route::Lemke`].
     pub form: Form,
-    /// Largest number of pivots of one attempt; by default the solver sets a limit by the order. Belongs to
+    /// Largest number of pivots of one attempt; by default it depends on the order of the problem. Used only by
     /// [`Route::Lemke`].
     pub max_pivots: Option<u32>,
-    /// Largest number of steps of one attempt of the interior-point method; 300 by default. Belongs to [`Route::Interior`].
+    /// Largest number of steps of one attempt of the interior-point method; 300 by default. Used only by
+    /// [`Route::Interior`].
     pub max_steps: Option<u32>,
-    /// Stiffness of springs on all displacements, relative to that of the blocks \[-\], which are re-centred until they
-    /// carry nothing; belongs to [`Route::Qp`], and to [`Route::Pgs`], which always has springs.
+    /// Stiffness of springs on all displacements, relative to the stiffness of the blocks \[-\]. The springs are
+    /// re-centred until they carry nothing. Used by [`Route::Qp`], and by [`Route::Pgs`], which always has springs.
     pub soft: Option<f64>,
 }
 
@@ -32,24 +33,24 @@ impl Default for SolverSettings {
     }
 }
 
-/// The route that a scene requests.
+/// The setting of the route: automatic, or a single one.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(rename_all = "lowercase")]
 pub enum RouteSetting {
-    /// The fastest route for the scene, and further ones if it fails.
+    /// The fastest route for the scene, and other routes if it fails.
     #[default]
     Auto,
-    /// This route and no other.
+    /// Only this route.
     #[serde(untagged)]
     Only(Route),
 }
 
-/// The names of all settings.
+/// The names of all settings in scenes.
 const NAMES: &[&str] = &["auto", "forces", "lemke", "interior", "qp", "pgs", "alm"];
 
 impl RouteSetting {
-    /// The name in scenes.
+    /// Returns the name of the setting in scenes.
     pub fn name(self) -> &'static str {
         match self {
             Self::Auto => "auto",
@@ -57,7 +58,7 @@ impl RouteSetting {
         }
     }
 
-    /// Whether a route may be tried.
+    /// Returns whether the setting allows a route to be tried.
     pub fn allows(self, route: Route) -> bool {
         matches!(self, Self::Auto) || self == Self::Only(route)
     }
@@ -88,10 +89,10 @@ pub enum Form {
     /// The Coulomb form first; the mixed form if the Coulomb form ends on rays.
     #[default]
     Auto,
-    /// Distances to the two edges of the friction cone (3.27): three unknowns a point.
+    /// Distances of the force to the two edges of the friction cone (3.27): three unknowns per point.
     Coulomb,
-    /// Two friction forces and a slip bound: four unknowns a point.
+    /// Two friction forces and a slip bound: four unknowns per point.
     StewartTrinkle,
-    /// The Stewart-Trinkle form with the rigid amplitudes kept as unknowns.
+    /// The Stewart-Trinkle form in which the rigid amplitudes remain as unknowns.
     Mixed,
 }

@@ -1,4 +1,4 @@
-//! The text of a scene and places in it.
+//! The text from which a scene was read, and places in this text.
 
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -9,9 +9,11 @@ use toml::de::{DeTable, DeValue};
 use super::json_span;
 use super::key_path::{KeyPath, PathStep};
 
-/// The text from which a scene was read; empty for a scene built in Rust.
+/// The text from which a scene was read and its file, for the line and column of errors; empty for a scene built in
+/// Rust.
 ///
-/// All sources are equal: two scenes from different files may be the same.
+/// All sources compare as equal, so that two scenes are equal if their data are equal, even if they come from
+/// different files.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Source(Arc<Text>);
 
@@ -22,19 +24,19 @@ struct Text {
     list: Option<List>,
 }
 
-/// A file with more blocks.
+/// The file that the key `block_list` names, which has more blocks of the scene.
 #[derive(Debug)]
 pub(super) struct List {
     pub(super) path: PathBuf,
-    /// The content of the file, or the content of a drawing as TOML.
+    /// The content of the file; for a drawing, its blocks as TOML.
     pub(super) text: String,
-    /// The places of the blocks in a drawing; `None` for a JSON list.
+    /// The place of each block in the drawing; `None` for a JSON list.
     pub(super) entities: Option<Vec<String>>,
-    /// Changes and omissions of a drawing, one kind in each line.
+    /// The changes to the drawing and the omissions from it, one kind in each line.
     pub(super) changes: Vec<String>,
 }
 
-/// The place of a value: the file, and a part of its text or of its drawing.
+/// The place of a value: its file, and an excerpt of the text or an entity of the drawing.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(super) struct Located {
     pub(super) file: Option<PathBuf>,
@@ -49,19 +51,19 @@ impl PartialEq for Source {
 }
 
 impl Source {
-    /// The source with this text, with or without a file.
+    /// Makes a source with this text; the file is `None` if the text is not from a file.
     pub(super) fn new(text: &str, file: Option<&Path>) -> Self {
         let (scene, file) = (text.to_owned(), file.map(Path::to_owned));
         Self(Arc::new(Text { file, scene, list: None }))
     }
 
-    /// The source with a file with more blocks.
+    /// Returns the source with the file of its `block_list` added.
     pub(super) fn with_list(&self, list: List) -> Self {
         let (file, scene) = (self.path().map(Path::to_owned), self.as_str().to_owned());
         Self(Arc::new(Text { file, scene, list: Some(list) }))
     }
 
-    /// The path of a file that the scene gives relative to its own file.
+    /// Returns the path of a file whose path in the scene is relative to the scene's own file.
     pub(super) fn beside(&self, file: &Path) -> PathBuf {
         self.path().and_then(Path::parent).map_or(file.to_owned(), |it| it.join(file))
     }
@@ -74,12 +76,12 @@ impl Source {
         self.0.file.as_deref()
     }
 
-    /// The list of blocks.
+    /// Returns the file with more blocks; `None` if the scene has no such file.
     pub(super) fn list(&self) -> Option<&List> {
         self.0.list.as_ref()
     }
 
-    /// The file and the place of the value at `path`, or of the innermost written table around it.
+    /// Returns the file and the place of the value at `path`, or of the innermost table around it that was written.
     pub(super) fn locate(&self, path: &KeyPath) -> Located {
         self.locate_in_list(path).unwrap_or_else(|| Located {
             file: self.path().map(Path::to_owned),
@@ -88,7 +90,7 @@ impl Source {
         })
     }
 
-    /// The place of a value in the list of blocks, for blocks that are not in the scene itself.
+    /// Returns the place of a value in the list of blocks; `None` if the value is not one of a block in the list.
     fn locate_in_list(&self, path: &KeyPath) -> Option<Located> {
         let list = self.list()?;
         let [PathStep::Key(key), PathStep::Index(index), inner @ ..] = path.steps() else {
@@ -129,30 +131,31 @@ impl Source {
         span.and_then(|span| self.place(span))
     }
 
-    /// The place of a range of bytes.
+    /// Returns the excerpt of the text around a range of bytes.
     pub(super) fn place(&self, span: Range<usize>) -> Option<Excerpt> {
         Excerpt::new(self.as_str(), span)
     }
 }
 
-/// Characters of a line that are shown before, of and after a mistake: a list may be one long line.
+/// Largest number of characters that are shown before a mistake, of the mistake, and after it: a JSON list may be one
+/// long line.
 const SHOWN: usize = 60;
 
-/// The part of a line around a mistake.
+/// The line of a mistake, shortened to the part around the mistake.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct Excerpt {
     /// Line, from 1.
     pub(super) line: usize,
     /// Column in characters, from 1.
     pub(super) column: usize,
-    /// The shown text before the mistake, of it, and after it.
+    /// The text that is shown before the mistake, of the mistake, and after it.
     before: String,
     marked: String,
     after: String,
 }
 
 impl Excerpt {
-    /// A place by its line and column, from 1.
+    /// Returns the excerpt at a line and a column, both from 1.
     pub(super) fn at(text: &str, line: usize, column: usize) -> Option<Self> {
         let before: usize = text.split_inclusive('\n').take(line.max(1) - 1).map(str::len).sum();
         let in_line = text.get(before..)?.char_indices().nth(column.max(1) - 1);
@@ -178,7 +181,7 @@ impl Excerpt {
         })
     }
 
-    /// The line with its number, and carets below the mistake.
+    /// Formats the line with its number, and carets below the mistake.
     pub(super) fn snippet(&self) -> String {
         let Self { before, marked, after, .. } = self;
         let number = self.line.to_string();
@@ -190,7 +193,8 @@ impl Excerpt {
     }
 }
 
-/// The first characters, with dots for the others, and without characters that would act on a terminal.
+/// Returns the first characters of a text, with dots instead of the rest, and without characters that would act on a
+/// terminal.
 fn clipped(mut text: impl Iterator<Item = char>) -> String {
     let plain = |c: char| if c.is_control() && c != '\t' { '\u{fffd}' } else { c };
     let mut shown: String = text.by_ref().take(SHOWN).map(plain).collect();

@@ -1,4 +1,4 @@
-//! The load history of a scene: ordered stages.
+//! The load history of a scene, as an ordered list of stages.
 
 use std::collections::BTreeMap;
 
@@ -10,9 +10,9 @@ use super::strict;
 /// A stage of the load history. Stages follow one another; loads and supports change in equal steps from their current
 /// values to those of the stage.
 ///
-/// Values of loads are factors of those of the scene. A load that is named in no stage acts in full from the first
-/// stage on; any other load is zero before the first stage that names it, and keeps its value until the next one. Every
-/// step starts from the slip of the previous one, if there is friction.
+/// Factors of loads multiply the values of the scene. A load that no stage names acts in full from the first stage on.
+/// Any other load is zero before the first stage that names it, and keeps its value until the next stage that names
+/// it. If there is friction, every step starts from the slip of the previous step.
 ///
 /// ```
 /// use masonry::scene::{Movement, Stage};
@@ -28,12 +28,13 @@ pub struct Stage {
     /// Number of steps; 1 by default.
     #[serde(default = "one_step", skip_serializing_if = "is_one_step")]
     pub steps: u32,
-    /// Factor of gravity at the end of the stage \[-\].
+    /// Factor of gravity at the end of the stage \[-\]; if it is not given, gravity does not change.
     pub gravity: Option<f64>,
-    /// Factors of loads at the end of the stage \[-\] in addition to their own, by the name of the load or of its group.
+    /// Factors of loads at the end of the stage \[-\], by the name of the load or of its group. They multiply the
+    /// factor of the load itself.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub loads: BTreeMap<String, f64>,
-    /// The positions of supports at the end of the stage, by the name of the support.
+    /// The movements of supports from their places in the scene, at the end of the stage, by the name of the support.
     #[serde(
         default,
         skip_serializing_if = "BTreeMap::is_empty",
@@ -42,7 +43,8 @@ pub struct Stage {
     pub moves: BTreeMap<String, Movement>,
 }
 
-/// Displacement of a support from its place in the scene. Displacements are small: the normal of its joints does not rotate.
+/// Displacement of a support from its place in the scene. Displacements are small: the normals of its joints do not
+/// rotate.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(default, deny_unknown_fields)]
@@ -56,7 +58,7 @@ pub struct Movement {
 }
 
 impl Stage {
-    /// A stage of one step in which nothing changes.
+    /// Makes a stage of one step in which nothing changes.
     pub fn new(name: &str) -> Self {
         Self {
             name: name.to_owned(),
@@ -70,13 +72,14 @@ impl Stage {
     setters! {
         /// Sets the number of steps.
         pub fn steps(mut self, steps: u32) { self.steps = steps }
-        /// Changes gravity to a factor of that of the scene \[-\].
+        /// Sets the factor of gravity at the end of the stage \[-\], relative to gravity in the scene.
         pub fn gravity(mut self, factor: f64) { self.gravity = Some(factor) }
-        /// Changes a load, or all loads of a group, to a factor of the values in the scene \[-\].
+        /// Sets the factor of a load, or of all loads of a group, at the end of the stage \[-\], relative to the
+        /// values in the scene.
         pub fn load(mut self, name: &str, factor: f64) {
             self.loads.insert(name.to_owned(), factor);
         }
-        /// Moves a support to another place.
+        /// Moves a support to another place by the end of the stage.
         pub fn moves(mut self, support: &str, movement: Movement) {
             self.moves.insert(support.to_owned(), movement);
         }
@@ -84,18 +87,18 @@ impl Stage {
 }
 
 impl Movement {
-    /// A displacement \[length\] without rotation.
+    /// Makes a displacement \[length\] without rotation.
     pub fn by(x: f64, y: f64) -> Self {
         Self { x, y, turn: 0.0 }
     }
 
-    /// The movement with lengths in a unit that is `1 / factor` times as long.
+    /// Converts the movement to a unit of length that is `1 / factor` times as long.
     #[must_use]
     pub fn in_lengths(self, factor: f64) -> Self {
         Self { x: self.x * factor, y: self.y * factor, turn: self.turn }
     }
 
-    /// The movement `fraction` of the way from this one to another.
+    /// Returns the movement between this one and `end`, at the fraction `fraction` of the difference.
     #[must_use]
     pub fn towards(self, end: Self, fraction: f64) -> Self {
         let between = |from: f64, to: f64| from + (to - from) * fraction;

@@ -1,4 +1,4 @@
-//! Forces per area on edges: uniform, and linear along a segment.
+//! Forces per area on edges: uniform, or linear along a segment.
 
 use std::fmt;
 
@@ -16,14 +16,14 @@ pub enum EdgeStress {
     Earth(Earth),
 }
 
-/// Earth or water beside an edge. The pressure is `K gamma` times the depth below the level, and zero above.
+/// Earth or water beside an edge. The pressure is `K gamma` times the depth below the level, and zero above the level.
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Earth {
-    /// Weight per volume \[force/length^3\].
+    /// Weight per volume of the earth or water \[force/length^3\].
     pub gamma: f64,
-    /// The pressure to the side as a part of the pressure downwards \[-\]; 1 for water.
+    /// Horizontal pressure divided by vertical pressure, `K` \[-\]; 1 for water.
     #[serde(rename = "K")]
     pub k: f64,
     /// Height of the surface, as a coordinate y \[length\].
@@ -31,13 +31,14 @@ pub struct Earth {
 }
 
 impl Earth {
-    /// The pressure \[force/length^2\] at a height at or below the level.
+    /// Returns the pressure \[force/length^2\] at a height at or below the level.
     pub(crate) fn pressure_at(self, y: f64) -> f64 {
         self.k * self.gamma * (self.level - y)
     }
 }
 
-/// A pressure at both ends of a segment \[force/length^2\], linear between them. In TOML a number, or two.
+/// A pressure that varies linearly between its values at both ends of a segment \[force/length^2\]. In TOML it is one
+/// number for a uniform pressure, or two numbers.
 ///
 /// ```
 /// use masonry::scene::Pressure;
@@ -46,9 +47,9 @@ impl Earth {
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Pressure {
-    /// The pressure at the end `from`.
+    /// The pressure at the end `from` of the segment.
     pub from: f64,
-    /// The pressure at the end `to`.
+    /// The pressure at the end `to` of the segment.
     pub to: f64,
 }
 
@@ -65,7 +66,7 @@ impl From<[f64; 2]> for Pressure {
 }
 
 impl Pressure {
-    /// Whether the pressure is the same on all of the segment.
+    /// Returns whether the pressure is uniform on the segment.
     pub(super) fn is_uniform(self) -> bool {
         // The bits are compared, since a value that differs in any bit is written.
         self.from.to_bits() == self.to.to_bits()
@@ -89,7 +90,7 @@ impl<'de> Deserialize<'de> for Pressure {
     }
 }
 
-// Written by hand because an untagged enum would lose the place of a mistake in the list.
+// The visitor is written by hand because an untagged enum would lose the place of a mistake in the list.
 struct PressureVisitor;
 
 impl<'de> Visitor<'de> for PressureVisitor {
@@ -124,7 +125,7 @@ impl<'de> Visitor<'de> for PressureVisitor {
     }
 }
 
-/// The schema of a number or a pair.
+/// Implements the schema of a number or a pair of numbers.
 #[cfg(test)]
 impl schemars::JsonSchema for Pressure {
     fn schema_name() -> std::borrow::Cow<'static, str> {

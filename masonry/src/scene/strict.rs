@@ -1,7 +1,7 @@
-//! Arrays and tables that refuse input that serde would accept.
+//! Strict reading of arrays and tables, which refuses input that serde would accept.
 //!
-//! Serde's own arrays stop reading when they are full, so that a third coordinate would be dropped silently; its
-//! structs also read a list as their fields in order.
+//! Serde stops reading an array when it is full, so that a third coordinate would be dropped silently. Serde also
+//! reads a list as the fields of a struct in their order.
 
 use std::collections::BTreeMap;
 use std::fmt;
@@ -10,7 +10,7 @@ use std::marker::PhantomData;
 use serde::de::value::MapAccessDeserializer;
 use serde::de::{Deserialize, Deserializer, Error, IgnoredAny, MapAccess, SeqAccess, Visitor};
 
-/// Reads pairs of exactly two items, and tables from tables only, at any depth.
+/// Reads a value at any depth of which pairs must have exactly two items, and tables must be tables.
 pub(super) fn read<'de, D: Deserializer<'de>, T: Strict<'de>>(from: D) -> Result<T, D::Error> {
     T::read(from)
 }
@@ -19,7 +19,7 @@ pub(super) trait Strict<'de>: Sized {
     fn read<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error>;
 }
 
-/// A value that serde reads by [`Strict`].
+/// A wrapper whose deserialisation by serde uses [`Strict`].
 struct Read<T>(T);
 
 impl<'de, T: Strict<'de>> Deserialize<'de> for Read<T> {
@@ -57,14 +57,14 @@ macro_rules! values {
     )+ };
 }
 
-/// Reads a table from a table only.
+/// Reads a struct from a table, and refuses lists.
 pub(super) fn table<'de, D: Deserializer<'de>, T: Deserialize<'de>>(
     from: D,
 ) -> Result<T, D::Error> {
     from.deserialize_map(TableVisitor(PhantomData))
 }
 
-/// Implements [`Strict`] for these types by [`table`].
+/// Implements [`Strict`] for these types by the function [`table`].
 macro_rules! tables {
     ($($table:ty),+) => { $(
         impl<'de> strict::Strict<'de> for $table {
@@ -121,7 +121,7 @@ impl<'de, T: Strict<'de>> Visitor<'de> for PairVisitor<T> {
     }
 }
 
-/// A fraction from 0 to 1, of which `true` is 1 and `false` 0.
+/// Reads a fraction from 0 to 1; `true` is 1 and `false` is 0.
 pub(super) fn part<'de, D: Deserializer<'de>>(from: D) -> Result<Option<f64>, D::Error> {
     Ok(Option::<Fraction>::deserialize(from)?.map(|Fraction(part)| part))
 }
@@ -160,7 +160,7 @@ impl Visitor<'_> for FractionVisitor {
     }
 }
 
-/// Elements along two directions; a single number counts for both.
+/// Reads the numbers of elements along two directions; a single number counts for both.
 pub(super) fn mesh<'de, D: Deserializer<'de>>(from: D) -> Result<Option<[u32; 2]>, D::Error> {
     Ok(Option::<MeshCounts>::deserialize(from)?.map(|MeshCounts(counts)| counts))
 }

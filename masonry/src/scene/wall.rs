@@ -17,7 +17,7 @@ pub struct WallJoints {
 }
 
 impl WallJoints {
-    /// The names of the classes of beds and heads.
+    /// Returns the names of the classes of bed and head joints.
     pub fn names(&self) -> [&str; 2] {
         [(&self.bed, BED), (&self.head, HEAD)].map(|(name, usual)| name.as_deref().unwrap_or(usual))
     }
@@ -35,37 +35,38 @@ pub struct Wall {
     /// Lower left corner \[length\].
     #[serde(deserialize_with = "strict::read")]
     pub origin: [f64; 2],
-    /// Angle by which the laid wall is turned about `origin`, counter-clockwise \[degrees\].
+    /// Angle by which the wall is turned about `origin` after its bricks are laid, counter-clockwise \[degrees\].
     #[serde(default, skip_serializing_if = "is_upright")]
     pub turn_deg: f64,
-    /// A point towards which the bottom of the wall runs from `origin` \[length\], instead of the angle; and its lower right
-    /// corner, if `courses` is a number and no width is given.
+    /// A point towards which the bottom of the wall runs from `origin` \[length\], instead of the angle. The point is
+    /// the lower right corner of the wall if `courses` is a number and no width is given.
     #[serde(default, deserialize_with = "strict::read", skip_serializing_if = "Option::is_none")]
     pub to: Option<[f64; 2]>,
-    /// The whole brick.
+    /// The size of a whole brick.
     #[serde(deserialize_with = "strict::read")]
     pub brick: Brick,
-    /// Width of the wall \[length\]; only if `courses` is a number.
+    /// Width of the wall \[length\]; allowed only if `courses` is a number.
     pub width: Option<f64>,
     /// The courses, bottom to top.
     pub courses: Courses,
-    /// The bond of the courses, if not running bond; only if `courses` is a number.
+    /// The bond of the courses, running bond by default; allowed only if `courses` is a number.
     pub bond: Option<Bond>,
-    /// Openings of the wall; only if `courses` is a number.
+    /// Openings of the wall; allowed only if `courses` is a number.
     #[serde(default, skip_serializing_if = "Vec::is_empty", deserialize_with = "strict::read")]
     pub openings: Vec<Opening>,
-    /// The classes of the joints of the wall, if not `bed` and `head`.
+    /// The classes of the joints within the wall, instead of `bed` and `head`.
     #[serde(default, deserialize_with = "strict::read", skip_serializing_if = "is_usual")]
     pub joints: WallJoints,
-    /// Elements along the length and height of a whole brick; required when the material is elastic. A cut brick gets
-    /// its share of those along the length, rounded up.
+    /// Numbers of elements along the length and the height of a whole brick; required if the material is elastic. A
+    /// cut brick gets its share of the elements along the length, rounded up.
     #[serde(default, deserialize_with = "strict::mesh")]
     #[cfg_attr(test, schemars(with = "Option<super::Elements>"))]
     pub mesh: Option<[u32; 2]>,
 }
 
 impl Wall {
-    /// The final place of a place of the upright wall \[length\].
+    /// Returns the place \[length\] to which a place of the upright wall comes when the wall is turned about its
+    /// origin.
     ///
     /// ```
     /// use masonry::scene::{Brick, Wall};
@@ -83,32 +84,33 @@ impl Wall {
         (origin + Rotation2::new(turn) * (Point2::from(place) - origin)).into()
     }
 
-    /// The angle by which the wall is turned about its origin \[rad\].
+    /// Returns the angle by which the wall is turned about its origin \[rad\].
     pub fn turn(&self) -> f64 {
         let along = self.along();
         along.map_or(self.turn_deg.to_radians(), |along| along.y.atan2(along.x))
     }
 
-    /// The given width \[length\]: as a number, or as the distance between the lower corners.
+    /// Returns the width that the scene gives \[length\], as a number or by the distance between the lower corners;
+    /// `None` if it gives neither.
     pub fn width_given(&self) -> Option<f64> {
         self.width.or_else(|| self.along().map(|along| along.norm()))
     }
 
-    /// The vector from the lower left corner to the right one \[length\].
+    /// Returns the vector from the lower left corner to the point `to` \[length\]; `None` if `to` is not given.
     fn along(&self) -> Option<Vector2<f64>> {
         self.to.map(|to| Point2::from(to) - Point2::from(self.origin))
     }
 }
 
-/// The courses of a wall: their number in a bond, or a list of bricks.
+/// The courses of a wall: their number in a bond, or lists of bricks.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(untagged)]
 pub enum Courses {
-    /// A number of courses in running bond, or in the bond of the wall. The second, fourth and so on begin with a
-    /// half brick, and the last brick of a course is cut to the width.
+    /// A number of courses in running bond, or in the bond of the wall. In running bond every second course begins
+    /// with a half brick. The last brick of a course is cut to the width.
     RunningBond(u32),
-    /// The courses from bottom to top, each a list of brick lengths in units of one brick from left to right; a
-    /// negative number is an opening of that length. The unit in a wall with mortar is one brick and one head joint: a
+    /// The courses from bottom to top, each a list of brick lengths from left to right in units of one brick; a
+    /// negative number is an opening of this length. In a wall with mortar the unit is one brick and one head joint: a
     /// brick of length `f` measures `f (l + t_y) - t_y`, a half brick `(l - t_y) / 2`.
     List(Vec<Vec<f64>>),
 }

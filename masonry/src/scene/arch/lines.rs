@@ -1,4 +1,4 @@
-//! The joints of an arch.
+//! Computation of the joints of an arch from its shape.
 
 use nalgebra::Point2;
 
@@ -7,7 +7,7 @@ use crate::geometry;
 use crate::scene::rules::{One, exactly_one, needed, positive, unwanted, value};
 use crate::scene::{ArchError, Fault, KeyPath};
 
-/// The joints from the left springing to the right, each from the intrados to the extrados \[length\].
+/// Returns the joints from the left springing to the right, each from the intrados to the extrados \[length\].
 pub(crate) fn lines(arch: &Arch, at: &KeyPath) -> Result<Vec<JointLine>, Fault> {
     refuse_others(arch, at)?;
     if arch.shape == Shape::Joints {
@@ -32,7 +32,7 @@ pub(crate) fn lines(arch: &Arch, at: &KeyPath) -> Result<Vec<JointLine>, Fault> 
     }
 }
 
-/// The given joints, checked to bound voussoirs.
+/// Returns the joints that the scene gives, after a check that they bound convex voussoirs.
 fn given(arch: &Arch, at: &KeyPath) -> Result<Vec<JointLine>, Fault> {
     let because = "for `shape = \"joints\"`";
     let remedy = "lines = [[[0.0, 0.0], [0.0, 0.2]], [[0.5, 0.0], [0.5, 0.2]]]";
@@ -57,7 +57,7 @@ fn given(arch: &Arch, at: &KeyPath) -> Result<Vec<JointLine>, Fault> {
     Ok(lines.into_iter().map(|line| line.map(moved)).collect())
 }
 
-/// Refuses keys that belong to other shapes.
+/// Refuses keys that belong to shapes other than that of the arch.
 fn refuse_others(arch: &Arch, at: &KeyPath) -> Result<(), Fault> {
     use Shape::{Flat, Joints, Pointed, Segmental, Semicircular};
     let circles = [Segmental, Semicircular, Pointed, Flat];
@@ -77,7 +77,7 @@ fn refuse_others(arch: &Arch, at: &KeyPath) -> Result<(), Fault> {
     })
 }
 
-/// The data of all shapes except given joints.
+/// The data of an arch that all shapes have except given joints.
 struct Size {
     origin: [f64; 2],
     span: f64,
@@ -85,10 +85,10 @@ struct Size {
     count: u32,
 }
 
-/// Voussoirs of one arch, and blocks of one of its piers, at most.
+/// Largest number of voussoirs of one arch, and of blocks of one of its piers.
 pub(super) const MOST: u32 = 10_000;
-/// The largest angle of the springings of a flat arch from the vertical \[degrees\]. Chosen: far more
-/// than masons build.
+/// The largest angle of the springings of a flat arch from the vertical \[degrees\]. Chosen: far more than masons
+/// build.
 const STEEPEST: f64 = 80.0;
 const RIGHT_ANGLE: f64 = 0.5 * std::f64::consts::PI;
 
@@ -105,7 +105,7 @@ impl Size {
         Ok(Self { origin: arch.origin.unwrap_or_default(), span, thickness, count })
     }
 
-    /// Checks the number of voussoirs: half a circle needs two.
+    /// Checks the number of voussoirs: half a circle needs at least two.
     fn check_convex(&self, half: f64, at: &KeyPath) -> Result<(), Fault> {
         let is_convex = self.count > 1 || half < RIGHT_ANGLE * (1.0 - 1e-9);
         let wanted = "a single voussoir of half a circle is not convex: give at least 2";
@@ -116,7 +116,7 @@ impl Size {
         [self.origin[0] + x, self.origin[1] + y]
     }
 
-    /// Joints towards a centre, at equal angles from the vertical.
+    /// Returns joints that point towards a centre, at equal angles from each other.
     fn fan(
         &self,
         [x, y]: [f64; 2],
@@ -129,7 +129,8 @@ impl Size {
         (0..=count).map(|k| [radius, radius + self.thickness].map(|r| at(r, angle(k)))).collect()
     }
 
-    /// Two arcs about centres at the height of the springings, and a vertical joint at the crown.
+    /// Returns the joints of two arcs, whose centres are at the height of the springings, and a vertical joint at the
+    /// crown.
     fn pointed(&self, arch: &Arch, at: &KeyPath) -> Result<Vec<JointLine>, Fault> {
         let rise = needed(arch.rise, at, "rise", "for a pointed arch", "rise = 2.0")?;
         positive(at.key("rise"), rise)?;
@@ -143,8 +144,8 @@ impl Size {
         }
         let radius = (half * half + rise * rise) / self.span;
         let outer = radius + self.thickness;
-        // Angles about the left centre, which lies to the right of the left springing, up to the
-        // crown.
+        // Angles are measured about the centre of the left arc, which lies to the right of the left springing, up to
+        // the crown.
         let across = radius - half;
         let crown = [rise, (outer * outer - across * across).sqrt()].map(|y| self.place([half, y]));
         let angle = -(across / radius).asin();
@@ -158,7 +159,7 @@ impl Size {
         Ok(lines)
     }
 
-    /// Joints from the intrados to a level top.
+    /// Returns the joints of a flat arch, from the intrados to the level top.
     fn flat(&self, arch: &Arch, at: &KeyPath) -> Result<Vec<JointLine>, Fault> {
         match exactly_one(at, "skew_deg", arch.skew_deg, "rise", arch.rise)? {
             One::First(skew_deg) => self.straight(skew_deg, at),
@@ -166,7 +167,7 @@ impl Size {
         }
     }
 
-    /// An intrados that is an arc, with joints towards its centre at equal angles.
+    /// Returns the joints of a flat arch whose intrados is an arc; they point towards its centre at equal angles.
     fn level(&self, rise: f64, at: &KeyPath) -> Result<Vec<JointLine>, Fault> {
         let at = at.key("rise");
         positive(at.clone(), rise)?;
@@ -186,7 +187,8 @@ impl Size {
         Ok((0..=self.count).map(joint).collect())
     }
 
-    /// Joints at equal distances along a straight intrados, towards one point below its middle.
+    /// Returns the joints of a flat arch with a straight intrados, at equal distances along it; they point towards one
+    /// point below its middle.
     fn straight(&self, skew: f64, at: &KeyPath) -> Result<Vec<JointLine>, Fault> {
         let wanted = "the springings of a flat arch lean by at least 0 and at most 80 degrees";
         value(at.key("skew_deg"), skew, (0.0..=STEEPEST).contains(&skew), wanted)?;
@@ -201,7 +203,7 @@ impl Size {
     }
 }
 
-/// Half the angle of a segmental arch at its centre \[rad\].
+/// Returns half the angle of a segmental arch, seen from the centre of its circle \[rad\].
 fn half_angle(arch: &Arch, at: &KeyPath, span: f64) -> Result<f64, Fault> {
     match exactly_one(at, "rise", arch.rise, "embrace_deg", arch.embrace_deg)? {
         One::First(rise) => {

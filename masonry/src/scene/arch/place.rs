@@ -1,4 +1,4 @@
-//! The blocks and supports of an arch.
+//! Placement of the blocks and supports of an arch.
 
 use super::lines::MOST;
 use super::{Arch, JointLine, Piers, lines};
@@ -7,19 +7,19 @@ use crate::rounding::rounded;
 use crate::scene::rules::{positive, value};
 use crate::scene::{ArchError, Fault, KeyPath, Scene, Support};
 
-/// Rings of one arch, at most. Chosen: far more than bridges have.
+/// Largest number of rings of one arch. Chosen: far more than bridges have.
 const MOST_RINGS: u32 = 100;
 
-/// A block of an arch.
+/// A block of an arch with its name.
 pub(crate) struct NamedBlock {
     pub(crate) name: String,
     /// The corners of the block \[length\].
     pub(crate) corners: [[f64; 2]; 4],
-    /// The ring of a voussoir, from the intrados; `None` for blocks of piers.
+    /// The ring of a voussoir, counted from the intrados; `None` for blocks of piers.
     pub(crate) ring: Option<u32>,
 }
 
-/// The blocks of an arch with their names, voussoirs from the left first \[length\].
+/// Returns the blocks of an arch with their names: first the voussoirs from the left, then the blocks of piers.
 pub(crate) fn blocks(arch: &Arch, at: &KeyPath) -> Result<Vec<NamedBlock>, Fault> {
     let lines = lines(arch, at)?;
     let mut blocks = Vec::new();
@@ -51,12 +51,13 @@ pub(crate) fn blocks(arch: &Arch, at: &KeyPath) -> Result<Vec<NamedBlock>, Fault
     Ok(blocks)
 }
 
-/// The place at a fraction of a joint, from the intrados; exactly its ends at 0 and 1.
+/// Returns the place at a fraction of a joint from the intrados; exactly the ends of the joint at 0 and 1.
 fn on([[x, y], [to_x, to_y]]: JointLine, at: f64) -> [f64; 2] {
     if at >= 1.0 { [to_x, to_y] } else { [x + (to_x - x) * at, y + (to_y - y) * at] }
 }
 
-/// The supports below both ends: along the springings, or below the piers. Empty without a class.
+/// Returns the supports below both ends of an arch, along the springings or below the piers; none if `springing` is
+/// not given.
 pub(crate) fn supports(arch: &Arch, at: &KeyPath) -> Result<Vec<Support>, Fault> {
     let Some(class) = &arch.springing else { return Ok(Vec::new()) };
     let lines = lines(arch, at)?;
@@ -74,8 +75,8 @@ pub(crate) fn supports(arch: &Arch, at: &KeyPath) -> Result<Vec<Support>, Fault>
 }
 
 impl Scene {
-    /// All supports: those of the scene, then those below its arches. An arch that cannot be built, which
-    /// [`Scene::check`] refuses, has none.
+    /// Returns all supports: those of the scene, then those below its arches. An arch that cannot be built has no
+    /// supports; [`Scene::check`] refuses it.
     pub fn all_supports(&self) -> Vec<Support> {
         let of_arches = self.arches.iter().enumerate().flat_map(|(k, arch)| {
             supports(arch, &KeyPath::of("arches").item(k)).unwrap_or_default()
@@ -83,7 +84,7 @@ impl Scene {
         self.supports.iter().cloned().chain(of_arches).collect()
     }
 
-    /// The materials of all walls, arches and blocks, by name.
+    /// Returns the names of the materials that walls, lintels, arches and blocks use.
     pub(crate) fn used_materials(&self) -> impl Iterator<Item = &str> {
         let of_walls = self.walls.iter().map(|wall| &wall.material);
         let of_arches = self.arches.iter().map(|arch| &arch.material);
@@ -94,12 +95,12 @@ impl Scene {
     }
 }
 
-/// Both springings, each with the direction in which its pier lies.
+/// Returns both springings, each with its name and the direction along x in which its pier lies.
 fn ends(lines: &[JointLine]) -> [(&'static str, f64, JointLine); 2] {
     [("left", -1.0, lines[0]), ("right", 1.0, lines[lines.len() - 1])]
 }
 
-/// The blocks of a pier from the bottom, and the block with the face of the springing.
+/// Returns the blocks of a pier from the bottom; the last one has the face of an inclined springing.
 fn pier(
     piers: &Piers,
     at: &KeyPath,

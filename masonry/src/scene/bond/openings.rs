@@ -1,15 +1,16 @@
-//! Courses cut at openings, and the lintels above these.
+//! Cutting of courses at openings, and placement of the lintels above the openings.
 
 use super::{JointThickness, Span, snap};
 use crate::geometry::SAME_PLACE;
 use crate::scene::opening::FlatArch;
 use crate::scene::{Arch, Courses, Fault, KeyPath, Opening, Wall, arch};
 
-/// Pieces shorter than this part of a brick are laid as one with their neighbours.
+/// Length in bricks below which a piece is laid as one with its neighbour.
 const SHORT: f64 = 0.25;
 
-/// The stretch of a course in the place of an opening or its lintel, in units of one brick and its head joint, and
-/// whether one block fills the stretch. The stretch of a flat arch is that at the top of the course.
+/// Returns the stretch of a course that an opening or its lintel takes, in units of one brick and its head joint, and
+/// whether one block fills the stretch. The stretch of a flat arch is that at the top of the course. `None` if neither
+/// the opening nor its lintel lies in the course.
 pub(crate) fn taken(
     wall: &Wall,
     joints: JointThickness,
@@ -33,7 +34,7 @@ pub(crate) fn taken(
     Some(([unit(from - beside), unit(to + beside + joints.head)], opening.arch().is_none()))
 }
 
-/// A course without its openings, and with its lintels.
+/// Cuts a course at its openings, and adds the lintels.
 pub(super) fn cut(
     wall: &Wall,
     joints: JointThickness,
@@ -53,7 +54,8 @@ pub(super) fn cut(
     bricks
 }
 
-/// The opening whose lintel begins at a place of a course.
+/// Returns the index of the opening whose lintel begins at a place of a course; `None` if no lintel begins at the
+/// place.
 pub(super) fn lintel_at(
     wall: &Wall,
     joints: JointThickness,
@@ -66,7 +68,8 @@ pub(super) fn lintel_at(
     })
 }
 
-/// The lengths by which the bottom of a brick reaches beyond its top, left and right \[length\]: beside a flat arch.
+/// Returns the lengths by which the bottom of a brick beside a flat arch reaches beyond its top, left and right
+/// \[length\]; zeros for other bricks.
 pub(super) fn leans(
     wall: &Wall,
     joints: JointThickness,
@@ -86,7 +89,8 @@ pub(super) fn leans(
     leans
 }
 
-/// The voussoirs of the flat arch above an opening, from the left: their corners \[length\].
+/// Returns the corners of the voussoirs of the flat arch above an opening, from the left \[length\]; empty if there is
+/// no flat arch.
 pub(crate) fn voussoirs(
     wall: &Wall,
     opening: &Opening,
@@ -113,7 +117,7 @@ pub(crate) fn voussoirs(
     Ok(blocks.into_iter().map(|it| it.corners.map(|corner| wall.turned(corner))).collect())
 }
 
-/// Bricks cut at a gap; short pieces go to their neighbours.
+/// Cuts bricks at a gap; short pieces are joined to their neighbours.
 fn without(bricks: &[Span], [from, to]: Span) -> Vec<Span> {
     let mut left: Vec<Span> =
         bricks.iter().copied().filter(|[a, _]| *a < from - SAME_PLACE).collect();

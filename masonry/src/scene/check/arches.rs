@@ -4,7 +4,7 @@ use super::{Check, check_mesh, point, unwanted, value};
 use crate::scene::{Arch, Fault, Joint, KeyPath, Scene, arch};
 
 impl Scene {
-    /// Checks that arches can be built, and their names.
+    /// Checks the names that an arch refers to, and that the arch can be built.
     pub(super) fn check_arch(&self, at: &KeyPath, arch: &Arch) -> Check {
         let material = self.material_of(at, &arch.material)?;
         point(&at.key("origin"), arch.origin.unwrap_or_default())?;

@@ -1,15 +1,16 @@
-//! Checks of joints, of their mortar, and of the room that it leaves for bricks.
+//! Checks of joints, of their mortar, and of the length that mortar leaves for bricks.
 
 use super::{Check, needed, not_negative, positive, unwanted, value};
 use crate::scene::bond::{self, JointThickness};
 use crate::scene::rules::{One, exactly_one};
 use crate::scene::{Courses, Fault, Films, Joint, KeyPath, PointRule, Scene, SceneErrorKind, Wall};
 
-/// A tensile strength that was computed from the cohesion may exceed its limit by this part.
+/// Tolerance of the tensile strength \[-\]: a strength that was computed from the cohesion may exceed its limit by
+/// this part.
 const ROUNDING: f64 = 1e-12;
 
 impl Scene {
-    /// Checks thickness and material of the mortar: none, or both, with an elastic material.
+    /// Checks thickness and material of the mortar: both or neither must be given, and the material must be elastic.
     pub(super) fn check_mortar(&self, at: &KeyPath, joint: &Joint) -> Check {
         let otherwise = ", or add `thickness`";
         let is_bare = joint.thickness.is_none() && joint.material.is_some();
@@ -31,7 +32,7 @@ impl Scene {
         Ok(())
     }
 
-    /// Checks that strips have Gauss points, and that joints may have mortar.
+    /// Checks that films as strips have Gauss points, and that joints may have mortar.
     pub(super) fn check_films(&self, at: &KeyPath) -> Check {
         if self.contact.films != Films::Strips {
             return Ok(());
@@ -73,7 +74,7 @@ pub(super) fn check_law(at: &KeyPath, joint: &Joint) -> Check {
     Ok(())
 }
 
-/// Refuses bricks without length between their head joints.
+/// Refuses walls in which a brick has no length left between its head joints.
 pub(super) fn check_room(at: &KeyPath, wall: &Wall, joints: JointThickness) -> Check {
     if joints.head <= 0.0 {
         return Ok(());

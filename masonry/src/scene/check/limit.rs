@@ -14,7 +14,7 @@ impl Scene {
         self.limit.train.as_ref().map_or(Ok(()), |it| self.check_train(&at.key("train"), it))
     }
 
-    /// Checks that the growing load is a load, a group of loads, or the weight, and not a support.
+    /// Checks that the growing load is a load, a group of loads, or the weight; a support is refused.
     fn check_growing(&self, at: &KeyPath) -> Check {
         let Some(name) = &self.limit.group else { return Ok(()) };
         if self.is_weight(name) {
@@ -29,9 +29,9 @@ impl Scene {
     }
 }
 
-/// Positions of a train, at most. Chosen: far more than a curve shows.
+/// Largest number of positions of a train. Chosen: far more than a curve shows.
 const MOST_POSITIONS: u32 = 100_000;
-/// Axles of a train, at most. Chosen: more than the longest trains have on a bridge.
+/// Largest number of axles of a train. Chosen: more than the longest trains have on a bridge.
 const MOST_AXLES: u32 = 1000;
 
 impl Scene {
@@ -55,7 +55,7 @@ impl Scene {
         self.check_on_fill(at, &train.over, train.level, train.angle_deg)
     }
 
-    /// Checks the body that carries an axle, and the spread through the fill.
+    /// Checks the body that carries an axle, and the angle at which the fill spreads its force.
     pub(super) fn check_on_fill(
         &self,
         at: &KeyPath,
@@ -72,7 +72,7 @@ impl Scene {
         value(at.key("angle_deg"), angle, angle > 0.0 && angle <= 80.0, wanted)
     }
 
-    /// Checks that an arch, a wall or a block has this name.
+    /// Checks that an arch, a wall or a block has the name `name`.
     pub(super) fn check_body(&self, at: KeyPath, name: &str) -> Check {
         let names = || {
             let laid = self.arches.iter().map(|it| &it.name);
@@ -87,8 +87,8 @@ impl Scene {
     }
 }
 
-/// Refuses a load beside a train with the name of the train's axles, which would grow with them or be
-/// taken for one of them.
+/// Refuses a load with the name of the axles of a train. The load would grow with the axles, or be taken for one of
+/// them.
 fn check_beside_train(at: &KeyPath, load: &Load) -> Check {
     let names = [("name", Some(&load.name)), ("group", load.group.as_ref())];
     let taken =

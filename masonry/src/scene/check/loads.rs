@@ -1,4 +1,4 @@
-//! Checks of loads, and of their names in stages and combinations.
+//! Checks of loads, and of the names of loads in stages and combinations.
 
 use std::collections::BTreeMap;
 
@@ -13,7 +13,7 @@ use crate::scene::{
 };
 
 impl Scene {
-    /// Checks that a load is of exactly one kind, and its numbers are in their range.
+    /// Checks that a load is of exactly one kind, and that its numbers are in their ranges.
     pub(super) fn check_load(&self, at: &KeyPath, load: &Load) -> Check {
         if let Some(group) = &load.group {
             if group.trim().is_empty() {
@@ -37,7 +37,7 @@ impl Scene {
         }
     }
 
-    /// Checks the body that carries a fill or an axle, and the ranges of their numbers.
+    /// Checks the body that carries a fill or an axle, and the ranges of the numbers of the fill or axle.
     fn check_on_top(&self, at: &KeyPath, load: &Load) -> Check {
         if let Some(Fill { over, level, gamma }) = &load.fill {
             let at = at.key("fill");
@@ -75,15 +75,15 @@ impl Scene {
             point(&at, acceleration)?;
         }
         let densities = self.used_materials().filter_map(|name| self.materials.get(name)?.density);
-        // A factor of zero, as for a load of other combinations only, leaves nothing to accelerate.
+        // A load with a factor of zero, such as one of other combinations only, accelerates nothing.
         if load.factor == 0.0 || densities.count() > 0 || self.loads.iter().any(Load::has_mass) {
             return Ok(());
         }
         Err(Fault::new(at, LoadError::NoMass(load.name.clone())))
     }
 
-    /// Checks the factors of a stage or a combination: each name is one load or one group, no load is named twice,
-    /// numbers are in their range.
+    /// Checks the factors of a stage or a combination: each name is that of one load or one group, no load is named
+    /// twice, and numbers are in their ranges.
     pub(super) fn check_factors(&self, at: &KeyPath, factors: &BTreeMap<String, f64>) -> Check {
         for (name, factor) in factors {
             let at = at.key(name);
@@ -101,7 +101,7 @@ impl Scene {
         Ok(())
     }
 
-    /// Checks that one load or one group has this name; `also` is another name that would be accepted.
+    /// Checks that `name` is that of one load or one group; `also` is a name that is accepted in addition.
     pub(super) fn check_load_name(&self, at: &KeyPath, name: &str, also: Option<&str>) -> Check {
         let names = |of: &dyn Fn(&&Load) -> bool| -> Vec<String> {
             self.loads.iter().filter(of).map(|load| load.name.clone()).collect()
@@ -167,7 +167,7 @@ fn check_edge(at: &KeyPath, load: &Load) -> Check {
     }
 }
 
-/// Checks earth beside a segment that begins at the height `lowest`.
+/// Checks the data of earth beside a segment whose lowest point is at the height `lowest`.
 fn check_earth(at: &KeyPath, Earth { gamma, k, level }: Earth, lowest: f64) -> Check {
     positive(at.key("gamma"), gamma)?;
     positive(at.key("K"), k)?;
@@ -176,7 +176,7 @@ fn check_earth(at: &KeyPath, Earth { gamma, k, level }: Earth, lowest: f64) -> C
     value(at.key("level"), level, level > lowest, wanted)
 }
 
-/// Checks the keys of a force or a moment; block and place are checked once blocks are laid.
+/// Checks the keys of a force or a moment; block and place are checked after blocks are laid.
 fn check_force(at: &KeyPath, load: &Load, given: &'static str) -> Check {
     let because = match given {
         "block" => "with `block`",

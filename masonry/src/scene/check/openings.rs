@@ -9,7 +9,7 @@ use crate::scene::bond::{JointThickness, taken, voussoirs};
 use crate::scene::rules::exactly_one;
 use crate::scene::{Fault, Joint, KeyPath, Lintel, Opening, OpeningError, Scene, Wall};
 
-/// The size of a wall.
+/// The width of a wall and its number of courses, for the check of openings.
 #[derive(Clone, Copy)]
 pub(super) struct WallSize {
     /// The width of the wall \[length\].
@@ -17,7 +17,7 @@ pub(super) struct WallSize {
     pub(super) courses: u32,
 }
 
-/// Checks that openings are inside their wall, that their lintels rest on it, and that openings do not meet.
+/// Checks that openings are inside their wall, that their lintels rest on it, and that openings do not overlap.
 pub(super) fn check(at: &KeyPath, wall: &Wall, joints: JointThickness, size: WallSize) -> Check {
     for (k, opening) in wall.openings.iter().enumerate() {
         let at = at.key("openings").item(k);
@@ -116,8 +116,8 @@ impl Scene {
     }
 }
 
-/// Checks that the wall on both sides of an opening, up to its end or to another opening, is wide enough for
-/// the lintel.
+/// Checks that the wall on both sides of an opening, up to its end or to another opening, is long enough for the
+/// lintel to rest on.
 fn check_lintel(at: &KeyPath, wall: &Wall, k: usize, size: WallSize) -> Check {
     let WallSize { width: wide, courses: high } = size;
     let opening = &wall.openings[k];

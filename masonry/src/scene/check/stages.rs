@@ -4,15 +4,15 @@ use super::{Check, at_least_one, at_most, finite, not_negative, unwanted, value}
 use crate::scene::rules::unknown;
 use crate::scene::{Combination, Fault, KeyPath, LoadError, OPPOSITE, Scene, Stage};
 
-/// Rotation of a support \[rad\] at which its joints' normals are off by a tenth.
+/// Largest rotation of a support \[rad\]; at this rotation the normals of its joints are off by a tenth.
 const LARGEST_TURN: f64 = 0.1;
-/// Steps of one stage, at most.
+/// Largest number of steps of one stage.
 const MOST_STEPS: u32 = 100_000;
-/// Combinations of a scene, at most. Chosen: more than codes require, and each is an analysis of its own.
+/// Largest number of combinations of a scene. Chosen: more than codes require, and each is an analysis of its own.
 const MOST_COMBINATIONS: u32 = 1000;
 
 impl Scene {
-    /// Checks a stage: loads and supports exist, numbers are in their range.
+    /// Checks a stage: its loads and supports exist, and its numbers are in their ranges.
     pub(super) fn check_stage(&self, at: &KeyPath, stage: &Stage) -> Check {
         let steps = at.key("steps");
         at_least_one(steps.clone(), stage.steps, "a stage has at least one step")?;
@@ -41,7 +41,7 @@ impl Scene {
         Ok(())
     }
 
-    /// Checks a combination: its name, loads that exist, numbers in their range.
+    /// Checks a combination: it has a name, its loads exist, and its numbers are in their ranges.
     pub(super) fn check_combination(&self, at: &KeyPath, combination: &Combination) -> Check {
         let count = self.combinations.len() as f64;
         at_most(KeyPath::of("combinations"), "combinations", count, MOST_COMBINATIONS)?;

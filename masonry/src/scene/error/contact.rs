@@ -1,6 +1,6 @@
 //! Errors of contact points.
 
-/// The reasons for which contact points could not be placed.
+/// The reason why contact points could not be placed.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ContactError {
@@ -10,27 +10,27 @@ pub enum ContactError {
          refine the mesh so that nodes match, or place contact points at vertices"
     )]
     NoNodalPair {
-        /// Name of side `a`.
+        /// Name of the body on side `a`.
         a: String,
-        /// Name of side `b`.
+        /// Name of the body on side `b`.
         b: String,
     },
-    /// Two edges that should have mortar between them are too close, or not parallel.
+    /// Two edges that should have mortar between them are not parallel, or nearer than the thickness of the mortar.
     #[error(
         "{a} and {b} stand {nearest:.6} to {farthest:.6} m apart, but their joint, of class \"{class}\", has \
          mortar of {thickness:.6} m between parallel faces: move the blocks apart by {thickness:.6} m, or give the \
          joint no thickness"
     )]
     NoRoomForFilm {
-        /// Name of side `a`.
+        /// Name of the body on side `a`.
         a: String,
-        /// Name of side `b`.
+        /// Name of the body on side `b`.
         b: String,
         /// Name of the joint class.
         class: String,
-        /// Smaller distance of the edges at the ends of their overlap \[m\].
+        /// Smaller of the distances of the edges at the two ends of their overlap \[m\].
         nearest: f64,
-        /// Larger distance of the edges at the ends of their overlap \[m\].
+        /// Larger of the distances of the edges at the two ends of their overlap \[m\].
         farthest: f64,
         /// Thickness of the mortar \[m\].
         thickness: f64,

@@ -5,27 +5,27 @@ use std::path::PathBuf;
 use super::{ContactError, Known};
 use crate::scene::{ArchError, LoadError, OpeningError};
 
-/// The kinds of mistakes in a scene.
+/// The kinds of mistakes in a scene, with the data of their messages.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum SceneErrorKind {
-    /// The file cannot be read, by this message of the operating system.
+    /// The file cannot be read; the value is the message of the operating system.
     #[error("cannot read the scene: {0}")]
     Read(String),
-    /// The scene cannot be written as TOML, by this message of the writer.
+    /// The scene cannot be written as TOML; the value is the message of the writer.
     #[error("cannot write the scene as TOML: {0}")]
     Write(String),
-    /// The list of blocks cannot be read. [`Scene::read`](crate::Scene::read) alone reads JSON lists only;
-    /// [`Scene::read_with`](crate::Scene::read_with) takes the function that reads drawings.
+    /// The file of `block_list` cannot be read. [`Scene::read`](crate::Scene::read) reads only JSON lists;
+    /// [`Scene::read_with`](crate::Scene::read_with) takes a function that reads drawings.
     #[error("cannot read the list of blocks {}: {message}", path.display())]
     BlockList {
-        /// The file, as given in the scene.
+        /// The path of the file, as given in the scene.
         path: PathBuf,
         /// The message of the operating system, or of the reader of drawings, with the remedy.
         message: String,
     },
-    /// The text is not TOML, or has unknown, missing or repeated keys, or values of a wrong type: the message has the
-    /// mistake and the expected form.
+    /// The text is not TOML, or has unknown, missing or repeated keys, or values of a wrong type; the value is a
+    /// message with the mistake and the expected form.
     #[error("{0}")]
     Syntax(String),
     /// A key is missing that other data of the scene require.
@@ -35,17 +35,17 @@ pub enum SceneErrorKind {
         key: &'static str,
         /// The reason for which the key is needed.
         because: &'static str,
-        /// An example.
+        /// An example of the key with a value.
         remedy: &'static str,
     },
     /// A key has no meaning beside other data of the scene.
     #[error("`{key}` {because}: remove it{otherwise}")]
     Unwanted {
-        /// The key.
+        /// The key that has no meaning.
         key: &'static str,
         /// The reason for which the key has no meaning.
         because: &'static str,
-        /// An alternative.
+        /// An alternative to the key.
         otherwise: &'static str,
     },
     /// Two keys are given of which exactly one is wanted.
@@ -67,9 +67,9 @@ pub enum SceneErrorKind {
     /// A number is not finite, or out of its range.
     #[error("{} is not allowed: {wanted}", number(*value))]
     Value {
-        /// The number.
+        /// The given number.
         value: f64,
-        /// The allowed values.
+        /// The allowed values, in words.
         wanted: &'static str,
     },
     /// A name is empty.
@@ -81,28 +81,28 @@ pub enum SceneErrorKind {
     /// A name occurs twice.
     #[error("the {what} name \"{name}\" is taken by {first}: choose another")]
     Duplicate {
-        /// `wall`, `block`, `support`, `load`, `stage` or `combination`.
+        /// The kind of the named value: `wall`, `block`, `support`, `load`, `stage` or `combination`.
         what: &'static str,
-        /// The name.
+        /// The name that occurs twice.
         name: String,
-        /// The place of the first occurrence of the name.
+        /// The key of the first value with the name.
         first: String,
     },
-    /// A name refers to nothing.
+    /// A name refers to something that does not exist.
     #[error(
         "there is no {what} \"{name}\" in the scene; {known}: correct the name or add {missing}"
     )]
     Unknown {
-        /// `material`, `joint class`, `load`, `load or group` or `support`.
+        /// The kind that the name should refer to: `material`, `joint class`, `load`, `load or group` or `support`.
         what: &'static str,
-        /// The name.
+        /// The given name.
         name: String,
-        /// The names in the scene.
+        /// The names of this kind in the scene.
         known: Known,
         /// The table that would define the name.
         missing: String,
     },
-    /// The scene has nothing to analyse.
+    /// The scene has no blocks.
     #[error("the scene has no blocks: add [[walls]], [[arches]] or [[blocks]]")]
     Empty,
     /// A list has no items; the value is the remedy.
@@ -116,9 +116,9 @@ pub enum SceneErrorKind {
     /// The two ends of a segment coincide.
     #[error("the segment has no length: `from` and `to` are both [{}, {}]", number(*x), number(*y))]
     NoLength {
-        /// Coordinate of the ends.
+        /// Coordinate x of both ends.
         x: f64,
-        /// Coordinate of the ends.
+        /// Coordinate y of both ends.
         y: f64,
     },
     /// There are more items than can be analysed.
@@ -126,7 +126,7 @@ pub enum SceneErrorKind {
     TooMany {
         /// The kind of item.
         what: &'static str,
-        /// The number of items.
+        /// The number of items in the scene.
         count: f64,
         /// The largest possible number.
         limit: u32,
@@ -139,9 +139,9 @@ pub enum SceneErrorKind {
     Clockwise {
         /// Name of the block.
         block: String,
-        /// Signed area in units of the scene.
+        /// Signed area of the block in units of the scene; negative.
         area: f64,
-        /// Unit of length.
+        /// Symbol of the unit of length.
         unit: &'static str,
     },
     /// A block has less than three corners.
@@ -149,7 +149,7 @@ pub enum SceneErrorKind {
     TooFewCorners {
         /// Name of the block.
         block: String,
-        /// The number of its corners.
+        /// The number of corners of the block.
         count: usize,
     },
     /// The edges of the block of this name cross or touch each other.
@@ -166,7 +166,7 @@ pub enum SceneErrorKind {
     NoMesh {
         /// Name of the block.
         block: String,
-        /// The edge, from 0.
+        /// The index of an edge that cannot be seen from the centroid, from 0.
         edge: usize,
     },
     /// Two numbers of elements are given for a block that is not a convex quadrilateral.
@@ -177,29 +177,30 @@ pub enum SceneErrorKind {
     UnevenMesh {
         /// Name of the block.
         block: String,
-        /// The numbers.
+        /// The two given numbers of elements.
         mesh: [u32; 2],
     },
-    /// The edges at a corner lie on each other, or the corner coincides with the next.
+    /// The block has no width at a corner: its two edges lie on each other, or the corner coincides with the next one.
     #[error("block \"{block}\" has no width at corner {corner}: leave the corner out, or move it")]
     NoWidth {
         /// Name of the block.
         block: String,
-        /// The corner, from 1.
+        /// The number of the corner, from 1.
         corner: usize,
     },
-    /// The tensile strength lies beyond the tip of the friction cone.
+    /// The tensile strength is larger than the cohesion divided by the coefficient of friction: it lies beyond the tip
+    /// of the friction cone.
     #[error(
         "the tensile strength {} is larger than cohesion / mu = {}, the tip of the friction cone: lower \
          `tension`, or raise `cohesion`", number(*tension), number(*largest)
     )]
     TooMuchTension {
-        /// The tensile strength, in units of the scene.
+        /// The given tensile strength, in units of the scene.
         tension: f64,
-        /// The largest possible tensile strength.
+        /// The largest possible tensile strength, in units of the scene.
         largest: f64,
     },
-    /// Two blocks occupy the same place.
+    /// Two blocks overlap.
     #[error(
         "blocks \"{first}\" and \"{second}\" overlap by an area of {} {unit}2: move one of them; if corners of \
          single blocks are rounded, set `contact.tolerance` to three times the error of rounding",
@@ -212,10 +213,10 @@ pub enum SceneErrorKind {
         second: String,
         /// Area of the overlap in units of the scene.
         area: f64,
-        /// Unit of length.
+        /// Symbol of the unit of length.
         unit: &'static str,
     },
-    /// A support runs through a block.
+    /// A support runs through the inside of a block.
     #[error(
         "support \"{support}\" runs through the inside of block \"{block}\" for a length of {} {unit}: move it to an \
          edge; if corners of single blocks are rounded, set `contact.tolerance` to three times the error of rounding",
@@ -228,7 +229,7 @@ pub enum SceneErrorKind {
         block: String,
         /// Length inside the block in units of the scene.
         length: f64,
-        /// Unit of length.
+        /// Symbol of the unit of length.
         unit: &'static str,
     },
     /// Two supports hold the same part of an edge of a block.
@@ -246,7 +247,7 @@ pub enum SceneErrorKind {
         block: String,
         /// Length that both supports hold, in units of the scene.
         length: f64,
-        /// Unit of length.
+        /// Symbol of the unit of length.
         unit: &'static str,
     },
     /// The block of this name meets neither another block nor a support.
@@ -274,28 +275,28 @@ pub enum SceneErrorKind {
          not given: add [joints.{class}] with `mu` or `phi_deg`"
     )]
     MissingClass {
-        /// The class.
+        /// Name of the class that is not given.
         class: String,
         /// Name of one block.
         first: String,
         /// Name of the other block.
         second: String,
     },
-    /// An arch is impossible.
+    /// An arch cannot be built.
     #[error("{0}")]
     Arch(#[from] ArchError),
-    /// An opening is impossible.
+    /// An opening cannot be built.
     #[error("{0}")]
     Opening(#[from] OpeningError),
-    /// A load has a mistake.
+    /// A load has a mistake; the value describes it.
     #[error("{0}")]
     Load(#[from] LoadError),
-    /// Contact points could not be placed.
+    /// Contact points could not be placed; the value has the reason.
     #[error("{0}")]
     Contact(#[from] ContactError),
 }
 
-/// A number as it was written, with an exponent instead of many zeros.
+/// Formats a number as it was written, with an exponent instead of many zeros.
 fn number(value: f64) -> String {
     let is_plain = value == 0.0 || (1e-6..1e16).contains(&value.abs());
     if is_plain { value.to_string() } else { format!("{value:e}") }

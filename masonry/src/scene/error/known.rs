@@ -1,18 +1,18 @@
-//! Names that do not exist, and the name that was probably meant.
+//! The existing names that a message lists if a name does not exist, and the name that was probably meant.
 
 use std::fmt;
 
-/// The names of one kind in a scene.
+/// The names of one kind in a scene, and the name that was probably meant.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Known {
-    /// All names.
+    /// All names of this kind.
     pub names: Vec<String>,
-    /// The name that was probably meant.
+    /// The name that was probably meant; `None` if no name is similar enough.
     pub nearest: Option<String>,
 }
 
 impl Known {
-    /// The known names, and the nearest to a given one.
+    /// Makes the list of known names, and finds the one nearest to `given`.
     pub(crate) fn near(given: &str, names: Vec<String>) -> Self {
         let nearest = nearest(given, names.iter().map(String::as_str)).map(str::to_owned);
         Self { names, nearest }
@@ -34,12 +34,12 @@ impl fmt::Display for Known {
     }
 }
 
-/// The largest number of names in a list.
+/// The largest number of names that a message lists.
 const MOST_NAMES: usize = 12;
-/// The least similarity of names that may be mistaken for each other \[-\].
+/// The least similarity of names of which one may have been meant as the other \[-\].
 const SIMILAR: f64 = 0.7;
 
-/// The known name most similar to the given one; `None` if no name is similar enough.
+/// Returns the known name most similar to the given one; `None` if no name is similar enough.
 fn nearest<'a>(given: &str, names: impl Iterator<Item = &'a str>) -> Option<&'a str> {
     let likeness = |name: &str| strsim::normalized_damerau_levenshtein(given, name);
     let like =
@@ -47,13 +47,13 @@ fn nearest<'a>(given: &str, names: impl Iterator<Item = &'a str>) -> Option<&'a 
     like.max_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, name)| name)
 }
 
-/// The message of the TOML reader, with the key that was probably meant.
+/// Adds the key that was probably meant to the message of the TOML reader.
 pub(super) fn with_nearest(message: &str) -> String {
     let quoted: Vec<&str> = message.split('`').skip(1).step_by(2).collect();
     let hint = message.starts_with("unknown ").then_some(&quoted[..]);
     match hint.and_then(<[&str]>::split_first) {
         Some((given, known)) => match nearest(given, known.iter().copied()) {
-            // The suggestion comes first, since the list of all keys may be long.
+            // The suggestion comes before the list of all keys, since the list may be long.
             Some(name) => message.replacen(", ", &format!("; did you mean `{name}`? "), 1),
             None => message.to_owned(),
         },
