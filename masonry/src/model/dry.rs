@@ -39,7 +39,7 @@ impl Model {
         })
     }
 
-    /// Returns the advice to give joints a stiffness; `None` if a joint has one.
+    /// Returns the advice to give joints a stiffness; `None` if a joint has a compliance.
     pub(crate) fn of_hard_joints(&self) -> Option<String> {
         let [across, along] = DRY_JOINT;
         let is_hard = |point: &JointPoint| point.gives().iter().all(|c| *c <= 0.0);

@@ -136,7 +136,8 @@ impl Model {
             0 => String::new(),
             count => format!(" (and {count} more)"),
         };
-        // The error falls with the square of the number; lateral strains in one row need less than half of what is allowed.
+        // The error falls with the square of the number; lateral strains in one row need less than half of what is
+        // allowed.
         let times = (2.0 * (stiffness - 1.0) / (STIFF - 1.0)).sqrt().ceil();
         vec![format!(
             "Block \"{name}\"{others} is {slenderness:.0} times as long as high, and its mesh may be up to {stiffness:.1} times as stiff in \

@@ -93,7 +93,7 @@ pub enum FilmError {
 }
 
 impl FilmMaterial {
-    /// The matrix that maps `eps_x, eps_y, gamma` to `sigma_x, sigma_y, tau` \[Pa\].
+    /// Returns the matrix that maps `eps_x, eps_y, gamma` to `sigma_x, sigma_y, tau` \[Pa\].
     ///
     /// # Errors
     /// [`FilmError::NotElastic`] unless the matrix is positive definite.

@@ -33,7 +33,8 @@ pub struct BodyStretch {
 pub struct BodySystem {
     /// The rigid motions of the block.
     pub modes: Modes,
-    /// The stiffness of the block, an index into [`System::stiffnesses`](super::System::stiffnesses); `None` for a rigid block.
+    /// The stiffness of the block, as an index into [`System::stiffnesses`](super::System::stiffnesses); `None` for a
+    /// rigid block.
     pub stiffness: Option<usize>,
     /// Nodal loads `f` \[N\], two per node; empty for a rigid block.
     pub load: Vec<f64>,

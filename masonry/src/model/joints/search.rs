@@ -6,7 +6,8 @@ use crate::geometry::{self, Extent, SAME_PLACE};
 
 /// Returns the pairs of shapes whose bounding boxes come within `reach` \[m\] of each other, in increasing order.
 ///
-/// Boxes are swept along the longer side of the whole structure, so that only neighbours in that direction are compared.
+/// The search sweeps the boxes along the longer side of the whole structure, so that only neighbours in this direction
+/// are compared.
 pub(crate) fn near_pairs<'a>(
     shapes: impl IntoIterator<Item = &'a [Point2<f64>]>,
     reach: f64,

@@ -49,17 +49,17 @@ impl Strip {
         })
     }
 
-    /// Length `l` along the joint \[m\].
+    /// Returns the length `l` along the joint \[m\].
     pub fn length(&self) -> f64 {
         self.length
     }
 
-    /// Thickness `t_y` between the faces \[m\].
+    /// Returns the thickness `t_y` between the faces \[m\].
     pub fn thickness(&self) -> f64 {
         self.thickness
     }
 
-    /// Thickness `t_z` out of the plane \[m\].
+    /// Returns the thickness `t_z` out of the plane \[m\].
     pub fn wall(&self) -> f64 {
         self.wall
     }
@@ -69,12 +69,12 @@ impl Strip {
         &self.material
     }
 
-    /// The matrix that maps `eps_x, eps_y, gamma` to `sigma_x, sigma_y, tau` \[Pa\].
+    /// Returns the matrix that maps `eps_x, eps_y, gamma` to `sigma_x, sigma_y, tau` \[Pa\].
     pub fn elasticity(&self) -> &Matrix3<f64> {
         &self.matrix
     }
 
-    /// The ends of the strip, `-l/2` and `l/2` \[m\].
+    /// Returns the coordinates `x` of the ends of the strip, `-l/2` and `l/2` \[m\].
     pub fn ends(&self) -> [f64; 2] {
         [-0.5 * self.length, 0.5 * self.length]
     }

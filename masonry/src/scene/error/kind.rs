@@ -102,7 +102,7 @@ pub enum SceneErrorKind {
         /// The table that would define the name.
         missing: String,
     },
-    /// The scene has no blocks.
+    /// The scene has neither walls nor arches nor blocks.
     #[error("the scene has no blocks: add [[walls]], [[arches]] or [[blocks]]")]
     Empty,
     /// A list has no items; the value is the remedy.

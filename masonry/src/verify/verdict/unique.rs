@@ -94,8 +94,8 @@ fn sum(
     entries
 }
 
-/// Returns the part of changes of order one that has no effect on any displacement; `None` if no change has an effect, or
-/// if memory does not suffice.
+/// Returns the part of changes of order one that has no effect on any displacement; `None` if no change has an effect,
+/// or if memory does not suffice.
 fn unfelt(effects: SparseColMatRef<'_, usize, f64>) -> Option<Vec<f64>> {
     let count = effects.ncols();
     let mut diagonal = vec![0.0; effects.nrows()];
