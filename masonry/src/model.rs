@@ -98,7 +98,7 @@ pub struct PlacedBlock {
     pub density: Option<f64>,
     /// The mesh of four-node elements; `None` for a rigid block.
     pub mesh: Option<BlockMesh>,
-    /// Loads on the edges of the block and at places in it.
+    /// Loads on the block: tractions on its edges, and forces at places in it.
     pub loads: Vec<BlockLoad>,
 }
 

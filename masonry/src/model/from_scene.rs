@@ -50,7 +50,7 @@ fn build(scene: &Scene) -> Result<Model, Fault> {
     let found = find_joints(scene, &blocks, &supports, classes, thickness)?;
     placement::check_touching(&blocks, &keys, &supports, &found.joints)?;
     placement::check_overlapping_supports(&blocks, &supports, &found.joints, units)?;
-    // The places of loads are relative to the corners before these were moved.
+    // The places of loads in the scene refer to the corners before they were moved.
     let moved = healed.as_ref().map_or(0.0, |it| it.largest);
     let drawing = scene.changes_of_drawing();
     if !drawing.is_empty() {
@@ -65,7 +65,7 @@ fn build(scene: &Scene) -> Result<Model, Fault> {
         joints: found.joints,
         contacts: found.contacts,
         joint_classes: found.classes,
-        // A scene without an elastic material may omit the plane, and nothing depends on it.
+        // A scene without an elastic material may omit the plane; in this case no result depends on it.
         plane: scene.plane.unwrap_or(Plane::Stress),
         thickness,
         gravity: scene.gravity.map_or_else(Vector2::zeros, Vector2::from),

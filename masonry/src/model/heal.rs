@@ -195,7 +195,7 @@ impl Drawing {
                 if let Some(corner) = nearest(body, to_corner, reach)
                     && corner < self.free.end
                 {
-                    // A block may end beside the end of a support.
+                    // A block may end beside the end of a support without sharing its place.
                     if point < self.free.end {
                         joined.join(point, corner);
                     }

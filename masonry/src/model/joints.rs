@@ -28,7 +28,7 @@ mod search;
 /// The bodies that a joint is between, which decide its class.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum JointKind {
-    /// A joint between two blocks, with the unit normal that it would have.
+    /// A joint between two blocks; the value is the unit normal of the joint.
     Blocks(Vector2<f64>),
     /// A joint between a support and a block.
     Support(SupportId),

@@ -29,7 +29,7 @@ impl PlacedForce {
     }
 }
 
-/// A load of the scene: its name and its factor.
+/// A load of the scene: its name, group, factor and mass.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LoadCase {
     /// The name of the load.

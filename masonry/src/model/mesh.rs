@@ -110,7 +110,7 @@ impl BlockMesh {
                 let places: Vec<[usize; 2]> = places;
                 let line: Vec<usize> = places.into_iter().map(|at| self.node(patch, at)).collect();
                 let [a, b] = [line[0], line[line.len() - 1]];
-                // Two patches share a side; a side on the rim has both ends there.
+                // A side inside the block belongs to two patches; a side on the rim has both ends on the rim.
                 let is_on_rim = rim.contains(&a) && rim.contains(&b);
                 if !is_side || (!is_on_rim && drawn.insert([a.min(b), a.max(b)])) {
                     lines.push(line);
@@ -278,7 +278,7 @@ impl Patches {
             elements.extend(first.map(|n| [n, n + 1, n + row + 1, n + row].map(|n| grid[n])));
         }
         let edges = self.edges.iter().enumerate().map(|(k, vertices)| {
-            // Patches of other shapes have as many elements in both directions.
+            // Patches of blocks that are not convex quadrilaterals have as many elements in both directions.
             let count = divisions[k % 2];
             let steps = vertices.windows(2).flat_map(|ends| {
                 (0..count).map(|step| OnSide::step([ends[0], ends[1]], step, count))

@@ -239,7 +239,7 @@ impl PlacedAxle {
         let start = if first >= rays[0] { 0.0 } else { self.met(it, rays[0]) };
         let end = if last <= rays[1] { 1.0 } else { self.met(it, rays[1]) };
         let middle = mean_of_rays(it.depth(end) / it.depth(start) - 1.0);
-        // A linear density with its resultant outside of the middle third would lift at one end.
+        // A linear density whose resultant lies outside of the middle third would be negative at one end.
         if !(1.0 / 3.0..=2.0 / 3.0).contains(&middle) {
             let half = f64::midpoint(rays[0], rays[1]);
             let halves = [[rays[0], half], [half, rays[1]]];

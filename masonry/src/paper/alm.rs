@@ -99,7 +99,7 @@ pub enum AlmError {
         /// The index of the contact, from 0.
         contact: usize,
     },
-    /// The tolerance is outside its range.
+    /// The tolerance is not between 0 and 1.
     #[error("tolerance is {tolerance}, but must be between 0 and 1")]
     Tolerance {
         /// The tolerance that was given \[-\].

@@ -6,8 +6,9 @@
 //! strips is that of [`pointwise`].
 //!
 //! A film is a strip of mortar of length `l` and thickness `t_y` between two straight faces. It has its own local
-//! axes: `x` along the joint, from `-l/2` to `l/2`, and `y` across it. Side `a` is the lower face and side `b`
-//! the upper one in the signs of [`model`](crate::model), `x` is the joint's tangent `t` and `y` its normal `n`:
+//! axes: `x` along the joint, from `-l/2` to `l/2`, and `y` perpendicular to the joint. In the signs of
+//! [`model`](crate::model), side `a` is the lower face and side `b` the upper face, `x` is the joint's tangent `t` and
+//! `y` its normal `n`:
 //!
 //! ```text
 //!    3 -------------------- 4      upper face, y = +t_y/2

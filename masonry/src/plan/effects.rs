@@ -123,7 +123,7 @@ impl Called<'_> {
         if used.is_empty() {
             return Effect::off("cohesion", "no joint has cohesion");
         }
-        // Points that slide without their cohesion give way as before.
+        // Only `cohesive` changes: points that slide keep their compliances along the joint.
         let without = self.sizes.with(|it| it.cohesive = false);
         let effect = self.beside("cohesion", format!("cohesion given for {used}"), &without);
         effect.costing_without_unknowns(RIGHT_HAND_SIDE.to_owned())

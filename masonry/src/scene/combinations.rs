@@ -84,7 +84,7 @@ impl Scene {
         let given: Vec<Self> = self.combinations.iter().map(|it| self.under(it)).collect();
         let mut list = Vec::new();
         for (combination, scene) in self.combinations.iter().zip(&given) {
-            // The scene may have the opposite side as a combination of its own.
+            // The scene may already have the opposite direction as a combination of its own.
             let opposite = scene.with_earthquake_opposite().filter(|it| !given.contains(it));
             let opposite = opposite.map(|it| (format!("{}{OPPOSITE}", combination.name), it));
             for (name, mut scene) in

@@ -41,7 +41,8 @@ pub struct Load {
     /// Force per area in global axes \[force/length^2\].
     #[serde(default, deserialize_with = "strict::read")]
     pub traction: Option<[f64; 2]>,
-    /// Earth or water that presses against the outward normal of the edge, in proportion to the depth below its level.
+    /// Earth or water that presses against the outward normal of the edge; the pressure is proportional to the depth
+    /// below its level.
     #[serde(default, deserialize_with = "strict::read")]
     pub earth: Option<Earth>,
     /// Whether the segment may lie within joints. If it may, the traction acts on the edges that it presses, such as
@@ -62,7 +63,7 @@ pub struct Load {
     /// right.
     #[serde(default, deserialize_with = "strict::read")]
     pub acceleration: Option<[f64; 2]>,
-    /// Fill over an arch, a wall or a block.
+    /// Fill on an arch, a wall or a block, whose weight is a load on the edges below it.
     #[serde(default, deserialize_with = "strict::read")]
     pub fill: Option<Fill>,
     /// An axle on a fill or on the top edge of a block.
@@ -95,7 +96,7 @@ pub enum LoadKind<'a> {
     Edge {
         /// One end of the segment \[length\].
         from: [f64; 2],
-        /// The other end \[length\].
+        /// The other end of the segment \[length\].
         to: [f64; 2],
         /// The force per area on the edges.
         stress: EdgeStress,

@@ -50,7 +50,7 @@ pub struct Joint {
     /// The rule for the places on the joints of the class at which the law is enforced, instead of
     /// [`Contact::points`](super::Contact::points).
     pub points: Option<PointRule>,
-    /// Thickness of the mortar \[length\]; the joint is dry if it is zero or not given.
+    /// Thickness of the mortar \[length\]; a joint whose thickness is zero or not given is dry.
     pub thickness: Option<f64>,
     /// Name of the elastic material of the mortar; required with a thickness above zero.
     pub material: Option<String>,

@@ -26,7 +26,7 @@ pub enum Bond {
     /// Every second course begins with a half brick.
     #[default]
     Running,
-    /// All courses are alike, and head joints lie above each other.
+    /// All courses are alike, so that head joints lie above each other.
     Stack,
     /// Courses of whole bricks alternate with courses of half bricks, in which a quarter brick lies beside the first
     /// and the last half brick: the face of an English bond, with its stretchers, headers and closers.

@@ -15,7 +15,7 @@ use crate::files::read_bounded;
 const LARGEST_FILE: usize = 100 << 20;
 
 impl Scene {
-    /// Reads a scene from TOML text and [checks](Scene::check) it.
+    /// Reads a scene from TOML text and [checks](Scene::check) the scene.
     ///
     /// # Errors
     /// The first mistake in the text or in the data, with line and column.
@@ -23,7 +23,7 @@ impl Scene {
         Self::parse(&Source::new(text, None), None)
     }
 
-    /// Reads a scene from a TOML file and [checks](Scene::check) it.
+    /// Reads a scene from a TOML file and [checks](Scene::check) the scene.
     ///
     /// # Errors
     /// [`SceneErrorKind::Read`] if the file cannot be read as UTF-8 text; otherwise as [`Scene::from_toml`], with the

@@ -21,7 +21,7 @@ pub(crate) fn terms(model: &Model, contact: &JointPoint) -> Vec<Term> {
     list.extend(contact.a.map(|anchor| Term { anchor, normal: -n, tangent: -t }));
     if let Some(film) = &contact.film {
         let none = Vector2::zeros();
-        // The rotation of both faces also shears a film.
+        // The rotations of both faces shear the film, in addition to their relative displacement.
         let turn = n * (film.half / film.length);
         for [start, end] in film.faces().into_iter().flatten() {
             list.push(Term { anchor: end, normal: none, tangent: turn });

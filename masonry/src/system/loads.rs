@@ -1,4 +1,4 @@
-//! Loads of a block: accelerations of its mass, and forces on it.
+//! Loads of a block: the forces of accelerations on its mass, and other forces on the block.
 
 use crate::element::quad4;
 use crate::model::mesh::BlockMesh;

@@ -49,7 +49,7 @@ use lengths::Lengths;
 #[derive(Debug, Clone, Serialize)]
 #[non_exhaustive]
 pub struct Checks {
-    /// Largest unbalanced force of a block, relative to the forces on it.
+    /// Largest unbalanced force of a block, relative to the sum of the sizes of all forces on it.
     pub force_balance: f64,
     /// Largest unbalanced moment of a block about its centroid, divided by the size of the block, relative to the
     /// forces on it.

@@ -61,7 +61,7 @@ impl Judgement {
                     if known.at_rest { Evidence::AdmissibleForces } else { Evidence::Equilibrium };
                 (Verdict::Stands, evidence)
             }
-            // Admissible forces of blocks at rest outweigh a motion, even if they are too inexact for an answer.
+            // Blocks at rest: admissible forces count more than a motion, even if they are too inexact for an answer.
             Some(Statics::Admissible(_)) if known.at_rest => {
                 (Verdict::Undecided, Evidence::AdmissibleForces)
             }

@@ -48,7 +48,7 @@ pub fn by_films(
     let mut found = wall.solve(&settings, &mut told(observer))?;
     let (t_n, t_t) = at_points(model, &wall, &found.state);
     let tangential: Vec<f64> = system.friction.iter().map(|it| t_t[it.contact.index()]).collect();
-    // The unknowns after those of the blocks differ in the problem with points in the films.
+    // The unknowns that follow those of the blocks are others in the problem with contact points in the films.
     let blocks = sparse.starts().last().copied().unwrap_or_default();
     found.state = sparse.with_forces(system, found.state.u[..blocks].to_vec(), &t_n, &tangential);
     found.residuals = sparse.problem.residuals(&found.state);

@@ -102,7 +102,7 @@ impl FilmLaw {
 
     fn open(&self, strain: Vector3<f64>, trial: Vector3<f64>) -> PointResponse {
         let c = &self.matrix;
-        // The mortar is free to contract across the joint.
+        // The mortar is free to contract perpendicular to the joint.
         let along = c[(0, 0)] - c[(0, 1)] * c[(1, 0)] / c[(1, 1)];
         let mut tangent = Matrix3::zeros();
         tangent[(0, 0)] = along;

@@ -1,4 +1,4 @@
-//! The kinds of mistakes in a scene, each with its remedy.
+//! The kinds of mistakes in a scene, each with the remedy that its message gives.
 
 use std::path::PathBuf;
 
@@ -53,7 +53,7 @@ pub enum SceneErrorKind {
     Both {
         /// One key.
         first: &'static str,
-        /// The other key.
+        /// The other of the two keys.
         second: &'static str,
     },
     /// Neither of two keys is given of which exactly one is wanted.
@@ -61,10 +61,10 @@ pub enum SceneErrorKind {
     Neither {
         /// One key.
         first: &'static str,
-        /// The other key.
+        /// The other of the two keys.
         second: &'static str,
     },
-    /// A number is not finite, or out of its range.
+    /// A number is not finite, or is out of its range.
     #[error("{} is not allowed: {wanted}", number(*value))]
     Value {
         /// The given number.
@@ -144,7 +144,7 @@ pub enum SceneErrorKind {
         /// Symbol of the unit of length.
         unit: &'static str,
     },
-    /// A block has less than three corners.
+    /// A block has fewer than three corners.
     #[error("block \"{block}\" has {count} corners: give at least three")]
     TooFewCorners {
         /// Name of the block.
@@ -152,7 +152,7 @@ pub enum SceneErrorKind {
         /// The number of corners of the block.
         count: usize,
     },
-    /// The edges of the block of this name cross or touch each other.
+    /// The edges of a block, whose name is given, cross or touch each other.
     #[error(
         "the edges of block \"{0}\" cross or touch: list its corners in the order in which they follow each other, \
          counter-clockwise"

@@ -16,7 +16,7 @@ const RANK_TOLERANCE: f64 = 1e-10;
 pub struct Isostatic {
     /// The isostatic rows: linearly independent, as many as there are rigid amplitudes; increasing.
     pub rows: Vec<usize>,
-    /// All other rows, increasing.
+    /// The rows that are not isostatic, increasing.
     pub others: Vec<usize>,
 }
 

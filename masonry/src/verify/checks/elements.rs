@@ -55,7 +55,7 @@ impl NodeForces {
     /// their sizes on the block. An unbalanced force within the rounding errors of the terms of the elements, and of
     /// the forces around the block (`around`), counts as 1e-9 at most.
     pub(super) fn error(&self, size: f64, around: f64) -> f64 {
-        // Forces on a block that act elsewhere spread over its nodes.
+        // Forces on a block that act elsewhere count as spread over all its nodes.
         let outside = self.outside.max(size / self.count as f64);
         let rounding = around.max(f64::EPSILON * TERMS * self.inside);
         known(self.left, outside, rounding)
