@@ -307,9 +307,10 @@ pub struct FilmPoint {
     pub half: f64,
     /// Length of the film that the point stands for \[m\].
     pub length: f64,
-    /// Start and end of this length on side `a`, along the tangent; `None` if that side is a support.
+    /// Start and end, on side `a`, of the length that the point stands for, along the tangent; `None` if that side is
+    /// a support.
     pub a: Option<[Anchor; 2]>,
-    /// Start and end of this length on side `b`.
+    /// Start and end, on side `b`, of the length that the point stands for, along the tangent.
     pub b: [Anchor; 2],
     /// Normal and tangential compliance of this part of the film \[m/N\].
     pub compliance: [f64; 2],

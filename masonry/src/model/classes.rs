@@ -35,7 +35,7 @@ pub(super) struct Classes {
 /// The wall or arch to which a block belongs, and its ring or lintel.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct BlockPlace {
-    /// The index of the wall, or of the arch, which are counted after the walls.
+    /// The index of the wall, or of the arch; arches are counted after the walls.
     pub(super) wall: usize,
     /// The ring of a voussoir, from the intrados.
     pub(super) ring: Option<u32>,

@@ -10,7 +10,7 @@ use std::marker::PhantomData;
 use serde::de::value::MapAccessDeserializer;
 use serde::de::{Deserialize, Deserializer, Error, IgnoredAny, MapAccess, SeqAccess, Visitor};
 
-/// Reads a value at any depth of which pairs must have exactly two items, and tables must be tables.
+/// Reads a value strictly: at any depth, pairs must have exactly two items, and structs must be read from tables.
 pub(super) fn read<'de, D: Deserializer<'de>, T: Strict<'de>>(from: D) -> Result<T, D::Error> {
     T::read(from)
 }

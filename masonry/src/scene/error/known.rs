@@ -36,7 +36,7 @@ impl fmt::Display for Known {
 
 /// The largest number of names that a message lists.
 const MOST_NAMES: usize = 12;
-/// The least similarity of names of which one may have been meant as the other \[-\].
+/// The least similarity \[-\] at which a given name may stand for an existing one.
 const SIMILAR: f64 = 0.7;
 
 /// Returns the known name most similar to the given one; `None` if no name is similar enough.

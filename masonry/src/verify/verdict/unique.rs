@@ -21,8 +21,9 @@ const CIRCULATES: f64 = 1e-3;
 ///
 /// A force inside its cone may change in both directions; a force at a sliding point may change along the edge of the
 /// cone; a zero force may not change. At rest no point slides, and a force on the edge may change inwards: forces of
-/// least size often lie on the edge. Let `d` be random changes of order one, and let `B` map changes to forces on the
-/// displacements. The part `d - B^T (B B^T)^-1 B d` has no effect on the blocks: a point with such a part is counted.
+/// least size often lie on the edge. Let `d` be arbitrary changes of order one, and let `B` map changes to forces on
+/// the displacements. The part `d - B^T (B B^T)^-1 B d` has no effect on the blocks: the points at which it is not
+/// zero are counted.
 pub(crate) fn circulating(
     model: &Model,
     problem: &Contact2d,
