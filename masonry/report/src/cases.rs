@@ -12,7 +12,7 @@ use masonry::analysis::outcome::Outcome;
 use masonry::rounding::largest;
 use masonry::scene::Combined;
 
-/// The results of all cases, a line for each.
+/// The results of all load combinations, or of all positions of a train: one line for each.
 #[derive(Debug, Clone)]
 pub struct Cases {
     kind: Kind,
@@ -20,17 +20,17 @@ pub struct Cases {
     /// The name of the case that governs.
     name: String,
     rows: Table,
-    /// The factor against the position of a train.
+    /// The diagram (SVG) of the load factor against the position of a train; `None` for combinations.
     curve: Option<String>,
 }
 
-/// A kind of cases.
+/// Words and keys for one kind of cases: load combinations, or positions of a train.
 #[derive(Debug, Clone, Copy)]
 struct Kind {
-    /// The list in JSON.
+    /// The key of the list of cases in JSON.
     key: &'static str,
     title: &'static str,
-    /// The words after the name of the case that the rest of a report is about.
+    /// The words that follow the name of the governing case in a sentence, such as `governs`.
     governs: &'static str,
 }
 
@@ -43,7 +43,8 @@ const POSITIONS: Kind = Kind {
 const POSITIONS_BY_PATH: Kind =
     Kind { key: "positions", title: "Positions of the train, path", governs: "governs" };
 
-/// The answer for a train at a position, in words.
+/// Returns the answer at one position of a train in words; `None` stands for a position without an axle on the
+/// structure.
 fn answer(it: Option<Answer>) -> &'static str {
     match it {
         Some(Answer::Fails) => "fails",
@@ -54,7 +55,8 @@ fn answer(it: Option<Answer>) -> &'static str {
     }
 }
 
-/// The worst verdict; the outcome that uses most of the friction of a joint if verdicts are equal.
+/// Finds the combination with the worst verdict; among equal verdicts, the combination whose outcome uses most of the
+/// friction of a joint. `None` for an empty list.
 fn worst(list: &[Combined<Outcome>]) -> Option<usize> {
     let rank = |it: &Outcome| match it.verdict() {
         Verdict::Falls => 2,
@@ -63,17 +65,17 @@ fn worst(list: &[Combined<Outcome>]) -> Option<usize> {
     };
     let used = |it: &Outcome| friction_used(it).unwrap_or(0.0);
     let worse = |a: &Outcome, b: &Outcome| rank(a).cmp(&rank(b)).then(used(a).total_cmp(&used(b)));
-    // The first one of equals.
+    // The reversed order makes `max_by` return the first of several equal elements.
     (0..list.len()).rev().max_by(|a, b| worse(&list[*a].of, &list[*b].of))
 }
 
-/// The smallest factor that is carried.
+/// Finds the combination with the smallest load factor that is carried; `None` for an empty list.
 fn smallest(list: &[Combined<Limit>]) -> Option<usize> {
     let carried = |k: &usize| list[*k].of.carried();
     (0..list.len()).min_by(|a, b| carried(a).total_cmp(&carried(b)))
 }
 
-/// Warns of the combination with the worst seismic check, if another one governs.
+/// Adds a warning to the governing limit load if another combination has a worse seismic check.
 fn compare_checks(list: &mut [Combined<Limit>], governs: usize) {
     let worse = |worst: usize, k: usize| {
         if list[k].of.has_worse_check(&list[worst].of) { k } else { worst }
@@ -85,7 +87,7 @@ fn compare_checks(list: &mut [Combined<Limit>], governs: usize) {
     }
 }
 
-/// The largest part of the friction of a joint that is used \[-\], if there is a state.
+/// Returns the largest used part of the friction of a joint \[-\]; `None` if the outcome has no state.
 fn friction_used(outcome: &Outcome) -> Option<f64> {
     let state = outcome.state.as_ref()?;
     let forces = joints::forces(&outcome.model, &state.contacts);
@@ -93,8 +95,8 @@ fn friction_used(outcome: &Outcome) -> Option<f64> {
 }
 
 impl Cases {
-    /// The verdicts of all combinations. The worst one governs; if verdicts are equal, the outcome that uses most of
-    /// the friction of a joint. `None` without combinations.
+    /// Lists the verdicts of all combinations. The combination with the worst verdict governs; among equal verdicts,
+    /// the one whose outcome uses most of the friction of a joint. `None` for an empty list.
     pub fn of_outcomes(list: &[Combined<Outcome>]) -> Option<Self> {
         let governs = worst(list)?;
         let rows = Columns::<&Combined<Outcome>>::new()
@@ -107,8 +109,8 @@ impl Cases {
         Some(Self { kind: COMBINATIONS, governs, name, rows, curve: None })
     }
 
-    /// The limit loads of all combinations. The smallest factor governs; its limit load has a warning if another
-    /// combination has the worst seismic check. `None` without combinations.
+    /// Lists the limit loads of all combinations. The combination with the smallest factor governs; its limit load gets
+    /// a warning if another combination has a worse seismic check. `None` for an empty list.
     pub fn of_limits(list: &mut [Combined<Limit>]) -> Option<Self> {
         let governs = smallest(list)?;
         compare_checks(list, governs);
@@ -137,7 +139,7 @@ impl Cases {
         Some(Self { kind: COMBINATIONS, governs, name, rows, curve: None })
     }
 
-    /// The limit loads of a train at its positions.
+    /// Lists the limit loads of a train at all of its positions.
     pub fn of_train(crossing: &CrossingTrain) -> Self {
         let CrossingTrain { positions, by_path, critical, limit, .. } = crossing;
         let units = InUnits(limit.model.units);
@@ -155,28 +157,32 @@ impl Cases {
         Self { kind, governs: *critical, name, rows, curve }
     }
 
-    /// The picture of the factor against the position of a train, if there is one.
+    /// Returns the diagram (SVG) of the load factor against the position of a train; `None` for combinations.
     pub fn curve(&self) -> Option<&str> {
         self.curve.as_deref()
     }
 
-    /// The number of the case that governs, from zero.
+    /// Returns the index of the governing case in the list of cases, from zero.
     pub fn governs(&self) -> usize {
         self.governs
     }
 
-    /// The head of a report: the lines, and the case that the rest of the report is about.
+    /// Returns the head of a report as text: the table of all cases, and the name of the case that the rest of the
+    /// report is about.
     pub fn head(&self) -> String {
         section(self.title()).trim_start().to_owned()
             + &table(&self.shown())
             + &format!("\n{}:\n\n", self.governing())
     }
 
-    /// The object of `--json` of several cases, pretty-printed: the case that `governs`; the `combinations`, of
-    /// `masonry solve` with `verdict` and `friction_used`, of `masonry limit` with the `load_factor` that is carried,
-    /// the one that `falls`, whether the limit is `decided`, and `a_0`, `a_0_least` and `satisfied` of their seismic
-    /// checks, or the `positions` of a train with `load_factor`, `bound` and `answer`; and the `object` of the case
-    /// that governs, under its own `key`.
+    /// Returns the object that `--json` prints for several cases, pretty-printed:
+    ///
+    /// * `governs`: the name of the governing case;
+    /// * `combinations`: for `masonry solve` with `verdict` and `friction_used`; for `masonry limit` with the
+    ///   `load_factor` that is carried, the load factor at which the structure `falls`, whether the limit is `decided`,
+    ///   and `a_0`, `a_0_least` and `satisfied` of the seismic check;
+    /// * or `positions`: the positions of a train with `load_factor`, `bound` and `answer`;
+    /// * the `object` of the governing case, under the given `key`.
     ///
     /// # Errors
     /// None that this data can cause; the signature is that of the serialiser.
@@ -192,7 +198,7 @@ impl Cases {
         self.kind.title
     }
 
-    /// The name of the case that governs, in quotes if it is a combination.
+    /// Returns the name of the governing case, in quotes if the case is a combination.
     fn quoted(&self) -> String {
         if self.kind.key == COMBINATIONS.key {
             format!("\"{}\"", self.name)
@@ -201,17 +207,17 @@ impl Cases {
         }
     }
 
-    /// The case that governs, as the beginning of a sentence.
+    /// Returns the name of the governing case, followed by the words that say that the case governs.
     pub fn governing(&self) -> String {
         format!("{} {}", self.quoted(), self.kind.governs)
     }
 
-    /// The note of a page on its table.
+    /// Returns the note of a page on the table of cases.
     pub(super) fn note(&self) -> String {
         format!("{}; this page shows it.", self.governing())
     }
 
-    /// The lines for readers.
+    /// Returns the table of all cases with `yes` and `no` for flags.
     pub(super) fn shown(&self) -> Table {
         let mut table = self.rows.clone();
         for cell in table.rows.iter_mut().flatten() {

@@ -8,19 +8,19 @@ use masonry::data::state::State;
 use masonry::history::History;
 use masonry::model::Model;
 
-/// The text of `contacts.csv`: one row per contact point, in the order of the model.
+/// Returns the text of `contacts.csv`: one row per contact point, in the order of the model.
 ///
-/// Columns carry the units of the scene in their names: `index`, `joint`, `class`, the names of
-/// the sides `a` and `b`, position `x_m`, `y_m`, `area_m2`, forces `t_n_kN` (compression positive)
-/// and `t_t_kN`, tractions `traction_n_kN/m2` and `traction_t_kN/m2` (force over area), `gap_m`,
-/// `slip_m`, `mu`, and `status` (`open`, `stick`, `slip`). If there are mortar films, also `film_sigma_y_kN/m2`
-/// (tension positive) and `film_tau_kN/m2`, empty for points of dry joints, and before them `film_sigma_x_kN/m2` if
-/// films are whole strips. Numbers read back exactly; fields are quoted as RFC 4180 requires, and lines end with CR LF.
+/// Columns carry the units of the scene in their names: `index`, `joint`, `class`, the names of the sides `a` and `b`,
+/// position `x_m`, `y_m`, `area_m2`, forces `t_n_kN` (compression positive) and `t_t_kN`, tractions `traction_n_kN/m2`
+/// and `traction_t_kN/m2` (force divided by area), `gap_m`, `slip_m`, `mu`, and `status` (`open`, `stick`, `slip`).
+/// Mortar films add `film_sigma_y_kN/m2` (tension positive) and `film_tau_kN/m2`. With `films = "strips"`,
+/// `film_sigma_x_kN/m2` precedes these two columns. The columns of films are empty at points of dry joints. Numbers
+/// read back exactly; fields are quoted as RFC 4180 requires, and lines end with CR LF.
 pub fn contacts(model: &Model, state: &State) -> String {
     text(&tables::contacts(model, state))
 }
 
-/// The text of `history.csv`: one row per step that was solved.
+/// Returns the text of `history.csv`: one row per step that was solved.
 ///
 /// Columns carry the units of the scene in their names, here m and kN:
 ///
@@ -36,7 +36,7 @@ pub fn history(model: &Model, history: &History) -> String {
     text(&figures::history::in_csv(model, history))
 }
 
-/// A table with its column heads, each with its unit.
+/// Returns a table as comma-separated values; the first row has the names of the columns with their units.
 pub(super) fn text(table: &Table) -> String {
     let head = |it: &Column| match table.units.unit(it.quantity).as_str() {
         "" => quoted(&it.key).into_owned(),
@@ -58,8 +58,8 @@ fn field(value: &Value) -> String {
     }
 }
 
-/// A name as RFC 4180 requires: in quotes if it contains a comma, a quote or a line break; after an apostrophe if
-/// spreadsheets would take the name for a formula.
+/// Quotes a name as RFC 4180 requires: in quotes if it contains a comma, a quote or a line break; after an apostrophe
+/// if spreadsheets would take the name for a formula.
 fn quoted(name: &str) -> Cow<'_, str> {
     let is_formula = name.starts_with(['=', '+', '-', '@']);
     let name = if is_formula { Cow::Owned(format!("'{name}")) } else { Cow::Borrowed(name) };

@@ -14,27 +14,27 @@ use masonry::rounding::largest;
 use masonry::units::LengthUnit;
 use masonry::verify::moving::speed;
 
-/// The layer with the outlines of blocks.
+/// Name of the layer with the outlines of blocks.
 const BLOCKS: &str = "blocks";
-/// The layer with the resultants in joints.
+/// Name of the layer with the resultants in joints.
 const FORCES: &str = "result_forces";
-/// The layer with the lines of thrust.
+/// Name of the layer with the lines of thrust.
 const PATHS: &str = "result_thrust";
-/// The layer with the outlines that a mechanism has moved.
+/// Name of the layer with the outlines that a mechanism has moved.
 const MECHANISM: &str = "result_mechanism";
-/// Colours of layers in the palette of DXF: white or black, red, green, blue.
+/// Colours of layers as numbers in the palette of DXF: white or black (7), red (1), green (3), blue (5).
 const COLOURS: [(&str, u8); 4] = [(BLOCKS, 7), (FORCES, 1), (PATHS, 3), (MECHANISM, 5)];
-/// The colour of all other layers, grey.
+/// The colour of all layers without an entry in [`COLOURS`]: grey.
 const GREY: u8 = 8;
-/// The longest line of a force, and the longest movement in a mechanism, relative to the longer side of the structure.
-/// Chosen: large enough to be seen, and small enough to hide little.
+/// Length of the longest stroke of a force and of the largest movement in a mechanism, divided by the longer side of
+/// the structure. Chosen: large enough to be seen, and small enough to hide little.
 const LONGEST: f64 = 0.1;
-/// The height of letters, relative to the longer side of the structure. Chosen: a fifth of the longest line.
+/// The height of letters, divided by the longer side of the structure. Chosen: a fifth of the longest stroke.
 const LETTERS: f64 = 0.02;
 /// The largest number of characters in the name of a layer in release 12.
 const LONGEST_NAME: usize = 31;
 
-/// The drawing of an outcome, in the units of the scene.
+/// Returns the drawing of an outcome as DXF text, in the units of the scene.
 ///
 /// | layer | lines |
 /// |---|---|
@@ -66,16 +66,16 @@ pub fn drawing(outcome: &Outcome) -> String {
     drawing.finish()
 }
 
-/// A layer named after a part of the scene, with `_` for characters that names of layers cannot have.
+/// Returns the name of the layer for a part of the scene, with `_` for characters that names of layers cannot have.
 fn layer(kind: &str, name: &str) -> String {
     let kept = |c: char| if c.is_ascii_alphanumeric() || c == '-' { c } else { '_' };
     format!("{kind}_{name}").chars().map(kept).take(LONGEST_NAME).collect()
 }
 
-/// A drawing that is being written.
+/// A DXF drawing that is being written.
 struct Drawing<'a> {
     model: &'a Model,
-    /// The lower left corner of the structure, and its longer side \[m\].
+    /// The lower left corner of the structure, and the longer side of the structure \[m\].
     corner: Point2<f64>,
     side: f64,
     entities: String,
@@ -97,7 +97,7 @@ impl<'a> Drawing<'a> {
 
     fn forces(&mut self, all: &[joints::JointForce]) {
         let most = largest(all.iter().map(|it| it.force.norm()));
-        // A force without length has no direction.
+        // A force of length zero has no direction.
         if most <= 0.0 {
             return;
         }
@@ -142,7 +142,7 @@ impl<'a> Drawing<'a> {
         self.entity("LINE", layer, &places);
     }
 
-    /// A line of text below the structure.
+    /// Adds a line of text below the structure.
     fn text(&mut self, layer: &str, text: &str) {
         let height = LETTERS * self.side;
         let at = self.place(10, self.corner - Vector2::new(0.0, 4.0 * height));
@@ -157,7 +157,7 @@ impl<'a> Drawing<'a> {
         let _ = write!(self.entities, "0\n{kind}\n8\n{layer}\n{pairs}");
     }
 
-    /// The pairs of a point, in the units of the scene.
+    /// Returns the DXF pairs of a point, in the units of the scene.
     fn place(&self, code: u8, at: Point2<f64>) -> String {
         let [x, y] = [at.x, at.y].map(|it| it / self.model.units.length_to_si());
         format!("{code}\n{x}\n{}\n{y}\n", code + 10)

@@ -5,7 +5,7 @@ use masonry::model::{Body, Model};
 use masonry::rounding::largest;
 use masonry::units::Units;
 
-/// The kind of number that a unit belongs to.
+/// The quantity of a number, which determines its unit.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Quantity {
     /// A number without a unit.
@@ -17,9 +17,9 @@ pub(super) enum Quantity {
     /// Energy, or a moment.
     Energy,
     Radians,
-    /// A length in millimetres, whatever the units of the scene.
+    /// A length in millimetres, whatever the unit of length of the scene.
     Millimetres,
-    /// A part of one, in hundredths.
+    /// A ratio, shown in percent.
     Percent,
 }
 
@@ -28,7 +28,7 @@ pub(super) enum Quantity {
 pub(super) struct InUnits(pub(super) Units);
 
 impl InUnits {
-    /// An SI value in the unit of its quantity.
+    /// Converts an SI value into the unit of its quantity.
     pub(super) fn of(self, quantity: Quantity, value: f64) -> f64 {
         match quantity {
             Quantity::Pure | Quantity::Radians => value,
@@ -42,7 +42,7 @@ impl InUnits {
         }
     }
 
-    /// The unit of a quantity; empty for a pure number.
+    /// Returns the unit of a quantity; empty for a pure number.
     pub(super) fn unit(self, quantity: Quantity) -> String {
         match quantity {
             Quantity::Stress => return self.0.stress_name(),
@@ -58,65 +58,64 @@ impl InUnits {
         .to_owned()
     }
 
-    /// Metres to the scene's unit of length.
+    /// Converts metres into the scene's unit of length.
     pub(super) fn length(self, metres: f64) -> f64 {
         metres / self.0.length_to_si()
     }
 
-    /// Newtons to the scene's unit of force.
+    /// Converts newtons into the scene's unit of force.
     pub(super) fn force(self, newtons: f64) -> f64 {
         newtons / self.0.force_to_si()
     }
 
-    /// Pascals to the scene's unit of stress.
+    /// Converts pascals into the scene's unit of stress.
     pub(super) fn stress(self, pascals: f64) -> f64 {
         pascals / self.0.stress_to_si()
     }
 
-    /// Joules or newton metres to the scene's unit of energy and moment.
+    /// Converts joules or newton metres into the scene's unit of energy and moment.
     pub(super) fn energy(self, joules: f64) -> f64 {
         joules / self.0.energy_to_si()
     }
 
-    /// A length for people, with its unit after a space that does not break.
+    /// Writes a length for readers, with its unit after a non-breaking space.
     pub(super) fn length_text(self, metres: f64) -> String {
         format!("{}\u{a0}{}", significant(self.length(metres), 4), self.0.length_name())
     }
 
-    /// A moment for people, with its unit after a space that does not break.
+    /// Writes a moment for readers, with its unit after a non-breaking space.
     pub(super) fn moment_text(self, newton_metres: f64) -> String {
         let value = significant(self.energy(newton_metres), 4);
         format!("{value}\u{a0}{}", self.0.energy_name())
     }
 
-    /// A force for people, with its unit after a space that does not break.
+    /// Writes a force for readers, with its unit after a non-breaking space.
     pub(super) fn force_text(self, newtons: f64) -> String {
         format!("{}\u{a0}{}", significant(self.force(newtons), 4), self.0.force_name())
     }
 }
 
-/// A stress \[Pa\] for people, in pascals or thousands, millions or billions of them, with its unit after a space that
-/// does not break.
+/// Writes a stress \[Pa\] for readers, in Pa, kPa, MPa or GPa, with its unit after a non-breaking space.
 pub(super) fn stress_text(pascals: f64) -> String {
     let prefixes = [(1e9, "G"), (1e6, "M"), (1e3, "k")];
-    // A value that is rounded to a thousand of a unit is written in the next unit.
+    // A value that rounds to a thousand of one unit is written in the next larger unit.
     let fits = |(unit, _): &(f64, &str)| pascals.abs() >= unit * (1.0 - 5e-5);
     let (unit, prefix) = prefixes.into_iter().find(fits).unwrap_or((1.0, ""));
     format!("{}\u{a0}{prefix}Pa", significant(pascals / unit, 4))
 }
 
-/// An acceleration \[m/s^2\] for people, with its unit after a space that does not break.
+/// Writes an acceleration \[m/s^2\] for readers, with its unit after a non-breaking space.
 pub(super) fn acceleration_text(acceleration: f64) -> String {
     format!("{}\u{a0}m/s²", significant(acceleration, 4))
 }
 
-/// The shortest decimal text that reads back as the same number.
+/// Returns the shortest decimal text that reads back as the same number.
 pub(super) fn shortest(value: f64) -> String {
     // Adding zero turns -0 into 0.
     format!("{:?}", value + 0.0)
 }
 
-/// `digits` significant digits without trailing zeros, with an exponent if that is shorter.
+/// Writes a number with `digits` significant digits without trailing zeros, and with an exponent if that is shorter.
 pub(super) fn significant(value: f64, digits: usize) -> String {
     if !value.is_finite() {
         return "-".to_owned();
@@ -133,8 +132,8 @@ pub(super) fn significant(value: f64, digits: usize) -> String {
     trim_zeros(&format!("{value:.decimals$}")).to_owned()
 }
 
-/// The format of the numbers of one column: equally many decimals, so that the largest has `digits` significant digits;
-/// exponents if that would take too many zeros.
+/// Returns a function that writes the numbers of one column with equally many decimals, so that the largest number has
+/// `digits` significant digits; with exponents if decimals would take too many zeros.
 pub(super) fn aligned(values: &[f64], digits: usize) -> impl Fn(f64) -> String + use<> {
     let largest = largest(values);
     let exponent = if largest > 0.0 { decimal(largest, digits).1 } else { 0 };
@@ -154,7 +153,7 @@ pub(super) fn aligned(values: &[f64], digits: usize) -> impl Fn(f64) -> String +
     }
 }
 
-/// The largest of 1, 2, 5 times a power of ten that does not exceed a positive finite `value`.
+/// Returns the largest of 1, 2, 5 times a power of ten that does not exceed a positive finite `value`.
 pub(super) fn round_down(value: f64) -> f64 {
     let text = format!("{value:e}");
     let (mantissa, exponent) = text.split_once('e').unwrap_or((&text, "0"));
@@ -167,7 +166,7 @@ pub(super) fn round_down(value: f64) -> f64 {
     format!("{first}e{exponent}").parse().unwrap_or(value)
 }
 
-/// Name of a side of a joint.
+/// Returns the name of the block or support on one side of a joint.
 pub(super) fn body_name(model: &Model, body: Body) -> &str {
     match body {
         Body::Block(id) => block_name(model, id),
@@ -175,7 +174,7 @@ pub(super) fn body_name(model: &Model, body: Body) -> &str {
     }
 }
 
-/// Name of a block.
+/// Returns the name of a block.
 pub(super) fn block_name(model: &Model, id: BlockId) -> &str {
     &model.blocks[id.index()].name
 }
@@ -186,7 +185,7 @@ fn decimal(value: f64, digits: usize) -> (String, i32) {
     (mantissa.to_owned(), exponent.parse().unwrap_or(0))
 }
 
-/// A decimal number without zeros at its end.
+/// Removes the zeros at the end of a decimal number.
 pub(super) fn trim_zeros(text: &str) -> &str {
     if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.') } else { text }
 }

@@ -1,4 +1,4 @@
-//! Joints of a mechanism, which turn about a hinge, slide, or come apart.
+//! Joints of a mechanism that turn about a hinge, slide, or come apart.
 
 use nalgebra::{Point2, Vector2};
 
@@ -6,26 +6,26 @@ use masonry::ids::JointId;
 use masonry::model::{Anchor, Model};
 use masonry::rounding::largest;
 
-/// Joints that move by less than this part of the fastest count as closed. Chosen: hardly seen in a picture, and above
-/// the motion that springs in joints add.
+/// Joints whose rate is below this part of the largest rate of a joint count as closed. Chosen: hardly seen in a
+/// picture, and above the motion that springs in joints add.
 const STILL: f64 = 1e-2;
-/// Relative difference up to which the opening of a joint counts as that of associated flow. Chosen: far above rounding
-/// errors.
+/// Relative difference between the opening of a joint and the opening by associated flow up to which the two count as
+/// equal. Chosen: far above rounding errors.
 const AS_LIFTED: f64 = 1e-6;
 
 /// Behaviour of a joint in a mechanism.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Yield {
-    /// The joint opens about a place that stays closed.
+    /// The joint opens about a point that stays closed.
     Hinge,
-    /// The sides slide on each other.
+    /// The sides touch and slide on each other.
     Slides,
-    /// The sides come apart.
+    /// The sides come apart at all contact points.
     Opens,
 }
 
 impl Yield {
-    /// The word for the behaviour: `hinge`, `slides`, `opens`.
+    /// Returns the word for the behaviour: `hinge`, `slides`, `opens`.
     pub fn name(self) -> &'static str {
         match self {
             Self::Hinge => "hinge",
@@ -40,35 +40,37 @@ impl Yield {
 pub struct YieldingJoint {
     /// The joint.
     pub joint: JointId,
-    /// The behaviour.
+    /// The behaviour of the joint.
     pub does: Yield,
-    /// The place at which the sides touch, or the middle of the joint \[m\].
+    /// The middle of the contact points at which the sides touch, or of all contact points if the sides come apart
+    /// \[m\].
     pub at: Point2<f64>,
-    /// The rate of that place: the mean of both sides.
+    /// The displacement rate at `at`: the mean of both sides.
     pub rate: Vector2<f64>,
     /// The largest rate of opening, relative to the fastest joint.
     pub opens: f64,
     /// The largest rate of sliding, relative to the fastest joint.
     pub slides: f64,
-    /// Whether the joint slides and opens just so far that no force inside its friction cone does work: associated
-    /// flow.
+    /// Whether the joint dilates by associated flow: it slides, and opens by `mu` times the slip rate, so that forces
+    /// on the friction cone do no work.
     pub dilates: bool,
-    /// The number in pictures and tables, from one; `None` if the sides come apart, which is seen without a mark.
+    /// The number of the joint in pictures and tables, from one; `None` if the sides come apart, since pictures do not
+    /// mark such joints.
     pub number: Option<usize>,
 }
 
-/// Rates at a contact point.
+/// Rates of opening and sliding at a contact point.
 struct PointRate {
     at: Point2<f64>,
     mean: Vector2<f64>,
     opens: f64,
     slides: f64,
-    /// The opening by associated flow, `mu` times the slip of the joint, at which the sides still touch.
+    /// The rate of opening by associated flow, `mu` times the slip rate; the sides count as touching up to this rate.
     lifts: f64,
 }
 
-/// The joints that yield in a mechanism with these displacement rates of the corners of all blocks, in the order of the
-/// joints.
+/// Returns the joints that yield in a mechanism, in the order of the joints; `rates` are the displacement rates of the
+/// corners of all blocks.
 pub fn yielding(model: &Model, rates: &[Vec<Vector2<f64>>]) -> Vec<YieldingJoint> {
     let mut of_joints: Vec<Vec<PointRate>> = model.joints.iter().map(|_| Vec::new()).collect();
     for contact in &model.contacts {
@@ -95,7 +97,8 @@ pub fn yielding(model: &Model, rates: &[Vec<Vector2<f64>>]) -> Vec<YieldingJoint
     list
 }
 
-/// The behaviour of a joint with these points; `None` if its rates are negligible.
+/// Returns the behaviour of the joint with the contact points `points`; `None` if all rates are negligible beside
+/// `fastest`, the largest rate of all joints.
 fn of_joint(joint: JointId, points: &[PointRate], fastest: f64) -> Option<YieldingJoint> {
     let still = STILL * fastest;
     let opens = largest(points.iter().map(|it| it.opens));

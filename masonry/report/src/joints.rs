@@ -1,4 +1,4 @@
-//! The forces in every joint, the part of the friction that they use, and the opening.
+//! The resultant force in every joint, the used part of its friction, and its opening.
 
 use nalgebra::{Point2, Vector2};
 
@@ -8,12 +8,12 @@ use masonry::model::{Body, Model, PlacedJoint};
 use masonry::recover;
 use masonry::rounding::largest;
 
-/// Forces below this part of the largest are rounding errors.
+/// Forces below this part of the largest force count as rounding errors.
 const NO_FORCE: f64 = 1e-9;
 /// Openings and slips below this part of the size of the structure are rounding errors.
 const NO_WIDTH: f64 = 1e-9;
 
-/// A reaction counts as on its support up to this distance beyond the ends, in lengths of the support.
+/// A reaction counts as acting on its support up to this distance beyond the ends, in lengths of the support.
 const BESIDE: f64 = 1e-6;
 
 /// The resultant of the contact forces of a joint.
@@ -23,22 +23,24 @@ pub struct JointForce {
     pub joint: JointId,
     /// The place at which the line of the resultant crosses the joint \[m\].
     pub at: Point2<f64>,
-    /// The force on the body in front \[N\].
+    /// The resultant force on the body in front of the joint \[N\].
     pub force: Vector2<f64>,
-    /// The part of the force across the joint \[N\], compression positive.
+    /// The component of the force perpendicular to the joint \[N\], compression positive.
     pub normal: f64,
-    /// The part of the force along the joint \[N\].
+    /// The component of the force along the joint \[N\].
     pub tangential: f64,
-    /// Distance of `at` from the middle of the joint, in lengths of the joint: `-0.5` and `0.5` at its ends, more than
-    /// a sixth outside its middle third.
+    /// Distance of `at` from the middle of the joint, divided by the length of the joint: `-0.5` and `0.5` at the ends,
+    /// above 1/6 in size outside the middle third.
     pub eccentricity: f64,
-    /// `|T| / (mu N + c A)`: one if all points slide; `None` if nothing resists sliding.
+    /// The used part of the friction, `|T| / (mu N + c A)`: one if all contact points slide; `None` if the joint has no
+    /// resistance to sliding.
     pub utilisation: Option<f64>,
 }
 
-/// The resultants of all joints that press or pull, in the order of the joints.
+/// Returns the resultants of all joints with a normal force, in the order of the joints.
 pub fn forces(model: &Model, contacts: &[PointState]) -> Vec<JointForce> {
-    /// Force, normal and tangential part, moment about the start, and resistance to sliding.
+    /// Force; then normal component, tangential component, moment about the start of the joint, and resistance to
+    /// sliding.
     type Sum = (Vector2<f64>, [f64; 4]);
     let mut sums: Vec<Sum> = vec![(Vector2::zeros(), [0.0; 4]); model.joints.len()];
     for (contact, state) in model.contacts.iter().zip(contacts) {
@@ -73,17 +75,17 @@ pub fn forces(model: &Model, contacts: &[PointState]) -> Vec<JointForce> {
     model.joints.iter().zip(sums).enumerate().filter_map(placed).collect()
 }
 
-/// A line from a joint to the middle of the forces on a block.
+/// A line from a joint to the middle of the joint forces on a block: a piece of the line of thrust.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ForcePath {
-    /// The place in a joint, and the middle of the forces on the block \[m\].
+    /// The point in the joint, and the middle of the joint forces on the block \[m\].
     pub ends: [Point2<f64>; 2],
     /// The size of the force in the joint \[N\].
     pub force: f64,
 }
 
-/// Finds lines from joints to the middle of the forces on a block, for every block on which two joints or more press; in an arch
-/// they are the line of thrust.
+/// Finds the lines from joints to the middle of the joint forces on a block, for every block on which two joints or
+/// more press. In an arch these lines form the line of thrust.
 pub fn paths<'a>(
     model: &Model,
     forces: impl IntoIterator<Item = &'a JointForce>,
@@ -108,18 +110,18 @@ pub fn paths<'a>(
     of_blocks.into_iter().flat_map(of_block).collect()
 }
 
-/// The place and the size of the reaction of a support.
+/// The reaction of a support: its line of action and its force.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SupportForce {
     /// The support.
     pub support: SupportId,
-    /// A point of the line of the reaction \[m\].
+    /// A point of the line of action of the reaction \[m\].
     pub at: Point2<f64>,
-    /// The force on the structure \[N\].
+    /// The force of the support on the structure \[N\].
     pub force: Vector2<f64>,
 }
 
-/// The reactions of all supports that press or pull, except those whose line passes beside the support.
+/// Returns the reactions of all supports with a normal force, except reactions whose line of action misses the support.
 pub fn reactions(model: &Model, forces: &[JointForce]) -> Vec<SupportForce> {
     let of = |index: usize| {
         let support = SupportId::new(index);
@@ -142,15 +144,15 @@ pub fn reactions(model: &Model, forces: &[JointForce]) -> Vec<SupportForce> {
 pub struct JointOpening {
     /// The joint.
     pub joint: JointId,
-    /// Place along the joint and opening there \[m\], from the start to the end.
+    /// Distance along the joint from its start, and opening at that distance \[m\], for every contact point.
     pub widths: Vec<[f64; 2]>,
     /// The largest opening \[m\].
     pub widest: f64,
-    /// The largest slip of points that are closed, without its sign \[m\].
+    /// The largest slip of closed contact points, as an absolute value \[m\].
     pub slip: f64,
 }
 
-/// All joints that are open or have slid somewhere.
+/// Returns the openings of all joints that are open or have slid at some contact point.
 pub fn openings(model: &Model, contacts: &[PointState]) -> Vec<JointOpening> {
     let none = NO_WIDTH * size(model);
     let mut openings: Vec<JointOpening> = (0..model.joints.len())
@@ -169,7 +171,7 @@ pub fn openings(model: &Model, contacts: &[PointState]) -> Vec<JointOpening> {
         let [width, slip] = [state.y_n, state.y_t.abs()].map(|it| if it > none { it } else { 0.0 });
         opening.widths.push([along, width]);
         opening.widest = opening.widest.max(width);
-        // Sides that are apart have moved without slip.
+        // Points whose sides are apart have no slip.
         opening.slip = opening.slip.max(if width > 0.0 { 0.0 } else { slip });
     }
     openings.retain(|it| it.widest > 0.0 || it.slip > 0.0);
@@ -179,7 +181,7 @@ pub fn openings(model: &Model, contacts: &[PointState]) -> Vec<JointOpening> {
     openings
 }
 
-/// The diagonal of the box around all blocks \[m\].
+/// Returns the diagonal of the box around all blocks \[m\].
 fn size(model: &Model) -> f64 {
     let corners = || model.blocks.iter().flat_map(|block| &block.corners);
     let extent = |k: usize| {

@@ -7,17 +7,17 @@ use super::summary::{self, CornerSum, LoadGroup, Resultant, corner_sums, load_gr
 use masonry::analysis::outcome::{Outcome, PhaseTime};
 use masonry::model::Model;
 
-/// The object of `result.json` and of `masonry solve --json`, pretty-printed.
+/// Returns the object of `result.json` and of `masonry solve --json`, pretty-printed.
 ///
 /// `verdict`, `evidence`, `sentence` and `warnings` come first, as in [`Judgement`](masonry::data::verdict::Judgement).
 ///
-/// Physical quantities are in the units of the scene, which `units` names one by one. `residuals`, `balance`,
-/// `reactions`, `contacts`, `strain_energy`, `max_displacement` and the stresses are null without a solution, and
-/// `reason` gives the cause; `mechanism` gives displacement rates of the corners of every block, the largest component
-/// one, if a mechanism is known. `films`, the extremes of the stresses in mortar films, exists only if there are films,
-/// and `history`, one record a step, only if there is a load history: if a step failed, the state is that after the
-/// step before. `springs`, `proved` and `soft` are those of [`SolveInfo`](masonry::analysis::outcome::SolveInfo).
-/// Numbers that are not finite become null.
+/// Physical quantities are in the units of the scene, which `units` names one by one. Without a solution, `residuals`,
+/// `balance`, `reactions`, `contacts`, `strain_energy`, `max_displacement` and the stresses are null, and `reason`
+/// gives the cause. If a mechanism is known, `mechanism` gives displacement rates of the corners of every block, scaled
+/// to a largest component of one. `films`, the extremes of the stresses in mortar films, exists only if there are
+/// films. `history` exists only if there is a load history, and has one record per step; if a step failed, the state is
+/// that after the step before. `springs`, `proved` and `soft` are the fields of
+/// [`SolveInfo`](masonry::analysis::outcome::SolveInfo). Numbers that are not finite become null.
 ///
 /// # Errors
 /// None that this data can cause; the signature is that of the serialiser.
@@ -78,7 +78,7 @@ pub fn result(outcome: &Outcome, files: &[String]) -> Result<String, serde_json:
     Value::Object(object).file()
 }
 
-/// The unit of every physical quantity in the object; `1` for pure numbers.
+/// Returns the unit of every physical quantity in the object; `1` for pure numbers.
 fn names_of_units(units: InUnits) -> Value {
     let units = units.0;
     let (length, force) = (units.length_name(), units.force_name());
@@ -103,12 +103,12 @@ fn names_of_units(units: InUnits) -> Value {
     })
 }
 
-/// Seconds by phase.
+/// Returns the times \[s\] of the phases by name.
 pub(super) fn times(times: &[PhaseTime]) -> Value {
     Value::Object(times.iter().map(|it| (it.phase.clone(), it.seconds.into())).collect())
 }
 
-/// Sums of reactions that are not unique one by one.
+/// Returns the sums of reactions at corners, at which the single reactions are not unique.
 fn corners(outcome: &Outcome) -> Value {
     let units = InUnits(outcome.model.units);
     let of = |it: CornerSum| {
@@ -119,7 +119,7 @@ fn corners(outcome: &Outcome) -> Value {
     Value::List(corner_sums(outcome).into_iter().map(of).collect())
 }
 
-/// The resultants of self weights and of loads.
+/// Returns the resultants of all self weights and of all loads.
 fn totals(model: &Model) -> Members {
     let both = [("weight", summary::weight(model)), ("loads", summary::loads(model))];
     forces(InUnits(model.units), both).by_name()
@@ -129,7 +129,8 @@ fn parts(units: InUnits, sum: Resultant) -> Members {
     forces(units, [("", sum)]).without("support").objects().remove(0)
 }
 
-/// Groups with their sums and their loads; every load with its factor, times that of the step, and its resultant.
+/// Returns the load groups by name: the resultant of each group, and its loads. A load has its resultant and its
+/// factor, which is multiplied by the factor of the step.
 fn groups(model: &Model) -> Value {
     let units = InUnits(model.units);
     let of = |group: LoadGroup<'_>| {

@@ -1,7 +1,7 @@
-//! Reports: text, pictures, tables and meshes of a scene that was solved, or was not.
+//! Reports of a scene that was solved, or could not be solved: text, pictures, tables and meshes.
 //!
-//! Every result is in the units of the scene, named in titles, columns and legends. The functions
-//! of the modules return the contents of files; [`write_all`] writes them.
+//! Every result is in the units of the scene, which titles, columns and legends name. The functions of the modules
+//! return the contents of files; [`write_all`] writes the files.
 
 pub mod cases;
 pub mod csv;
@@ -34,26 +34,26 @@ use masonry::files::write_atomically;
 use svg::ReferenceLines;
 use svg::pictures::{Pictures, Shown, of_outcome};
 
-/// A kind of file.
+/// A kind of output file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum OutputFormat {
-    /// `scene.svg` always; `principal_stresses.svg` if stresses were recovered, `deformed.svg` and `forces.svg`
-    /// if solved, with `cracks.svg` if joints have opened or slid; `mechanism.svg` if a mechanism is known;
-    /// `history.svg` if there is a load history.
+    /// Pictures: `scene.svg` always; `principal_stresses.svg` if stresses were recovered; `deformed.svg` and
+    /// `forces.svg` if solved, with `cracks.svg` if joints have opened or slid; `mechanism.svg` if a mechanism is
+    /// known; `history.svg` if there is a load history.
     Svg,
-    /// `panel.vtu`.
+    /// The mesh `panel.vtu`.
     Vtu,
-    /// `contacts.csv`, if solved; `history.csv` if there is a load history.
+    /// Tables: `contacts.csv`, if solved; `history.csv`, if there is a load history.
     Csv,
-    /// `report.txt`.
+    /// The report `report.txt`.
     Text,
-    /// `result.json`.
+    /// The JSON object `result.json`.
     Json,
 }
 
 impl OutputFormat {
-    /// All formats.
+    /// All formats of files.
     pub const ALL: [Self; 5] = [Self::Svg, Self::Vtu, Self::Csv, Self::Text, Self::Json];
 }
 
@@ -62,7 +62,7 @@ impl OutputFormat {
 pub struct ReportOptions {
     /// The formats of the files.
     pub formats: Vec<OutputFormat>,
-    /// Lines to compare the principal stresses with.
+    /// Lines with which the picture of principal stresses is compared; `None` draws no lines.
     pub reference: Option<ReferenceLines>,
 }
 
@@ -101,33 +101,33 @@ pub const FILES: [&str; 21] = [
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum OutputError {
-    /// The directory could not be made.
+    /// The directory could not be created.
     #[error("cannot create the directory {}: {source}; choose another one", path.display())]
     Directory {
-        /// The directory.
+        /// The directory that could not be created.
         path: PathBuf,
-        /// The error of the system.
+        /// The error of the operating system.
         source: io::Error,
     },
-    /// Some files could not be written; all others were.
+    /// Some files could not be written; all other files were written.
     #[error("cannot write {}; the other {} files were written", listed(failed), written.len())]
     Files {
         /// The files that were written.
         written: Vec<PathBuf>,
-        /// The files that were not written, with the errors of the system.
+        /// The files that were not written, with the errors of the operating system.
         failed: Vec<(PathBuf, io::Error)>,
     },
 }
 
-/// Writes the files of `options` into `dir`, which is created, and returns their paths.
+/// Writes the files of `options` into `dir`, and returns their paths. The directory is created if it does not exist.
 ///
 /// Each file appears whole or not at all: it is written under a temporary name and renamed. A file that fails does not
 /// keep the others from being written. `result.json` comes last and lists the files of this call; files of earlier
 /// calls stay.
 ///
 /// # Errors
-/// [`OutputError::Directory`] if the directory cannot be made, [`OutputError::Files`] if at least one file could not be
-/// written.
+/// [`OutputError::Directory`] if the directory cannot be created, [`OutputError::Files`] if at least one file could not
+/// be written.
 pub fn write_all(
     outcome: &Outcome,
     dir: &Path,
@@ -137,7 +137,7 @@ pub fn write_all(
     write_files(dir, contents(outcome, options), listing, |names| json::result(outcome, names))
 }
 
-/// Names and contents of all files except `result.json`.
+/// Returns names and contents of all files except `result.json`.
 fn contents(outcome: &Outcome, options: &ReportOptions) -> Vec<(&'static str, Vec<u8>)> {
     let (model, state) = (&outcome.model, outcome.state.as_ref());
     let title = &titled(outcome);
@@ -164,7 +164,7 @@ fn contents(outcome: &Outcome, options: &ReportOptions) -> Vec<(&'static str, Ve
     files
 }
 
-/// Pictures as files.
+/// Returns each picture with the name of its file.
 fn files(pictures: Vec<Pictures>) -> impl Iterator<Item = (&'static str, Vec<u8>)> {
     let of_kind = |Pictures { file, pictures }| {
         pictures.into_iter().map(move |text: String| (file, text.into_bytes()))
@@ -172,7 +172,7 @@ fn files(pictures: Vec<Pictures>) -> impl Iterator<Item = (&'static str, Vec<u8>
     pictures.into_iter().flat_map(of_kind)
 }
 
-/// The title of the pictures: the verdict, and the title of the scene.
+/// Returns the title of the pictures: the verdict, and the title of the scene.
 fn titled(outcome: &Outcome) -> String {
     let verdict = outcome.judgement.verdict;
     if outcome.title.is_empty() {

@@ -18,9 +18,9 @@ use masonry::analysis::limit::{Limit, Path, Thickness};
 use masonry::data::state::{PointState, Reaction};
 use masonry::model::Model;
 
-/// Writes into `dir`, which is created: `forces.svg` and `mechanism.svg`, if there are forces and a mechanism; the same
-/// pictures of the path with its curve; `train.svg` if the cases are the positions of a train; and `limit.json`, which
-/// lists the pictures and has a line for each case.
+/// Writes the files of a limit load into `dir`, which is created if it does not exist: `forces.svg` and `mechanism.svg`
+/// if forces and a mechanism were found; the same pictures for the path, with its curve; `train.svg` if the cases are
+/// the positions of a train; and `limit.json`, which lists the pictures and has a line for each case.
 ///
 /// # Errors
 /// [`OutputError`] for a directory that cannot be made, and for files that cannot be written.
@@ -39,8 +39,8 @@ pub fn write(
     write_files(dir, list, Some("limit.json"), object)
 }
 
-/// Writes the pictures and the JSON object of the least thickness of an arch: the forces at the thickness that stands,
-/// and the mechanism of the thickness that falls.
+/// Writes the pictures and the JSON object of the least thickness of an arch: the forces at the thickness at which the
+/// arch stands, and the mechanism at the thickness at which it falls.
 ///
 /// # Errors
 /// As [`write()`].
@@ -49,11 +49,11 @@ pub fn write_thickness(thickness: &Thickness, dir: &Folder) -> Result<Vec<PathBu
     write_files(dir, list, Some("limit.json"), |names| thickness_json(thickness, names))
 }
 
-/// The answer by one law of friction.
+/// The result of a limit load by one law of friction.
 pub(super) struct ByLaw<'a> {
-    /// The law of friction, in titles.
+    /// The name of the law of friction in titles.
     pub(super) of: &'static str,
-    /// The files of the pictures of forces and of the mechanism.
+    /// The names of the files with the pictures of forces and of the mechanism.
     files: [&'static str; 2],
     pub(super) model: &'a Model,
     load_factor: Option<f64>,
@@ -63,7 +63,7 @@ pub(super) struct ByLaw<'a> {
     pub(super) path: Option<&'a Path>,
 }
 
-/// The answers by all laws that were chosen.
+/// Returns the results by all laws of friction that were chosen.
 pub(super) fn by_law(limit: &Limit) -> impl DoubleEndedIterator<Item = ByLaw<'_>> {
     let associative = limit.associative.as_ref().map(|it| ByLaw {
         of: ", associative flow",
@@ -88,7 +88,7 @@ pub(super) fn by_law(limit: &Limit) -> impl DoubleEndedIterator<Item = ByLaw<'_>
     associative.into_iter().chain(path)
 }
 
-/// The pictures of forces and mechanisms, and the curve of the path.
+/// Returns the pictures of forces and mechanisms by all chosen laws, and the curve of the path.
 pub(super) fn pictures(limit: &Limit, for_page: bool) -> Vec<Pictures> {
     let of_law = |ByLaw { of, files, model, load_factor, forces, mechanism, .. }: ByLaw<'_>| {
         let title = &format!("{}{of}", limit.title);
@@ -104,7 +104,8 @@ pub(super) fn pictures(limit: &Limit, for_page: bool) -> Vec<Pictures> {
     by_law(limit).flat_map(of_law).chain(curve).collect()
 }
 
-/// The forces in an arch at the thickness that stands, and the mechanism of the thickness that falls.
+/// Returns the picture of the forces in an arch at the thickness at which the arch stands, and of the mechanism at the
+/// thickness at which it falls.
 pub(super) fn pictures_of_thickness(thickness: &Thickness, for_page: bool) -> Vec<Pictures> {
     let Thickness { title, model, forces, mechanism, .. } = thickness;
     let forces = forces.as_ref().map(|it| svg::forces(title, model, it));

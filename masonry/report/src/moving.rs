@@ -5,7 +5,7 @@ use nalgebra::Vector2;
 use masonry::model::Model;
 use masonry::verify::moving::{moving, speed};
 
-/// The number of blocks that move, and the fastest of them, in words.
+/// Returns the number of moving blocks and the name of the fastest block, in words.
 pub(super) fn moving_part(model: &Model, rates: &[Vec<Vector2<f64>>]) -> String {
     let speeds = rates.iter().map(|rate| speed(rate));
     let Some((_, block)) = speeds.zip(&model.blocks).max_by(|a, b| a.0.total_cmp(&b.0)) else {

@@ -1,10 +1,11 @@
-//! The report as one page of HTML, which opens without a network: verdict, key figures, pictures to choose from with a
-//! slider for the step and one for the scale of displacements, and tables that can be sorted.
+//! The report as one page of HTML, which opens without a network. The page has the verdict, key figures, pictures to
+//! choose from with a slider for the step and one for the scale of displacements, and tables that can be sorted.
 //!
-//! Pictures are those of the files. Every element in pictures of displacements carries its undeformed place, so that
-//! the page can change the magnification. All pictures are shown one below the other without scripts, and on paper.
+//! The pictures are the same as in the files. Every element in pictures of displacements carries its undeformed place,
+//! so that the page can change the magnification. Without scripts, and on paper, all pictures are shown one below the
+//! other.
 //!
-//! The hash of the address chooses the picture that is seen first, such as `#picture=deformed&step=3&scale=0.5`.
+//! The hash of the page's address chooses the picture that is seen first, such as `#picture=deformed&step=3&scale=0.5`.
 
 mod limit;
 mod solved;
@@ -23,7 +24,8 @@ use masonry::model::Model;
 const STYLE: &str = include_str!("page/page.css");
 const SCRIPT: &str = include_str!("page/page.js");
 
-/// Files of pictures and names of their switches, in this order. The first that exists is shown first.
+/// Files of pictures and the names of their switches on the page, in this order. The first file that exists is shown
+/// first.
 const CHOICES: [(&str, &str); 8] = [
     ("path_mechanism.svg", "Mechanism, path"),
     ("mechanism.svg", "Mechanism"),
@@ -39,41 +41,41 @@ const CHOICES: [(&str, &str); 8] = [
 #[derive(Debug)]
 struct Page {
     title: String,
-    /// `stands`, `falls` or `undecided`: the colour of the verdict.
+    /// `stands`, `falls` or `undecided`: determines the colour of the head of the page.
     verdict: &'static str,
     sentence: String,
     warnings: Vec<String>,
-    /// Names and values.
+    /// The names and values of the key figures.
     figures: Vec<Said>,
-    /// Pictures without a switch are curves, which are always shown.
+    /// Pictures of all kinds; pictures whose file is not in [`CHOICES`] are curves, which are always shown.
     pictures: Vec<Pictures>,
-    /// The steps that have pictures; at most one without a history.
+    /// The steps of a load history that have pictures; at most one without a history.
     steps: Vec<PictureStep>,
-    /// Tables, one below the other.
+    /// HTML of the tables, one below the other.
     tables: String,
     /// The report as text.
     text: String,
 }
 
-/// A step that has pictures.
+/// A step of a load history that has pictures.
 #[derive(Debug)]
 struct PictureStep {
     name: String,
-    /// The position among all steps, from zero: the curves show all of them.
+    /// The index of the step among all steps, from zero; the curves show all steps.
     position: usize,
 }
 
-/// Pictures of one kind, one of which is seen: one for every step, or one for all.
+/// Pictures of one kind on a page, one of which is seen: one picture for every step, or one for all steps.
 struct Choice<'a> {
-    /// The name in the address of the page.
+    /// The name of the picture in the hash of the page's address.
     key: &'a str,
-    /// The name on the switch.
+    /// The name on the switch of the picture.
     name: &'a str,
     pictures: &'a [String],
 }
 
 impl Page {
-    /// The text of the file.
+    /// Returns the HTML text of the page.
     fn finish(&self) -> String {
         let title = escaped(&self.title);
         let is_choice = |it: &&Pictures| CHOICES.iter().any(|(file, _)| *file == it.file);
@@ -129,7 +131,7 @@ impl Page {
         format!("<dl class=\"figures\">\n{figures}</dl>\n")
     }
 
-    /// The pictures to choose from, with switches and sliders at their head.
+    /// Returns the HTML of the pictures to choose from, below their switches and sliders.
     fn choices(&self) -> String {
         let choices: Vec<Choice<'_>> = CHOICES
             .iter()
@@ -164,7 +166,7 @@ impl Page {
         )
     }
 
-    /// The pictures of one kind.
+    /// Returns the HTML of the pictures of one kind.
     fn figure(&self, Choice { key, name, pictures }: &Choice<'_>) -> String {
         let frame = |(index, picture): (usize, &String)| {
             let step = self.steps.get(index).filter(|_| pictures.len() > 1);
@@ -179,24 +181,24 @@ impl Page {
     }
 }
 
-/// The numbers of blocks and joints, in words.
+/// Returns the numbers of blocks and joints, in words.
 fn size(model: &Model) -> String {
     let (blocks, joints) = (model.blocks.len(), model.joints.len());
     format!("{}, {}", counted(blocks, "block"), counted(joints, "joint"))
 }
 
-/// The total time of all phases.
+/// Returns the total time of all phases, in words.
 fn taken(times: &[PhaseTime]) -> String {
     let seconds: f64 = times.iter().map(|it| it.seconds).sum();
     format!("{} s", significant(seconds, 2))
 }
 
-/// A picture without its style sheet, which the page has once for all.
+/// Returns a picture without its style sheet, which the page has only once.
 fn bare(picture: &str) -> String {
     picture.replacen(svg::STYLE, "", 1)
 }
 
-/// A text whose line breaks are kept.
+/// Returns a text as HTML that keeps its line breaks.
 fn text_of(text: &str) -> String {
     text.lines().map(|line| escaped(line) + "\n").collect()
 }
