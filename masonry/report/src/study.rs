@@ -16,8 +16,8 @@ pub use table::table;
 use super::{OutputError, csv, write_files};
 use masonry::analysis::study::Study;
 
-/// Writes `study.csv`, the picture `accuracy.svg` if it shows anything, and `study.json`, which lists all files, into
-/// `dir`, which is created.
+/// Writes the files of a study into `dir`, which is created if it does not exist: `study.csv`, the picture
+/// `accuracy.svg` if an error is known, and `study.json`, which lists all files.
 ///
 /// # Errors
 /// [`OutputError`] for a directory that cannot be made, and for files that cannot be written.
@@ -29,7 +29,7 @@ pub fn write(study: &Study, dir: &Path) -> Result<Vec<PathBuf>, OutputError> {
     })
 }
 
-/// The text of `study.csv`: one row for each mesh, route and tolerance.
+/// Returns the text of `study.csv`: one row for each combination of mesh, route and tolerance.
 ///
 /// Columns: `mesh` (factor), `route`, `tolerance`, `status` (a status, `Refused` or `Skipped`), `residual`, `time_s`,
 /// `overrun` (whether the time exceeds the limit), `iterations` (pivots by `lemke`), relative errors `error_force`,

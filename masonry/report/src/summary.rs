@@ -1,4 +1,4 @@
-//! Figures that several reports show: extremes, totals, and the reason for no solution.
+//! Figures that several reports show: extremes, totals, and the reason for which a scene has no solution.
 
 use std::collections::HashMap;
 
@@ -12,31 +12,31 @@ use masonry::history::HistoryStep;
 use masonry::ids::BlockId;
 use masonry::model::{Body, Cause, EdgeLoad, LoadCase, Model, PlacedBlock, PlacedForce};
 
-/// The displacement component of largest size, with its sign and place.
+/// The displacement component of largest absolute value, with its sign and place.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LargestDisplacement {
     /// The component \[m\], signed.
     pub value: f64,
-    /// `x` or `y`.
+    /// Direction of the component: `x` or `y`.
     pub component: char,
-    /// The block.
+    /// The block of the node.
     pub block: BlockId,
     /// Position of the node before deformation \[m\].
     pub position: Point2<f64>,
 }
 
-/// A principal stress and its place.
+/// A principal stress and the element in which it occurs.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ExtremeStress {
     /// The stress \[Pa\], tension positive.
     pub value: f64,
-    /// The block.
+    /// The block of the element.
     pub block: BlockId,
     /// The centre of the element \[m\].
     pub position: Point2<f64>,
 }
 
-/// A force and its moment about the origin, in SI units.
+/// The resultant of forces: their sum, and their moment about the origin, in SI units.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Resultant {
     /// Force \[N\].
@@ -57,12 +57,12 @@ impl Resultant {
     }
 }
 
-/// The nodes of a block: those of its mesh, or the corners of a rigid block.
+/// Returns the nodes of a block: those of its mesh, or the corners of a rigid block.
 pub fn nodes(block: &PlacedBlock) -> &[Point2<f64>] {
     block.mesh.as_ref().map_or(&block.corners, |mesh| &mesh.nodes)
 }
 
-/// The largest displacement component; `None` without blocks.
+/// Finds the displacement component of largest absolute value; `None` without blocks.
 pub fn largest_displacement(model: &Model, state: &State) -> Option<LargestDisplacement> {
     let mut largest: Option<LargestDisplacement> = None;
     for (index, (block, moves)) in model.blocks.iter().zip(&state.displacements).enumerate() {
@@ -78,8 +78,8 @@ pub fn largest_displacement(model: &Model, state: &State) -> Option<LargestDispl
     largest
 }
 
-/// The most compressive and the most tensile principal stress; `None` if no element is in
-/// compression, or in tension.
+/// Finds the most compressive and the most tensile principal stress; `None` in the first place if no element is in
+/// compression, in the second if none is in tension.
 pub fn extreme_stresses(state: &State) -> (Option<ExtremeStress>, Option<ExtremeStress>) {
     let mut compression: Option<ExtremeStress> = None;
     let mut tension: Option<ExtremeStress> = None;
@@ -96,19 +96,19 @@ pub fn extreme_stresses(state: &State) -> (Option<ExtremeStress>, Option<Extreme
     (compression, tension)
 }
 
-/// Extremes of the stresses in the mortar films.
+/// The stresses at three places in the mortar films at which a component is largest.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FilmExtremes {
-    /// The stresses at the place of the largest compression across the joint.
+    /// The stresses at the place of the largest compression perpendicular to the joint.
     pub compression: FilmStress,
-    /// The stresses at the place of the largest shear, in either direction.
+    /// The stresses at the place of the shear stress of largest absolute value.
     pub shear: FilmStress,
-    /// The stresses at the place of the largest stress along the film, pressure or tension; `sigma_x` is `None` if
-    /// films act only across their joints.
+    /// The stresses at the place of the stress along the film of largest absolute value, compression or tension;
+    /// `sigma_x` is `None` if films act only perpendicular to their joints.
     pub along: FilmStress,
 }
 
-/// The largest stresses in the mortar films; `None` without films.
+/// Finds the largest stresses in the mortar films; `None` without films.
 pub fn extreme_film_stresses(state: &State) -> Option<FilmExtremes> {
     let first = *state.films.first()?;
     let start = FilmExtremes { compression: first, shear: first, along: first };
@@ -126,18 +126,18 @@ pub fn extreme_film_stresses(state: &State) -> Option<FilmExtremes> {
     }))
 }
 
-/// The resultant of all loads and self weights.
+/// Returns the resultant of all loads and self weights.
 pub fn applied_load(model: &Model) -> Resultant {
     let (loads, weight) = (loads(model), weight(model));
     Resultant { force: loads.force + weight.force, moment: loads.moment + weight.moment }
 }
 
-/// The resultant of all loads, without self weights.
+/// Returns the resultant of all loads, without self weights.
 pub fn loads(model: &Model) -> Resultant {
     resultant(model, |cause| cause != Cause::Weight)
 }
 
-/// The resultant of all self weights.
+/// Returns the resultant of all self weights.
 pub fn weight(model: &Model) -> Resultant {
     resultant(model, |cause| cause == Cause::Weight)
 }
@@ -152,7 +152,7 @@ fn resultant(model: &Model, counts: impl Fn(Cause) -> bool) -> Resultant {
     total
 }
 
-/// The loads of a group.
+/// The loads that share a group name.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LoadGroup<'a> {
     /// Name of the group.
@@ -163,7 +163,7 @@ pub struct LoadGroup<'a> {
     pub sum: Resultant,
 }
 
-/// The groups of loads, in the order of their first loads.
+/// Returns the groups of loads, in the order of their first loads.
 pub fn load_groups(model: &Model) -> Vec<LoadGroup<'_>> {
     let mut sums = vec![Resultant::default(); model.loads.len()];
     for (cause, load) in model.blocks.iter().flat_map(|block| model.causes_on(block)) {
@@ -189,7 +189,7 @@ pub fn load_groups(model: &Model) -> Vec<LoadGroup<'_>> {
     groups
 }
 
-/// The sum of all support reactions.
+/// Returns the sum of all support reactions.
 pub fn total_reaction(outcome: &Outcome) -> Resultant {
     let mut total = Resultant::default();
     for reaction in &outcome.reactions {
@@ -199,17 +199,17 @@ pub fn total_reaction(outcome: &Outcome) -> Resultant {
     total
 }
 
-/// Supports that meet in a corner of the structure, and the resultant of all of them.
+/// Supports that hold a block at the same place, and the resultant of their reactions.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CornerSum {
     /// Names of the supports.
     pub supports: Vec<String>,
-    /// The sum of the reactions of these supports.
+    /// The resultant of the reactions of these supports.
     pub sum: Resultant,
 }
 
-/// Supports that hold a block at the same place: their reactions there are not unique one by one; only the sum is
-/// unique.
+/// Finds supports that hold a block at the same place. Only the sum of their reactions at this place is unique, not the
+/// single reactions.
 pub fn corner_sums(outcome: &Outcome) -> Vec<CornerSum> {
     let groups = groups_at_corners(&outcome.model);
     let of_group = |group: Vec<usize>| {
@@ -225,7 +225,7 @@ pub fn corner_sums(outcome: &Outcome) -> Vec<CornerSum> {
 }
 
 fn groups_at_corners(model: &Model) -> Vec<Vec<usize>> {
-    /// The largest distance between supports at the same place, relative to the size of a block.
+    /// The largest distance between supports that count as at the same place, divided by the size of a block.
     const SAME_PLACE: f64 = 1e-9;
     let mut held: Vec<Vec<(usize, Point2<f64>)>> = vec![Vec::new(); model.blocks.len()];
     for contact in &model.contacts {
@@ -249,13 +249,13 @@ fn groups_at_corners(model: &Model) -> Vec<Vec<usize>> {
     (0..group.len()).map(members).filter(|members| members.len() > 1).collect()
 }
 
-/// Start and end of the loaded part of an edge \[m\].
+/// Returns the start and the end of the loaded part of an edge \[m\].
 pub fn loaded_part(block: &PlacedBlock, load: &EdgeLoad) -> (Point2<f64>, Point2<f64>) {
     let place = |at| geometry::on_edge(&block.corners, load.edge, at);
     (place(load.from), place(load.to))
 }
 
-/// The reason for which the scene is not solved, in a sentence or two; `None` if it is solved.
+/// Returns the reason for which the scene is not solved, in a sentence or two; `None` if the scene is solved.
 pub fn reason(outcome: &Outcome) -> Option<String> {
     let mut why = why(outcome)?.to_owned();
     if outcome.judgement.evidence == Evidence::NoAdmissibleForces

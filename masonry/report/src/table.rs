@@ -18,8 +18,8 @@ use masonry::plan::{Effect, Plan, PlannedRoute};
 use masonry::scene::Route;
 use masonry::units::Units;
 
-/// The whole report: verdict, reactions, state, history and loads; then the method, the model, and times. Without a
-/// solution, the report explains the reason.
+/// Returns the whole report as text: verdict, reactions, state, history and loads; then the method, the model, and
+/// times. Without a solution, the report states the reason.
 pub fn report(outcome: &Outcome) -> String {
     let title = if outcome.title.is_empty() { "Untitled scene" } else { &outcome.title };
     let judgement = &outcome.judgement;
@@ -58,12 +58,12 @@ pub fn report(outcome: &Outcome) -> String {
     text
 }
 
-/// The plan: effects with their reasons, sizes, and the solver.
+/// Returns a plan as text: effects with their reasons, sizes, and the solver.
 pub fn plan(plan: &Plan) -> String {
     format!("{}\n{}", text::table(&effects(plan)), pairs(&figures(plan)))
 }
 
-/// The plan of a solve; the unused effects are in one line.
+/// Returns the plan of a solve as text; the unused effects are in one line.
 fn built(plan: &Plan) -> String {
     let mut on = effects(plan).without("is_on");
     on.retain(|k| plan.effects[k].on);
@@ -119,8 +119,8 @@ fn residuals(it: &lcp::Residuals) -> String {
     ])
 }
 
-/// Memory of the first route, and of the route that needs most if it is run, in units of 10^6 bytes, which are small
-/// numbers for the smallest scenes.
+/// Returns the memory of the first route, and of the route that needs most if it is run, in words. The unit is 10^6
+/// bytes, for which the smallest scenes have small numbers.
 fn memory(routes: &[PlannedRoute]) -> String {
     let megabytes =
         |it: &PlannedRoute| format!("{} MB", significant(it.memory_bytes as f64 / 1e6, 2));
@@ -196,7 +196,8 @@ fn reactions(outcome: &Outcome) -> String {
     text
 }
 
-/// Loads with factor and resultant; groups of several loads also with their sum.
+/// Returns the table of all loads with factor and resultant; groups of several loads have an additional row with their
+/// sum.
 fn loads(model: &Model) -> String {
     let table = tables::loads(InUnits(model.units), &load_groups(model), true);
     text::table(&table.only("group load factor fx fy m"))

@@ -21,18 +21,18 @@ pub(super) fn paragraph(text: &str) -> String {
     table.trim_fmt() + "\n"
 }
 
-/// A paragraph of the head of the report.
+/// Returns a paragraph of the head of the report, broken into lines.
 pub(super) fn head(text: &str) -> String {
     paragraph(text).lines().map(|line| line.trim_start().to_owned() + "\n").collect()
 }
 
-/// The head of a report: a sentence and warnings.
+/// Returns the head of a report: a sentence, and warnings.
 pub(super) fn heads(sentence: &str, warnings: &[String]) -> String {
     let warnings = warnings.iter().map(|warning| head(&format!("Warning: {warning}")));
     head(sentence) + &warnings.collect::<String>()
 }
 
-/// Names and values in two columns.
+/// Lays out names and values in two columns.
 pub(super) fn pairs(rows: &[(&str, String)]) -> String {
     let mut table = plain();
     for (name, value) in rows {
@@ -48,12 +48,12 @@ fn plain() -> comfy_table::Table {
     table
 }
 
-/// A table; rows without values are empty lines.
+/// Returns a table as text; rows without values become empty lines.
 pub(super) fn table(table: &Table) -> String {
     drawn(table).trim_fmt() + "\n"
 }
 
-/// The table as a `comfy_table::Table`, whose column widths can be changed.
+/// Returns the table as a `comfy_table::Table`, whose column widths can be changed.
 pub(super) fn drawn(table: &Table) -> comfy_table::Table {
     let mut drawn = comfy_table::Table::new();
     let rule = LineStyle::none().fill('-').junction('-');

@@ -12,13 +12,12 @@ use masonry::model::Model;
 const QUAD: u8 = 9;
 const POLYGON: u8 = 7;
 
-/// The bytes of `panel.vtu`: every element as a quadrilateral, and every rigid block as one
-/// polygon.
+/// Returns the bytes of `panel.vtu`: every element as a quadrilateral, and every rigid block as one polygon.
 ///
 /// Blocks share no points, so that joints can open. Point data: `displacement_m` (3 components). Cell data: `block`
 /// (position in the model), `deformable` (0 for rigid blocks, whose stresses are unknown and written as zero), and
-/// `sigma_x_kN/m2` and so on if stresses were recovered. The names carry the units of the scene. Only the geometry is
-/// written without a state.
+/// `sigma_x_kN/m2` and so on if stresses were recovered. The names carry the units of the scene. Without a state, the
+/// file has the geometry alone.
 pub fn vtu(model: &Model, state: Option<&State>) -> Vec<u8> {
     let units = InUnits(model.units);
     let grid = Grid::of(model);
@@ -73,18 +72,18 @@ const STRESSES: [(&str, Component); 5] = [
     ("sigma_2", |stress| stress.principal.sigma_2),
 ];
 
-/// All blocks as one list of points and cells.
+/// The mesh of all blocks as one list of points and cells.
 #[derive(Debug, Default)]
 struct Grid {
     /// Three coordinates for each point \[m\].
     points: Vec<f64>,
     connectivity: Vec<i64>,
-    /// The end of each cell in `connectivity`.
+    /// The end of each cell in `connectivity`, which lists the points of all cells one after the other.
     ends: Vec<usize>,
     types: Vec<u8>,
     blocks: Vec<i64>,
     deformable: Vec<u8>,
-    /// The first cell of every block.
+    /// The index of the first cell of every block.
     first_cell: Vec<usize>,
 }
 
@@ -136,7 +135,7 @@ impl Grid {
     }
 }
 
-/// The raw data after the XML, and the tags that refer to the data.
+/// The raw data after the XML, and the XML elements that refer to the data.
 #[derive(Debug, Default)]
 struct Appended {
     data: Vec<u8>,

@@ -8,22 +8,22 @@ use crate::format::Quantity::{Energy, Force, Length, Pure, Radians};
 use masonry::history::{History, HistoryStep, StepRecord};
 use masonry::model::Model;
 
-/// Keys of JSON before and after the factors and movements of a step.
+/// Keys of the first columns of a step in JSON, before its factors and movements.
 const ACTIONS: &str = "stage step of gravity";
 const FOUND: &str = "route way factorisations residual work dissipation friction_power energy_created dragged \
                      strain_energy balance max_displacement";
 
-/// A step, and the sums up to it.
+/// A step, and the sums of work and dissipation up to this step.
 struct Row<'a> {
     number: usize,
     it: &'a StepRecord,
     work: f64,
     dissipated: f64,
-    /// The work that friction has not dissipated.
+    /// The work that friction has not dissipated: the sum of `work - dissipation` of all steps so far.
     left: f64,
 }
 
-/// A row for every step that was solved.
+/// Returns the table of a load history: a row for every step that was solved.
 pub(crate) fn steps(model: &Model, history: &History) -> Table {
     let (mut work, mut dissipated, mut left) = (0.0, 0.0, 0.0);
     let rows = (1..).zip(&history.records).map(|(number, it)| {
@@ -85,7 +85,7 @@ fn columns<'a>(model: &'a Model, history: &'a History) -> Columns<'a, Row<'a>> {
         .count("factorisations", |it| it.it.factorisations)
 }
 
-/// The number of a step and of all of its stage.
+/// Returns the number of a step, and the number of all steps of its stage.
 pub(crate) fn place(step: &HistoryStep) -> String {
     format!("{}/{}", step.number, step.of)
 }
@@ -99,7 +99,8 @@ pub(crate) fn on_page(model: &Model, history: &History) -> Table {
         .only("number stage step max_displacement work dissipation open stick slip")
 }
 
-/// The table of the report as text; a paragraph below the table gives the meanings and units of its short names.
+/// Returns the table for the report as text; a paragraph below the table gives the meanings and units of its short
+/// names.
 pub(crate) fn in_text(model: &Model, history: &History) -> Table {
     steps(model, history)
         .only("stage place W D strain_energy balance max_displacement open stick slip way")
@@ -108,7 +109,7 @@ pub(crate) fn in_text(model: &Model, history: &History) -> Table {
         ])
 }
 
-/// The object of a history; `failed` is the step that could not be solved.
+/// Returns the JSON object of a history; its `failed` is the step that could not be solved.
 pub(crate) fn in_json(model: &Model, history: &History) -> Result<Value, serde_json::Error> {
     let units = InUnits(model.units);
     let all = steps(model, history);

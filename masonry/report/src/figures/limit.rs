@@ -17,7 +17,7 @@ fn bound(it: Option<f64>, side: BoundSide, digits: usize) -> String {
     it.map_or("none".to_owned(), |it| outwards(it, side, |it| significant(it, digits)))
 }
 
-/// The limit load of associated flow.
+/// Returns the figures of the limit load by associated flow.
 pub(crate) fn associative(found: &Associative, model: &Model) -> Vec<Figure> {
     let Associative { load_factor, bound: limit, .. } = *found;
     let meant = |it: Option<f64>, side, what: &str| match it {
@@ -52,7 +52,7 @@ fn moves(model: &Model, rates: &[Vec<nalgebra::Vector2<f64>>]) -> Figure {
     Figure::new("mechanism", rates_by_name(model, rates)).both("moves", part)
 }
 
-/// The factor that the rest of a structure carries if the moving part is held.
+/// Returns in words the load factor that the other blocks carry if the moving blocks are held.
 fn carried_by_rest(Rest { load_factor, bound }: Rest) -> String {
     let told = |it, side| outwards(it, side, |it| significant(it, 5));
     let if_held = "if the blocks that move are held (they may support others)";
@@ -71,7 +71,7 @@ fn carried_by_rest(Rest { load_factor, bound }: Rest) -> String {
     }
 }
 
-/// The limit load along a path.
+/// Returns the figures of the limit load along a path.
 pub(crate) fn path(path: &Path) -> Vec<Figure> {
     let units = InUnits(path.model.units);
     let factor = bound(path.load_factor, BoundSide::Below, 10);
@@ -97,7 +97,7 @@ pub(crate) fn path(path: &Path) -> Vec<Figure> {
     list
 }
 
-/// The states at rest, by growing factor.
+/// Returns the table of the states of rest along a path, by growing load factor.
 pub(crate) fn curve(path: &Path) -> Table {
     Columns::<&Stand>::new()
         .number("load_factor", Pure, Significant(5), |it| it.load_factor)
@@ -108,7 +108,7 @@ pub(crate) fn curve(path: &Path) -> Table {
         .table(InUnits(path.model.units), &path.curve)
 }
 
-/// Joints that open and slide along a path, each between two factors.
+/// Returns the table of the joints that open and slide along a path, each between two load factors.
 pub(crate) fn events(path: &Path) -> Table {
     let model = &path.model;
     let sides = |it: &JointEvent| sides(model, &model.joints[it.joint.index()]);
@@ -126,7 +126,7 @@ pub(crate) fn events(path: &Path) -> Table {
         .table(InUnits(model.units), (1..).zip(&path.events))
 }
 
-/// The least thickness of an arch.
+/// Returns the figures of the least thickness of an arch.
 pub(crate) fn thickness(it: &Thickness) -> Vec<Figure> {
     let units = InUnits(it.model.units);
     let unit = units.0.length_name();
@@ -144,12 +144,12 @@ pub(crate) fn thickness(it: &Thickness) -> Vec<Figure> {
     ]
 }
 
-/// The least and the largest reactions of supports.
+/// Returns the table of the least and the largest reactions of supports.
 pub(crate) fn range(range: &Range) -> Option<Table> {
     let units = InUnits(range.model.units);
     let is_whole = !range.is_interrupted;
     let value = move |it: Extreme| match it {
-        // A value below the gap of the bounds is zero if the search came to its end.
+        // A value that is at most as far from zero as from its bound counts as zero if the search is complete.
         Extreme::Value { value, bound } if is_whole && value.abs() <= (bound - value).abs() => {
             Value::from("0")
         }

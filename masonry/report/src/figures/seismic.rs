@@ -5,7 +5,7 @@ use crate::format::{InUnits, acceleration_text, significant};
 use masonry::analysis::limit::SeismicCheck;
 use masonry::rounding::{BoundSide, outwards};
 
-/// The law of friction of the factor and the mechanism, as a key and in words.
+/// Returns the law of friction of the factor and the mechanism, as a key and in words.
 fn law(it: &SeismicCheck) -> [&'static str; 2] {
     if it.is_of_path {
         ["path", "Coulomb's law, along the path"]
@@ -14,12 +14,12 @@ fn law(it: &SeismicCheck) -> [&'static str; 2] {
     }
 }
 
-/// An acceleration that is carried, not rounded upwards.
+/// Writes an acceleration that is carried, never rounded upwards.
 fn carried(value: f64) -> String {
     outwards(value, BoundSide::Below, |it| significant(it, 4))
 }
 
-/// The answer of the check in words, or, without a demand, the quantity to compare with it.
+/// Returns the answer of the check in words; without a demand, the capacity with which a demand is to be compared.
 pub(crate) fn answer(it: &SeismicCheck) -> String {
     let [found, least] = [it.capacity, it.least_capacity].map(carried);
     let Some(demand) = it.demand else {
@@ -46,7 +46,7 @@ pub(crate) fn answer(it: &SeismicCheck) -> String {
     }
 }
 
-/// The check, formula by formula.
+/// Returns the figures of the check, formula by formula.
 pub(crate) fn seismic(it: &SeismicCheck, units: InUnits) -> Vec<Figure> {
     let [law, law_in_words] = law(it);
     let data = it.data;

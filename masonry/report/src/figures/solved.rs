@@ -14,10 +14,10 @@ use masonry::data::state::{FilmStress, State};
 use masonry::model::Model;
 use masonry::rounding::largest;
 
-/// Errors of balances, and the numbers of contact points that are open, stick and slip.
+/// Returns the errors of the balances, and the numbers of contact points that are open, stick and slip.
 pub(crate) fn checks(outcome: &Outcome) -> Vec<Figure> {
     let Some(it) = &outcome.checks else { return Vec::new() };
-    // Keys, names and values.
+    // Keys, names and values of the errors.
     let errors = [
         ("force", "force", it.force_balance),
         ("moment", "moment", it.moment_balance),
@@ -39,14 +39,14 @@ pub(crate) fn checks(outcome: &Outcome) -> Vec<Figure> {
     ]
 }
 
-/// Names and numbers in a line.
+/// Writes names and numbers in one line.
 pub(crate) fn listed(values: &[(&str, f64)]) -> String {
     let texts: Vec<String> =
         values.iter().map(|(name, value)| format!("{name} {}", significant(*value, 3))).collect();
     texts.join(", ")
 }
 
-/// Extremes of displacements, cracks, stresses and friction.
+/// Returns the extremes of displacements, cracks, stresses and friction.
 pub(crate) fn state(outcome: &Outcome) -> Vec<Figure> {
     let Some(state) = &outcome.state else { return Vec::new() };
     let model = &outcome.model;
@@ -69,7 +69,7 @@ pub(crate) fn state(outcome: &Outcome) -> Vec<Figure> {
     list
 }
 
-/// A place in a text.
+/// Writes the coordinates of a place.
 fn place(units: InUnits, at: Point2<f64>) -> String {
     let [x, y] = [at.x, at.y].map(|metres| significant(units.length(metres), 4));
     format!("({x}, {y}) {}", units.0.length_name())
@@ -140,7 +140,7 @@ fn stresses(model: &Model, state: &State) -> Vec<Figure> {
     ]
 }
 
-/// The stresses in mortar films; JSON has one object of them.
+/// Returns the stresses in mortar films; in JSON, all of them are members of one object.
 fn films(model: &Model, state: &State) -> Vec<Figure> {
     let Some(films) = extreme_film_stresses(state) else { return Vec::new() };
     let units = InUnits(model.units);

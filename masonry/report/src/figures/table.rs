@@ -3,13 +3,13 @@
 use super::{Members, Value};
 use crate::format::{InUnits, Quantity};
 
-/// The way in which a text writes the numbers of a column.
+/// The way in which a report as text writes the numbers of a column.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Digits {
-    /// Decimals that give the largest number so many significant digits, in this column and in its neighbours of the
-    /// same quantity.
+    /// Equally many decimals in this column and in neighbouring columns of the same quantity, so that the largest
+    /// number has this many significant digits.
     Aligned(usize),
-    /// A number of significant digits.
+    /// This many significant digits.
     Significant(usize),
     /// Two digits and a power of ten.
     Power,
@@ -24,12 +24,12 @@ pub(crate) struct Column {
     pub(crate) name: String,
     pub(crate) quantity: Quantity,
     pub(crate) digits: Digits,
-    /// Whether a text aligns the column on the right.
+    /// Whether a report as text aligns the column on the right.
     pub(crate) is_right: bool,
 }
 
 impl Column {
-    /// The name and the unit.
+    /// Returns the name of the column with its unit.
     pub(crate) fn head(&self, units: InUnits) -> String {
         match units.unit(self.quantity).as_str() {
             "" => self.name.clone(),
@@ -38,10 +38,10 @@ impl Column {
     }
 }
 
-/// The value in a column for a record, in SI units.
+/// A function that returns the value in a column for a record, in SI units.
 type Entry<'a, T> = Box<dyn Fn(&T) -> Value + 'a>;
 
-/// Columns, each with its value for a record.
+/// Columns of a table, each with the function that returns its value for a record.
 pub(crate) struct Columns<'a, T>(Vec<(Column, Entry<'a, T>)>);
 
 impl<'a, T> Columns<'a, T> {
@@ -71,12 +71,12 @@ impl<'a, T> Columns<'a, T> {
         self
     }
 
-    /// Gives the last column another name for readers.
+    /// Gives the last column another name for readers; the key stays.
     pub(crate) fn named(self, name: &str) -> Self {
         self.last(|it| name.clone_into(&mut it.name))
     }
 
-    /// Aligns the last column of a text on the right, or on the left.
+    /// Aligns the last column on the right or on the left in reports as text.
     pub(crate) fn right(self, is_right: bool) -> Self {
         self.last(|it| it.is_right = is_right)
     }
@@ -88,7 +88,7 @@ impl<'a, T> Columns<'a, T> {
         self
     }
 
-    /// The table with a row for every record.
+    /// Returns the table with a row for every record.
     pub(crate) fn table(&self, units: InUnits, records: impl IntoIterator<Item = T>) -> Table {
         let value = |column: &Column, value| match value {
             Value::Number(si) => Value::Number(units.of(column.quantity, si)),
@@ -108,18 +108,18 @@ impl<'a, T> Columns<'a, T> {
 pub(crate) struct Table {
     pub(crate) units: InUnits,
     pub(crate) columns: Vec<Column>,
-    /// Values in the units of the scene; rows without values are gaps.
+    /// Values in the units of the scene; a row without values is shown as a gap.
     pub(crate) rows: Vec<Vec<Value>>,
 }
 
 impl Table {
-    /// The table with the columns of these keys, in their order.
+    /// Returns the table with the columns of these keys (separated by spaces), in the order of the keys.
     pub(crate) fn only(&self, keys: &str) -> Self {
         let positions = keys.split(' ').filter_map(|key| self.position(key));
         self.picked(&positions.collect::<Vec<_>>())
     }
 
-    /// The table without the columns of these keys.
+    /// Returns the table without the columns of these keys, which are separated by spaces.
     pub(crate) fn without(&self, keys: &str) -> Self {
         let stays = |k: &usize| keys.split(' ').all(|key| self.columns[*k].key != key);
         self.picked(&(0..self.columns.len()).filter(stays).collect::<Vec<_>>())
@@ -137,25 +137,25 @@ impl Table {
         Self { units: self.units, columns, rows: self.rows.iter().map(row).collect() }
     }
 
-    /// The table with other column names; there is one for each column.
+    /// Returns the table with these names of its columns, one name for each column.
     pub(crate) fn with_names<const N: usize>(mut self, names: [&str; N]) -> Self {
         self.columns.iter_mut().zip(names).for_each(|(it, name)| name.clone_into(&mut it.name));
         self
     }
 
-    /// The table with so many significant digits in all numbers.
+    /// Returns the table with this many significant digits in all numbers.
     pub(crate) fn with_digits(mut self, digits: usize) -> Self {
         self.columns.iter_mut().for_each(|it| it.digits = Digits::Significant(digits));
         self
     }
 
-    /// Leaves rows out, by their positions.
+    /// Keeps the rows for whose index `stays` returns true.
     pub(crate) fn retain(&mut self, stays: impl Fn(usize) -> bool) {
         let mut position = 0..;
         self.rows.retain(|_| position.next().is_some_and(&stays));
     }
 
-    /// The numbers of a column.
+    /// Returns the numbers of a column.
     pub(crate) fn numbers(&self, key: &str) -> Vec<f64> {
         let number = |value: &Value| match value {
             Value::Number(it) => Some(*it),
@@ -166,13 +166,13 @@ impl Table {
         values.filter_map(number).collect()
     }
 
-    /// Every row as the members of an object.
+    /// Returns every row as the members of a JSON object.
     pub(crate) fn objects(&self) -> Vec<Members> {
         let keys = || self.columns.iter().map(|it| it.key.clone());
         self.rows.iter().map(|row| keys().zip(row.iter().cloned()).collect()).collect()
     }
 
-    /// An object with a member for every row, which the first column names.
+    /// Returns a JSON object with a member for every row; the first column gives the names of the members.
     pub(crate) fn by_name(&self) -> Members {
         let named = |mut row: Members| match row.remove(0).1 {
             Value::Words(name) => (name, Value::Object(row)),

@@ -12,7 +12,7 @@ use crate::summary::{LoadGroup, Resultant};
 use masonry::data::state::{FilmStress, PointState, PointStatus, Reaction, State};
 use masonry::model::{Body, JointPoint, Model, PlacedJoint};
 
-/// Forces with names.
+/// Returns the table of named forces with their moments.
 pub(crate) fn forces<'a>(
     units: InUnits,
     list: impl IntoIterator<Item = (&'a str, Resultant)>,
@@ -25,20 +25,21 @@ pub(crate) fn forces<'a>(
         .table(units, list)
 }
 
-/// The reactions of supports.
+/// Returns the table of the reactions of supports.
 pub(crate) fn reactions(units: InUnits, list: &[Reaction]) -> Table {
     let of = |it: &Reaction| Resultant { force: Vector2::new(it.fx, it.fy), moment: it.m };
     forces(units, list.iter().map(|it| (it.support.as_str(), of(it))))
 }
 
-/// A load, or the sum of a group.
+/// A row of the table of loads: a load, or the sum of a group.
 struct LoadRow<'a> {
     names: [&'a str; 2],
     factor: Option<f64>,
     sum: Resultant,
 }
 
-/// The loads of groups; with sums for readers, and the name of a group once.
+/// Returns the table of the loads of groups. The table for readers (`with_sums`) has sums, and the name of each group
+/// once.
 pub(crate) fn loads(units: InUnits, groups: &[LoadGroup<'_>], with_sums: bool) -> Table {
     let mut rows = Vec::new();
     for LoadGroup { name, loads, sum } in groups {
@@ -60,7 +61,7 @@ pub(crate) fn loads(units: InUnits, groups: &[LoadGroup<'_>], with_sums: bool) -
         .table(units, rows)
 }
 
-/// Rates of the corners of every block, by its name.
+/// Returns the displacement rates of the corners of every block by the name of the block.
 pub(crate) fn rates_by_name(model: &Model, rates: &[Vec<Vector2<f64>>]) -> Value {
     let rate = |it: &Vector2<f64>| Value::List(vec![it.x.into(), it.y.into()]);
     let of_block = |rates: &Vec<Vector2<f64>>| Value::List(rates.iter().map(rate).collect());
@@ -68,7 +69,7 @@ pub(crate) fn rates_by_name(model: &Model, rates: &[Vec<Vector2<f64>>]) -> Value
     Value::Object(names.zip(rates.iter().map(of_block)).collect())
 }
 
-/// The bodies on both sides of a joint.
+/// Returns the names of the bodies behind and in front of a joint.
 pub(crate) fn sides<'a>(model: &'a Model, joint: &PlacedJoint) -> [&'a str; 2] {
     [joint.a, Body::Block(joint.b)].map(|body| body_name(model, body))
 }
@@ -77,7 +78,7 @@ fn class<'a>(model: &'a Model, joint: &PlacedJoint) -> &'a str {
     model.joint_classes.get(joint.class).map_or("", |class| &class.name)
 }
 
-/// A joint that carries something or has opened.
+/// A joint that carries a force or has opened, in the table of joints.
 struct JointRow<'a> {
     index: usize,
     joint: &'a PlacedJoint,
@@ -85,7 +86,7 @@ struct JointRow<'a> {
     opened: Option<&'a JointOpening>,
 }
 
-/// The forces and openings of all joints.
+/// Returns the table of the forces and openings of all joints.
 pub(crate) fn joints(model: &Model, contacts: &[PointState]) -> Table {
     let (forces, openings) = (joints::forces(model, contacts), joints::openings(model, contacts));
     let rows = model.joints.iter().enumerate().map(|(index, joint)| JointRow {
@@ -110,7 +111,7 @@ pub(crate) fn joints(model: &Model, contacts: &[PointState]) -> Table {
     if openings.is_empty() { table.without("open slip") } else { table }
 }
 
-/// The joints that yield in a mechanism, with the numbers of its picture.
+/// Returns the table of the joints that yield in a mechanism, with the numbers that they have in its picture.
 pub(crate) fn hinges(model: &Model, rates: &[Vec<Vector2<f64>>]) -> Table {
     /// Rates below this part of the largest are rounding errors.
     const NO_RATE: f64 = 1e-9;
@@ -126,7 +127,7 @@ pub(crate) fn hinges(model: &Model, rates: &[Vec<Vector2<f64>>]) -> Table {
         .table(InUnits(model.units), yielding(model, rates))
 }
 
-/// A contact point and its state.
+/// A contact point and its state, in the table of contact points.
 struct PointRow<'a> {
     index: usize,
     contact: &'a JointPoint,
@@ -141,7 +142,7 @@ impl PointRow<'_> {
     }
 }
 
-/// All contact points, in the order of the model.
+/// Returns the table of all contact points, in the order of the model.
 pub(crate) fn contacts(model: &Model, state: &State) -> Table {
     let mut films = state.films.iter().peekable();
     let points = model.contacts.iter().zip(&state.contacts).enumerate();
@@ -187,7 +188,7 @@ pub(crate) fn contacts(model: &Model, state: &State) -> Table {
     }
 }
 
-/// The numbers of contact points that are open, stick and slip.
+/// Returns the numbers of contact points that are open, stick and slip as a value of a table.
 pub(crate) fn counts([open, stick, slip]: [usize; 3]) -> Value {
     Value::Object(members! { "open": open, "stick": stick, "slip": slip })
 }

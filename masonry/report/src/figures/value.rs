@@ -5,7 +5,7 @@ use serde::Serialize;
 /// A value of JSON; members of objects keep their order.
 #[derive(Debug, Clone)]
 pub(crate) enum Value {
-    /// A value that is not known, or does not exist.
+    /// A value that is unknown, or does not exist: null in JSON.
     Nothing,
     Flag(bool),
     Count(usize),
@@ -13,14 +13,14 @@ pub(crate) enum Value {
     Words(String),
     List(Vec<Value>),
     Object(Members),
-    /// The pretty-printed text of another value.
+    /// A value that is already written as pretty-printed JSON.
     Json(String),
 }
 
-/// Members of an object, by their keys.
+/// Members of a JSON object: keys and values.
 pub(crate) type Members = Vec<(String, Value)>;
 
-/// Members of an object.
+/// Makes the members of a JSON object from keys and values.
 macro_rules! members {
     ($($key:literal: $value:expr),* $(,)?) => {
         vec![$(($key.to_owned(), $crate::figures::Value::from($value))),*]
@@ -30,12 +30,12 @@ macro_rules! members {
 pub(crate) use members;
 
 impl Value {
-    /// The value of an object that can serialise itself.
+    /// Converts an object that can serialise itself into a value.
     pub(crate) fn of(it: &(impl Serialize + ?Sized)) -> Result<Self, serde_json::Error> {
         serde_json::to_string_pretty(it).map(Self::Json)
     }
 
-    /// The text of a file.
+    /// Returns the text of a JSON file with this value.
     pub(crate) fn file(&self) -> Result<String, serde_json::Error> {
         Ok(self.pretty()? + "\n")
     }
@@ -59,7 +59,8 @@ impl Value {
     }
 }
 
-/// Items on lines of their own; strings of JSON have no line breaks, so that all lines can be indented.
+/// Writes the items of a list or an object on lines of their own. All lines can be indented, since strings of JSON have
+/// no line breaks.
 fn enclosed(
     [open, close]: [&str; 2],
     items: impl Iterator<Item = Result<String, serde_json::Error>>,
@@ -69,7 +70,7 @@ fn enclosed(
     Ok(format!("{open}{lines}{close}"))
 }
 
-/// Conversions into values.
+/// Implements `From` for types that become values.
 macro_rules! from {
     ($($type:ty => $value:expr),* $(,)?) => {
         $(impl From<$type> for Value {

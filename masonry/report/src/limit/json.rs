@@ -10,10 +10,25 @@ use masonry::analysis::limit::{
 use masonry::data::statics::Extreme;
 use masonry::model::Model;
 
-/// A value, or the error of the serialiser.
+/// A value of JSON, or the error of the serialiser.
 type Written = Result<Value, serde_json::Error>;
 
-/// The object of `limit.json` and of `masonry limit --json`, pretty-printed.
+/// Returns the object of `limit.json` and of `masonry limit --json`, pretty-printed. Members:
+///
+/// * `associative`: the `answer`, the `load_factor` that forces carry, the `bound` above which it is proved that no
+///   forces balance the loads, the `gap` between the two, whether the answer is `proved`, the `reactions` under the
+///   load factor, and the `mechanism`: rates of the corners of every block, scaled to a largest component of one. If
+///   the mechanism moves a single block, or at most a tenth of the blocks, `rest` has the `load_factor` and the `bound`
+///   of the other blocks while the moving blocks are held.
+/// * `path`: the `load_factor` up to which blocks rest, the factor at which the structure `falls`, whether the limit is
+///   `decided`, the `last_stable` state, the `mechanism` after that state, the `events` along the path and the `curve`.
+/// * `seismic`: the check of a group of accelerations: the `law` of factor and mechanism, `alpha_0`, the `weight` that
+///   moves, `mass` M* in kg, `fraction` e*, `FC`, `a_0` in m/s^2, the least `a_0_least` of all mechanisms of the limit,
+///   the data of the site, the `demand`, and whether the demand is `satisfied`: null if this mechanism satisfies it,
+///   but not every mechanism.
+/// * `units`: the names of the units.
+///
+/// Unknown values are null; `associative` or `path` is null if that law of friction was not chosen.
 ///
 /// `associative` has the `answer`, the `load_factor` that forces carry, the `bound` above which it is proved that none
 /// do, the `gap` between them, whether the answer is `proved`, the `reactions` under the load factor, and the
@@ -32,9 +47,10 @@ pub fn json(limit: &Limit, files: &[String]) -> Result<String, serde_json::Error
     report(limit, files)?.file()
 }
 
-/// The object of `masonry limit --both --json`, pretty-printed: the object of [`json`] for the `given` direction of the
-/// load and for the `opposite` one, and the direction that `governs` (`both` if the directions carry the same,
-/// `unknown` if one is not decided); files are those of the governing direction, or else of the given one.
+/// Returns the object of `masonry limit --both --json`, pretty-printed: the object of [`json`] for the `given`
+/// direction of the load and for the `opposite` direction, and the direction that `governs` (`both` if the directions
+/// carry the same, `unknown` if one direction is not decided). The files are those of the governing direction; without
+/// a governing direction, those of the given direction.
 ///
 /// # Errors
 /// As [`json`].
@@ -102,7 +118,8 @@ fn path(path: &Path) -> Written {
     Ok(Value::Object(object))
 }
 
-/// The two bodies that meet, the middle of their joint, and its behaviour between two factors.
+/// Returns an event of a path: the two bodies that meet, the middle of their joint, and the behaviour of the joint
+/// between two load factors.
 fn event(model: &Model, event: &JointEvent) -> Written {
     let units = InUnits(model.units);
     let joint = &model.joints[event.joint.index()];
@@ -131,9 +148,10 @@ fn names_of_units(model: &Model) -> Value {
     })
 }
 
-/// The object of `masonry limit --range --json`, pretty-printed: for every support the `min` and `max` of `fx` and
-/// `fy`, each with its `value`, the `bound` that no forces exceed, and whether it is `unlimited`; `range` is null if no
-/// forces balance the loads. Ends that an `interrupted` search did not find are null.
+/// Returns the object of `masonry limit --range --json`, pretty-printed: for every support the `min` and `max` of `fx`
+/// and `fy`, each with its `value`, the `bound` that no forces exceed, and whether it is `unlimited`. `range` is null
+/// if no forces balance the loads. `value` and `bound` are null for a `min` or `max` that is unlimited, or that an
+/// `interrupted` search did not find.
 ///
 /// # Errors
 /// As [`json`].
@@ -166,8 +184,8 @@ fn ends([min, max]: [Extreme; 2], units: InUnits) -> Value {
     Value::Object(members! { "min": end(min), "max": end(max) })
 }
 
-/// The object of `masonry limit --thickness ARCH --json`, pretty-printed: the largest thickness that `falls` and the
-/// smallest that `stands`, and whether the two are `proved` to be one number.
+/// Returns the object of `masonry limit --thickness ARCH --json`, pretty-printed: the largest thickness at which the
+/// arch `falls`, the smallest at which it `stands`, and whether it is `proved` that these two thicknesses are equal.
 ///
 /// # Errors
 /// As [`json`].

@@ -7,10 +7,10 @@ use crate::text::{head, heads, pairs, section, table as columns};
 use masonry::analysis::limit::{Directions, Governs, Limit, Path, Range, Thickness};
 use masonry::data::state::Reaction;
 
-/// The number of events that are printed; the JSON object has all.
+/// The largest number of events in the report as text; the JSON object has all events.
 const EVENTS: usize = 20;
 
-/// The report: the sentence, the results of each law, the seismic check, and the times.
+/// Returns the report of a limit load as text: the sentence, the results of each law, the seismic check, and the times.
 pub fn table(limit: &Limit) -> String {
     let mut text = heads(&limit.sentence, &limit.warnings);
     let units = InUnits(limit.model.units);
@@ -42,7 +42,7 @@ pub fn table(limit: &Limit) -> String {
     text + &pairs(&rows)
 }
 
-/// The sentences and seismic checks of both directions, and the report of the direction that governs.
+/// Returns the sentences and seismic checks of both directions, and the report of the direction that governs.
 pub fn table_both(both: &Directions) -> String {
     let which = match both.governs {
         Governs::Given => "The given direction governs:",
@@ -83,7 +83,7 @@ fn of_reactions(title: &str, list: &[Reaction], units: InUnits) -> String {
     section(title) + &columns(&reactions(units, list)) + " Moments are about the origin.\n"
 }
 
-/// The report of ranges: the least and the largest reaction of every support.
+/// Returns the report of ranges as text: the least and the largest reaction of every support.
 pub fn range_table(range: &Range) -> String {
     let text = head(&range.sentence);
     let Some(list) = figures::limit::range(range) else { return text };
@@ -92,7 +92,8 @@ pub fn range_table(range: &Range) -> String {
         + "\nEach gap is between the forces of a limit and the motion that proves that no forces exceed it.\n"
 }
 
-/// The report of a least thickness: the sentence, and both thicknesses.
+/// Returns the report of a least thickness as text: the sentence, and the thicknesses at which the arch stands and
+/// falls.
 pub fn thickness_table(it: &Thickness) -> String {
     let rows = on_text(&figures::limit::thickness(it));
     head(&it.sentence) + &section(&format!("Least thickness of \"{}\"", it.arch)) + &pairs(&rows)

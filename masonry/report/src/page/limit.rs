@@ -9,7 +9,7 @@ use crate::limit::{ByLaw, by_law, pictures, pictures_of_thickness, table, thickn
 use crate::svg::{self, pictures::Pictures};
 use masonry::analysis::limit::{Answer, Associative, Limit, Path, Thickness};
 
-/// The page of a limit load, with a table of the cases if it governs several.
+/// Returns the page of a limit load, with a table of all cases if the limit load governs several.
 pub fn limit(limit: &Limit, cases: Option<&Cases>) -> String {
     let mut pictures = pictures(limit, true);
     pictures.push(Pictures::one("scene.svg", svg::scene(&limit.title, &limit.model)));
@@ -30,10 +30,10 @@ pub fn limit(limit: &Limit, cases: Option<&Cases>) -> String {
     .finish()
 }
 
-/// The tables of the page, as pieces of HTML one below the other.
+/// Returns the tables of the page of a limit load, as pieces of HTML one below the other.
 pub fn tables(limit: &Limit, cases: Option<&Cases>) -> String {
     let cases = cases.map_or_else(String::new, tables::cases);
-    // The headline is about the path, if there is one.
+    // The headline is about the path, if there is one, so that the tables of the path come first.
     cases + &by_law(limit).rev().map(|it| tables_of(&it)).collect::<String>()
 }
 
@@ -49,7 +49,7 @@ fn tables_of(ByLaw { of, model, forces, mechanism, reactions, path, .. }: &ByLaw
     list + &forces.map_or_else(String::new, joints)
 }
 
-/// The page of the least thickness of an arch.
+/// Returns the page of the least thickness of an arch.
 pub fn thickness(thickness: &Thickness) -> String {
     let (title, model) = (&thickness.title, &thickness.model);
     let mut pictures = pictures_of_thickness(thickness, true);
@@ -68,7 +68,7 @@ pub fn thickness(thickness: &Thickness) -> String {
     .finish()
 }
 
-/// The tables of the page of a thickness, as pieces of HTML one below the other.
+/// Returns the tables of the page of a least thickness, as pieces of HTML one below the other.
 pub fn thickness_tables(thickness: &Thickness) -> String {
     let model = &thickness.model;
     let forces = thickness.forces.as_ref();
@@ -78,7 +78,7 @@ pub fn thickness_tables(thickness: &Thickness) -> String {
     joints + &rates.map_or_else(String::new, |it| tables::hinges(of, model, it))
 }
 
-/// Whether the arch stands at the thickness of the scene.
+/// Returns `stands`, `falls` or `undecided` for the arch with the thickness of the scene.
 fn verdict_of(thickness: &Thickness) -> &'static str {
     let Thickness { given, stands, falls, .. } = thickness;
     match (stands, falls) {
@@ -88,7 +88,8 @@ fn verdict_of(thickness: &Thickness) -> &'static str {
     }
 }
 
-/// Whether the structure stands under the constant loads, and some part of the growing ones.
+/// Returns `stands`, `falls` or `undecided` for the structure under the constant loads and some part of the growing
+/// loads.
 fn verdict(limit: &Limit) -> &'static str {
     if limit.falls_by_weight || limit.associative.as_ref().is_some_and(Associative::carries_nothing)
     {
@@ -113,7 +114,7 @@ fn figures(limit: &Limit) -> Vec<Said> {
     }
     if let Some(found) = &limit.associative {
         let mut found = figures::limit::associative(found, &limit.model);
-        // The answer is shown first and the proof last, with one motion.
+        // The load factor is shown first and the bound with its proof last. Only one mechanism is shown.
         let place = |key: &str| {
             ["load_factor", "bound", "mechanism", "rest"].iter().position(|it| *it == key)
         };

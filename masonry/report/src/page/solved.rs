@@ -1,4 +1,4 @@
-//! The page of a scene that was solved, or was not.
+//! The page of a scene that was solved, or could not be solved.
 
 use super::tables::{self, section};
 use super::{Page, PictureStep, size, taken};
@@ -14,18 +14,18 @@ use masonry::analysis::outcome::{Frame, Outcome};
 use masonry::data::verdict::Verdict;
 use masonry::history;
 
-/// The largest number of steps of a load history that have pictures; longer histories show every second step, third and
-/// so on.
+/// The largest number of steps of a load history that have pictures on a page; longer histories have pictures of every
+/// second step, every third step, and so on.
 const FRAMES: usize = 40;
 
-/// Whether a page shows a picture of a step, counted from zero, in a history of `steps` steps.
+/// Returns whether a page shows a picture of the step at `position`, counted from zero, in a history of `steps` steps.
 pub fn is_framed(position: usize, steps: usize) -> bool {
     let every = steps.div_ceil(FRAMES).max(1);
     (position + 1).is_multiple_of(every) || position == 0 || position + 1 == steps
 }
 
-/// The page of an outcome, with a table of the cases if it governs several. `frames` are the steps of a load history
-/// that have pictures; the last solved step always has pictures.
+/// Returns the page of an outcome, with a table of all cases if the outcome governs several. `frames` are the steps of
+/// a load history that have pictures; the last solved step always has pictures.
 pub fn solved(
     outcome: &Outcome,
     frames: &[Frame],
@@ -56,7 +56,7 @@ pub(super) fn verdict(verdict: Verdict) -> &'static str {
     }
 }
 
-/// The steps that have pictures: the last one that was solved, and those before it.
+/// Lists the steps that have pictures: the last step that was solved, and the framed steps before it.
 fn steps(outcome: &Outcome, frames: &[Frame]) -> Vec<PictureStep> {
     let records = outcome.history.iter().flat_map(|history| &history.records);
     let Some((last, record)) = records.enumerate().last() else { return Vec::new() };
@@ -69,7 +69,7 @@ fn steps(outcome: &Outcome, frames: &[Frame]) -> Vec<PictureStep> {
     earlier.chain([step(&record.step, last)]).collect()
 }
 
-/// Pictures of the steps, or of the outcome if there are no steps.
+/// Returns the pictures of the steps, or of the outcome if there are no steps.
 fn pictures(
     outcome: &Outcome,
     frames: &[Frame],
@@ -120,7 +120,7 @@ fn figures(outcome: &Outcome) -> Vec<Said> {
     list
 }
 
-/// The tables of the page, as pieces of HTML one below the other.
+/// Returns the tables of the page of an outcome, as pieces of HTML one below the other.
 pub fn tables(outcome: &Outcome, cases: Option<&Cases>) -> String {
     let model = &outcome.model;
     let mut list = cases.map_or_else(String::new, tables::cases);

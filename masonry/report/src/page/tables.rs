@@ -9,7 +9,7 @@ use crate::format::{InUnits, significant};
 use crate::svg::escaped;
 use masonry::model::Model;
 
-/// A table with a heading and a note; nothing without rows.
+/// Returns a table with a heading and a note as HTML; an empty text if the table has no rows.
 pub(super) fn section(title: &str, note: &str, table: &Table) -> String {
     if table.rows.is_empty() {
         return String::new();
@@ -33,7 +33,8 @@ pub(super) fn section(title: &str, note: &str, table: &Table) -> String {
     )
 }
 
-/// Words sort alphabetically; empty cells sort last.
+/// Returns a cell as HTML, with the value by which the column is sorted. Words sort alphabetically; empty cells sort
+/// last.
 fn cell(value: &Value, column: &Column) -> String {
     let number = |value: f64, text: &str| {
         format!("<td class=\"number\" data-value=\"{value:e}\">{}</td>", escaped(text))
@@ -52,25 +53,25 @@ fn cell(value: &Value, column: &Column) -> String {
     }
 }
 
-/// The lines of all cases.
+/// Returns the table of all cases.
 pub(super) fn cases(cases: &Cases) -> String {
     section(cases.title(), &cases.note(), &cases.shown())
 }
 
-/// The reactions of supports.
+/// Returns the table of the reactions of supports.
 pub(super) fn reactions(title: &str, model: &Model, list: &[Reaction]) -> String {
     let note = "Forces on the structure; moments about the origin.";
     section(title, note, &tables::reactions(InUnits(model.units), list).with_digits(5))
 }
 
-/// The forces and openings of all joints.
+/// Returns the table of the forces and openings of all joints.
 pub(super) fn joints(title: &str, model: &Model, contacts: &[PointState]) -> String {
     let note = "N is positive in compression; e / l is the eccentricity of the resultant in lengths of the joint, \
                 above 0.167 outside the middle third.";
     section(title, note, &tables::joints(model, contacts))
 }
 
-/// The joints that yield in a mechanism.
+/// Returns the table of the joints that yield in a mechanism.
 pub(super) fn hinges(title: &str, model: &Model, rates: &[Vec<Vector2<f64>>]) -> String {
     let note = "Rates are relative to the fastest joint; numbers are those of the picture.";
     section(title, note, &tables::hinges(model, rates))

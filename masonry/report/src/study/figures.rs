@@ -6,7 +6,8 @@ use crate::format::Quantity::{Energy, Force, Length, Pure};
 use crate::format::{InUnits, significant};
 use masonry::analysis::study::{Mesh, Record, Study};
 
-/// A row for each mesh, route and tolerance; the text report has its own columns of tolerances and times.
+/// Returns a table with a row for each combination of mesh, route and tolerance; the text report has its own columns of
+/// tolerances and times.
 pub(super) fn records<'a>(study: &Study, list: impl Iterator<Item = &'a Record>) -> Table {
     let took = |it: &&Record| it.seconds.map_or("-".to_owned(), |it| significant(it, 3));
     Columns::<&Record>::new()
@@ -33,7 +34,7 @@ pub(super) fn records<'a>(study: &Study, list: impl Iterator<Item = &'a Record>)
         .table(InUnits(study.units), list)
 }
 
-/// A row for each mesh: values of its reference, and their errors.
+/// Returns a table with a row for each mesh: values of its reference solution, and their errors.
 pub(super) fn meshes(study: &Study) -> Table {
     let moved = |[x, y]: [f64; 2]| x.hypot(y);
     Columns::<&Mesh>::new()

@@ -5,10 +5,9 @@ use crate::figures::{Value, members};
 use crate::format::InUnits;
 use masonry::analysis::study::{Mesh, Study, Values};
 
-/// The object of `study.json` and of `masonry study --json`, pretty-printed: `title`, `units`,
-/// `time_limit_s`, `machine`, `interrupted`, `records`, `meshes`, `summary`, `files`. Times are in seconds, errors and
-/// residuals without dimension, and the values of meshes in the units of the scene, which
-/// `units` names.
+/// Returns the object of `study.json` and of `masonry study --json`, pretty-printed: `title`, `units`, `time_limit_s`,
+/// `machine`, `interrupted`, `records`, `meshes`, `summary`, `files`. Times are in seconds, errors and residuals are
+/// dimensionless, and the values of meshes are in the units of the scene, which `units` names.
 ///
 /// # Errors
 /// None that this data can cause; the signature is that of the serialiser.

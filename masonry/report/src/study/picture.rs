@@ -1,14 +1,14 @@
-//! The picture of a study: error against time.
+//! The picture of a study: error against computing time.
 
 use crate::svg::diagram::{Diagram, Look, Series, picture};
 use masonry::analysis::study::{Record, Study};
 use masonry::scene::Route;
 
-/// Smaller errors are drawn at this value: they are rounding errors, or errors of the reference itself.
+/// Errors below this value are drawn at this value: they are rounding errors, or errors of the reference itself.
 const ROUNDING: f64 = 1e-16;
 
-/// The work-precision diagram of the first mesh: the worst algebraic error against the time, one line for
-/// each route through its tolerances. `None` if no error is known.
+/// Draws the work-precision diagram of the first mesh: the worst algebraic error against the time, one line for each
+/// route through its tolerances. `None` if no error is known.
 pub fn accuracy(study: &Study) -> Option<String> {
     let first = study.meshes.first()?;
     let diagram = Diagram {
@@ -41,7 +41,7 @@ fn series(study: &Study, route: Route) -> Series {
     Series { name, style: style(route), look: Look::Full, points: points.collect() }
 }
 
-/// A route has the same colour in every picture.
+/// Returns the number of the colour and marker of a route, equal in every picture.
 pub fn style(route: Route) -> usize {
     match route {
         Route::Forces | Route::Lemke => 0,

@@ -7,19 +7,21 @@ use masonry::analysis::study::{End, Record, Study, Verification};
 use masonry::rounding::largest;
 use masonry::scene::Route;
 
-/// Tolerances that are compared: the nearest ones of the study.
+/// The two tolerances whose costs are compared; the nearest tolerances of the study stand for them.
 const COMPARED: [f64; 2] = [1e-4, 1e-8];
-/// The largest algebraic error at which an answer counts for the fastest route.
+/// The largest algebraic error of an answer that can count as the fastest accurate one.
 const ACCURATE: f64 = 1e-6;
-/// Answers farther than this from the reference at the tightest tolerance are different solutions.
+/// An answer at the tightest tolerance whose distance from the reference exceeds this value counts as a different
+/// solution.
 const ELSEWHERE: f64 = 1e-3;
-/// Algebraic errors below this part of the error of the mesh do not matter.
+/// Algebraic errors below this part of the discretisation error do not matter.
 const NEGLIGIBLE: f64 = 0.1;
-/// Times that grow by a smaller factor count as equal within the accuracy of measurement, and so do times that fall.
+/// Two times whose ratio is below this factor count as equal within the accuracy of measurement; a time that falls
+/// counts as equal, too.
 const NOISE: f64 = 1.2;
 
-/// The results of a study in sentences: the cost of a tight tolerance, the fastest route, the benefit of a finer mesh,
-/// and the reference behind these results.
+/// Returns the results of a study in sentences: the cost of a tight tolerance, the fastest route, the benefit of a
+/// finer mesh, and the reference of the errors.
 pub fn summary(study: &Study) -> Vec<String> {
     let found = [interrupted(study), cost(study), in_short(study), mesh(study)];
     let mut sentences: Vec<String> = found.into_iter().flatten().collect();
@@ -29,7 +31,8 @@ pub fn summary(study: &Study) -> Vec<String> {
     sentences
 }
 
-/// The one sentence that a user needs: the fastest route to an accurate answer, and the error of the mesh.
+/// Returns the one sentence that a user needs: the fastest route to an accurate answer, and the error of the mesh.
+/// `None` if no error of a solve is small enough.
 pub fn in_short(study: &Study) -> Option<String> {
     let (record, seconds) = fastest_record(study)?;
     let mesh = study.meshes.first()?;
@@ -54,8 +57,8 @@ fn interrupted(study: &Study) -> Option<String> {
         .then(|| format!("Interrupted: {missing} of {} solves are missing.", study.records.len()))
 }
 
-/// "Compared with 1e-4, 1e-8 takes as long (within 20 %) with lemke, 9 times as long with pgs; alm (Stalled) does not
-/// reach it."
+/// Returns the cost of the tight tolerance in a sentence such as "Compared with 1e-4, 1e-8 takes as long (within 20 %)
+/// with lemke, 9 times as long with pgs; alm (Stalled) does not reach it."
 fn cost(study: &Study) -> Option<String> {
     let nearest = |wanted: f64| {
         let tolerances = study.on_first_mesh().map(|record| record.tolerance);
@@ -90,7 +93,8 @@ fn cost(study: &Study) -> Option<String> {
     ))
 }
 
-/// The routes that do not reach a tolerance, each with its end at the loosest tolerance that it does not reach.
+/// Returns words for the routes that do not reach a tolerance, each with its status at the loosest tolerance that the
+/// route does not reach.
 fn without(study: &Study, tolerance: f64) -> String {
     let failed = study.routes().into_iter().filter_map(|route| {
         let here = |it: &&Record| it.route == route && it.tolerance.total_cmp(&tolerance).is_eq();
@@ -115,7 +119,7 @@ fn fastest_record(study: &Study) -> Option<(&Record, f64)> {
     timed.min_by(|a, b| a.1.total_cmp(&b.1))
 }
 
-/// The loosest tolerance that each route does not reach.
+/// Returns a sentence for each route with the loosest tolerance that the route does not reach.
 fn gave_up(study: &Study) -> Vec<String> {
     let sentence = |record: &Record| {
         let name = record.route.name();
@@ -202,7 +206,8 @@ fn refined(verified: Option<&Verification>) -> String {
     }
 }
 
-/// The error of the scene's own mesh, and the loosest tolerance that adds nothing to it.
+/// Returns a sentence with the error of the scene's own mesh, and the loosest tolerance whose error is negligible
+/// beside it.
 fn mesh(study: &Study) -> Option<String> {
     let first = study.meshes.first()?;
     let finest = study.meshes.iter().filter(|it| it.values.is_some()).max_by_key(|it| it.factor)?;

@@ -11,7 +11,7 @@ use masonry::analysis::study::{End, Mesh, Study};
 const RECORDS: &str =
     "route asked status residual took iterations error_force error_stress error_energy";
 
-/// The whole report: the summary, the records, the meshes.
+/// Returns the whole report of a study as text: the summary, the records, the meshes.
 pub fn table(study: &Study) -> String {
     let title = format!("{}: what accuracy costs", study.title);
     let mut text = underlined(&title, "=") + "\n";
@@ -46,7 +46,7 @@ fn records(study: &Study, mesh: &Mesh) -> String {
     wide(&figures::records(study, of_mesh).only(RECORDS))
 }
 
-/// The skipped solves: the meshes by route and reason.
+/// Lists the solves that were skipped: the meshes by route and reason.
 fn not_tried(study: &Study) -> Vec<String> {
     let mut all: Vec<(&str, &str, Vec<u32>)> = Vec::new();
     for record in &study.records {
@@ -77,7 +77,7 @@ fn meshes(study: &Study) -> String {
         + &refused
 }
 
-/// A table whose lines are never broken.
+/// Returns a table as text whose lines are never broken.
 fn wide(table: &Table) -> String {
     let mut drawn = drawn(table);
     drawn.set_content_arrangement(ContentArrangement::Disabled);

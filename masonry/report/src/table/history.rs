@@ -7,10 +7,11 @@ use crate::text::{drawn, pairs, paragraph};
 use masonry::history::{History, SecondLoading, Spread};
 use masonry::model::Model;
 
-/// The largest number of steps that are all shown; longer histories are shown at the ends of their stages only.
+/// The largest number of steps of a history that are all shown; of a longer history, only the ends of stages are shown.
 const MOST_ROWS: usize = 24;
 
-/// One row for every step that was solved, or for every stage of a long history.
+/// Returns the table of a load history as text: a row for every step that was solved, or for every stage of a long
+/// history.
 pub(super) fn history(model: &Model, history: &History) -> String {
     let mut rows = in_text(model, history);
     let records = &history.records;
