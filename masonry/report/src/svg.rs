@@ -1,7 +1,7 @@
-//! Pictures as SVG: the scene, principal stresses, the deformed structure, forces in joints, cracks, a mechanism, curves
-//! of load histories, diagrams.
+//! Pictures as SVG: the scene, principal stresses, the deformed structure, forces in joints, cracks, a mechanism,
+//! curves of load histories, and diagrams.
 //!
-//! Every function returns the text of a whole file, with the legend outside the drawing. Numbers have at most two
+//! Every function returns the text of a whole file. The legend is outside the drawing. Numbers have at most two
 //! decimals, so that equal input gives equal bytes.
 
 mod arrows;

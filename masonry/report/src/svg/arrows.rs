@@ -1,4 +1,5 @@
-//! Loads and reactions as arrows with their values: on edges, at places, and of all mass beside the structure.
+//! Loads and reactions as arrows with their values: on edges, at points, and, for accelerations of all mass, beside the
+//! structure.
 
 use nalgebra::{Point2, Vector2};
 
@@ -17,33 +18,34 @@ use masonry::ids::{BlockId, LoadId};
 use masonry::model::{Model, PlacedBlock, PointLoad};
 use masonry::rounding::largest;
 
-/// Lengths of the arrow of the largest load of a kind, and of a load that is small beside it.
+/// Lengths of the arrow of the largest load of a kind (`LONGEST`), and of a load that is small compared with the
+/// largest (`SHORTEST`).
 const LONGEST: f64 = 34.0;
 const SHORTEST: f64 = 14.0;
-/// Largest distances between arrows on an edge, and from an edge to arrows along it.
+/// Largest distance between arrows on an edge, and distance from an edge to arrows that are parallel to the edge.
 const SPACING: f64 = 24.0;
 const ASIDE: f64 = 7.0;
-/// Height of an acceleration beside the structure: arrow, label and room between.
+/// Height of an acceleration beside the structure: arrow, label, and the room between accelerations.
 const ROW: f64 = LONGEST + 2.0 * TEXT;
-/// The beginning of the label of a load that is not uniform.
+/// The beginning of the label of a load that is not uniform: the label shows the largest value.
 const UP_TO: &str = "up to ";
 /// Forces of joints and supports below this part of the largest are not drawn.
 pub(super) const LEAST: f64 = 1e-6;
 
-/// A group of loads that grows, and the factor that it has in a picture.
+/// The group of loads that grows, and its load factor in a picture.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Growth<'a> {
     pub(crate) group: &'a str,
     pub(crate) factor: f64,
 }
 
-/// The target of a load: a part of an edge of a block, or a place, at which both ends lie. Reactions do not act on a
-/// single block.
+/// The target of a load: a part of an edge of a block, or a point, which is then both ends. `block` is `None` for
+/// reactions, which do not act on a single block.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Pushed {
     pub(super) block: Option<BlockId>,
     pub(super) ends: [Point2<f64>; 2],
-    /// The traction at both ends, or the force.
+    /// The tractions at both ends of the part of the edge, or twice the force at the point.
     values: [Vector2<f64>; 2],
 }
 
@@ -56,33 +58,34 @@ impl Pushed {
         self.values[0] == self.values[1]
     }
 
-    /// The larger of the two values.
+    /// Returns the larger of the values at both ends.
     fn largest(&self) -> Vector2<f64> {
         let [first, last] = self.values;
         if first.norm() < last.norm() { last } else { first }
     }
 }
 
-/// A load or a reaction, whose arrows share a label; a moment has an arrow around its place.
+/// A load or a reaction whose arrows share a label. A moment has an arrow around its point.
 #[derive(Debug)]
 struct Push {
-    /// Parts of edges in one line, or one place; empty for an acceleration of all mass.
+    /// The parts of edges on one straight line, or one point, on which the load acts; empty for an acceleration of all
+    /// mass.
     on: Vec<Pushed>,
-    /// The largest value.
+    /// The largest value of the load.
     value: Vector2<f64>,
-    /// Direction away from the pushed blocks, or from a place to its arrow.
+    /// Direction away from the pushed blocks, or from a point to its arrow.
     outwards: Vector2<f64>,
-    /// The sign of a moment; `None` for a force.
+    /// The sign of a moment, counter-clockwise positive; `None` for a force.
     turn: Option<f64>,
-    /// The text of the value.
+    /// The text of the largest value.
     label: String,
-    /// Attributes of the elements.
+    /// SVG attributes of the arrows and the label.
     name: String,
-    /// The size relative to the largest push of the same kind.
+    /// The largest value, divided by the largest value of all pushes of the same kind.
     part: f64,
 }
 
-/// Pushes of one kind, with one entry in the legend.
+/// Pushes of one kind, which share an entry in the legend.
 #[derive(Debug)]
 struct Kind {
     names: [&'static str; 2],
@@ -90,14 +93,14 @@ struct Kind {
     pushes: Vec<Push>,
 }
 
-/// The displacement of pushed blocks in a picture \[m\], as magnified by its motion.
+/// The displacement of pushed blocks in a picture \[m\]: `rate`, magnified by `motion`.
 pub(super) struct Displaced<'a> {
     pub(super) motion: Motion,
     pub(super) rate: &'a dyn Fn(&Pushed) -> Vector2<f64>,
 }
 
 impl Displaced<'_> {
-    /// The blocks stay in their places.
+    /// No displacement: the blocks stay in their places.
     pub(super) const NOT: Displaced<'static> =
         Displaced { motion: Motion::NONE, rate: &|_| Vector2::new(0.0, 0.0) };
 
@@ -116,17 +119,17 @@ impl Push {
         SHORTEST + (LONGEST - SHORTEST) * self.part
     }
 
-    /// The cosine of the angle between the value and the outward side.
+    /// Returns the cosine of the angle between the value and the outward direction.
     fn outward_part(&self) -> f64 {
         self.value.normalize().dot(&self.outwards)
     }
 
-    /// Whether a traction runs along the edge, so that arrows stand beside it.
+    /// Whether a traction is nearly parallel to the edge, so that its arrows stand beside the edge.
     fn is_tangential(&self) -> bool {
         self.outward_part().abs() < 0.2
     }
 
-    /// The arrows on a part of an edge, or at a place.
+    /// Returns the arrows on a part of an edge, or at a point.
     fn arrows(&self, on: &Pushed, [from, to]: [Pixel; 2]) -> Vec<[Pixel; 2]> {
         let count = parts([from, to], SPACING).saturating_sub(1).max(1);
         let arrow = |at: f64| {
@@ -145,12 +148,12 @@ impl Push {
         (0..count).map(|k| arrow((f64::from(k) + 0.5) / f64::from(count))).collect()
     }
 
-    /// The length of an arrow, proportional to its value.
+    /// Returns the length of an arrow, proportional to its value.
     fn length_of(&self, value: Vector2<f64>) -> f64 {
         self.length() * (value.norm() / self.value.norm())
     }
 
-    /// The line that joins the tails of arrows pressing an edge.
+    /// Returns the line that joins the tails of arrows that press on an edge.
     fn bar(&self, on: &Pushed, ends: [Pixel; 2]) -> Option<[Pixel; 2]> {
         let presses = on.values.iter().all(|it| it.dot(&self.outwards) <= 0.0);
         let tails = [0, 1].map(|k| ends[k].along(-on.values[k], self.length_of(on.values[k])));
@@ -174,7 +177,7 @@ impl Push {
         }
     }
 
-    /// The best place for the label.
+    /// Returns the place at which the label is tried first.
     fn label_at(&self, frame: &Frame, displaced: &Displaced<'_>) -> Pixel {
         let ends = self.on.iter().flat_map(|on| displaced.ends(frame, on));
         let extent = Bounds::of(ends.map(|it| Point2::new(it.x, it.y))).middle();
@@ -183,7 +186,7 @@ impl Push {
         Pixel::new(extent.x, extent.y).along(self.outwards, reach + 5.0)
     }
 
-    /// Room for arrows and label around the structure.
+    /// Returns the room for arrows and label around the structure.
     fn margins(&self) -> Sides {
         let (n, length) = (self.outwards, self.length() + 14.0);
         let beside = |part: f64| if part > 0.5 { length + label_room(&self.label) } else { 0.0 };
@@ -191,12 +194,12 @@ impl Push {
         Sides { left: beside(-n.x), right: beside(n.x), top: above(n.y), bottom: above(-n.y) }
     }
 
-    /// Whether an acceleration stands right of the structure: one to the left pushes from the right.
+    /// Whether an acceleration is drawn right of the structure: an acceleration to the left pushes from the right.
     fn is_right(&self) -> bool {
         self.value.x < -0.5 * self.value.norm()
     }
 
-    /// Width of an acceleration beside the structure.
+    /// Returns the width of an acceleration beside the structure.
     fn width(&self) -> f64 {
         label_room(&self.label).max(LONGEST) + 8.0
     }
@@ -211,7 +214,8 @@ impl Kind {
         Self { names, class, pushes }
     }
 
-    /// The legend entry: the least and the largest, and their direction if they have one.
+    /// Adds the legend entry: the least and the largest value, and an arrow in the direction of all pushes, if they
+    /// have one direction.
     fn explain(&self, sheet: &mut Sheet) {
         let by_size = |a: &&Push, b: &&Push| a.part.total_cmp(&b.part);
         let ends = self.pushes.iter().min_by(by_size).zip(self.pushes.iter().max_by(by_size));
@@ -233,12 +237,12 @@ impl Kind {
     }
 }
 
-/// All loads of a picture, and reactions.
+/// The arrows of all loads of a picture, and of reactions.
 #[derive(Debug)]
 pub(super) struct Arrows(Vec<Kind>);
 
 impl Arrows {
-    /// The loads that act and are not zero; loads of a growing group also have its factor.
+    /// Returns the arrows of the loads that are not zero; labels of the growing group have its load factor in addition.
     pub(super) fn of_loads(model: &Model, growth: Option<Growth<'_>>) -> Self {
         let labelled = |load: LoadId, value: String| {
             let group = model.loads.get(load.index()).map(|it| it.group.as_str());
@@ -265,7 +269,7 @@ impl Arrows {
         ])
     }
 
-    /// These arrows with the reactions of supports.
+    /// Adds the reactions of supports to the arrows.
     pub(super) fn and_reactions(mut self, model: &Model, forces: &[JointForce]) -> Self {
         let units = InUnits(model.units);
         let mut all = joints::reactions(model, forces);
@@ -293,7 +297,7 @@ impl Arrows {
         self.0.iter().flat_map(|kind| &kind.pushes)
     }
 
-    /// Room that arrows and labels need around the structure.
+    /// Returns the room that arrows and labels need around the structure.
     pub(super) fn margins(&self) -> Sides {
         let on_blocks = self.pushes().filter(|it| !it.on.is_empty()).map(Push::margins);
         let mut margins = on_blocks.fold(Sides::HATCH, Sides::and);
@@ -302,12 +306,12 @@ impl Arrows {
         margins
     }
 
-    /// The accelerations on one side of the structure.
+    /// Returns the accelerations on one side of the structure.
     fn accelerations(&self, is_right: bool) -> impl Iterator<Item = &Push> {
         self.pushes().filter(move |it| it.on.is_empty() && it.is_right() == is_right)
     }
 
-    /// Room for the accelerations on one side.
+    /// Returns the room for the accelerations on one side of the structure.
     fn beside(&self, is_right: bool) -> f64 {
         largest(self.accelerations(is_right).map(Push::width))
     }
@@ -351,7 +355,7 @@ impl Arrows {
         self.0.iter().for_each(|kind| kind.explain(sheet));
     }
 
-    /// Draws accelerations outside all else, one below the other at half the height of the structure.
+    /// Draws accelerations outside all other marks, one below the other at half the height of the structure.
     fn draw_accelerations(&self, sheet: &mut Sheet, model: &Model) {
         let margins = self.margins();
         let [low, high] = structure::bounds(model).ends().map(|end| sheet.frame.at(end));
@@ -376,8 +380,8 @@ impl Arrows {
     }
 }
 
-/// All loads on edges. Parts of one load are joined if they have one traction in one line, or if they are linear in one
-/// line or one direction.
+/// Returns all loads on edges. Parts of one load are joined into one push if they have one traction on one straight
+/// line, or if they are linear on one straight line or in one direction.
 fn tractions(model: &Model, labelled: &dyn Fn(LoadId, String) -> String) -> Vec<Push> {
     let near = 1e-9 * structure::bounds(model).size().norm();
     let mut list: Vec<(LoadId, Push)> = Vec::new();
@@ -421,7 +425,8 @@ fn tractions(model: &Model, labelled: &dyn Fn(LoadId, String) -> String) -> Vec<
     list.into_iter().map(with_label).collect()
 }
 
-/// All forces at places of blocks: a force that pulls at an edge begins there; all others end in their places.
+/// Returns all forces at points of blocks. The arrow of a force that pulls at an edge begins at its point; all other
+/// arrows end at their points.
 fn forces(model: &Model, labelled: &dyn Fn(LoadId, String) -> String) -> Vec<Push> {
     let units = InUnits(model.units);
     let blocks = model.blocks.iter().enumerate();
@@ -447,7 +452,7 @@ fn forces(model: &Model, labelled: &dyn Fn(LoadId, String) -> String) -> Vec<Pus
     all.map(push).collect()
 }
 
-/// All moments at places of blocks. The values of moments point up, so that the labels are above.
+/// Returns all moments at points of blocks. The values of moments point up, so that the labels are above.
 fn moments(model: &Model, labelled: &dyn Fn(LoadId, String) -> String) -> Vec<Push> {
     let units = InUnits(model.units);
     let blocks = model.blocks.iter().enumerate();

@@ -1,42 +1,42 @@
-//! Axes of diagrams: the places of values, and lines with labels.
+//! Axes of diagrams: positions of values in pixels, and grid lines with labels.
 
 use std::ops::Range;
 
 use crate::format::round_down;
 
-/// Logarithmic axes of fewer decades have lines at 2 and 5 too.
+/// Logarithmic axes with fewer decades than this number have grid lines at 2 and 5 as well.
 const FEW: f64 = 3.0;
 const MOST_LABELS: f64 = 9.0;
-/// Logarithmic axes within these values have no exponents.
+/// Logarithmic axes whose values lie in this range have labels without exponents.
 const PLAIN: Range<f64> = 0.9e-4..1.1e4;
-/// The largest number of lines on a linear axis.
+/// The largest number of grid lines on a linear axis.
 const TICKS: f64 = 7.0;
-/// Labels of a linear axis that need more decimals have an exponent.
+/// Labels of a linear axis have an exponent if they need more decimals than this number.
 const DECIMALS: f64 = 5.0;
 
-/// Meaning of equal lengths on an axis.
+/// The kind of an axis: equal lengths stand for equal differences, or for equal ratios.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum AxisScale {
-    /// Equal differences.
+    /// Equal lengths stand for equal differences.
     Linear,
-    /// Equal ratios.
+    /// Equal lengths stand for equal ratios.
     #[default]
     Logarithmic,
 }
 
-/// An axis in pixels.
+/// An axis: values, and their positions in pixels.
 #[derive(Debug)]
 pub(super) struct Axis {
     scale: AxisScale,
-    /// Values, or their decimal logarithms.
+    /// The values at both ends of the axis, or their decimal logarithms on a logarithmic axis.
     ends: [f64; 2],
     pixels: [f64; 2],
-    /// Places of lines, and their labels.
+    /// Positions of grid lines, and their labels.
     lines: Vec<(f64, String)>,
 }
 
 impl Axis {
-    /// The axis on which all values have their place; `None` without values.
+    /// Returns an axis that includes all values; `None` without values.
     pub(super) fn around(
         scale: AxisScale,
         values: impl Iterator<Item = f64> + Clone,
@@ -51,22 +51,23 @@ impl Axis {
         Some(Self { scale, ends, pixels, lines })
     }
 
-    /// The place of a value, a whole pixel, so that files with many curves stay small.
+    /// Returns the position of a value, a whole pixel, so that files with many curves stay small.
     pub(super) fn at(&self, value: f64) -> f64 {
         let value = if self.scale == AxisScale::Logarithmic { value.log10() } else { value };
         let share = (value - self.ends[0]) / (self.ends[1] - self.ends[0]);
         (self.pixels[0] + share * (self.pixels[1] - self.pixels[0])).round()
     }
 
-    /// Places of lines, and their labels.
+    /// Returns the positions of grid lines, and their labels.
     pub(super) fn labels(&self) -> impl Iterator<Item = (f64, &str)> {
         self.lines.iter().map(|(value, label)| (self.at(*value), label.as_str()))
     }
 }
 
-/// Ends with room, and round values, which are whole if all values are counted.
+/// Returns the ends of a linear axis, with room at both, and the grid lines at round values, which are whole numbers if
+/// all values are counts.
 fn linear([low, high]: [f64; 2], is_count: bool) -> ([f64; 2], Vec<(f64, String)>) {
-    // Zero belongs to an axis that would begin or end near it.
+    // Zero is added to an axis that would begin or end near zero.
     let [low, high] = match [low, high] {
         _ if low > 0.0 && low < 0.7 * high => [0.0, high],
         _ if high < 0.0 && high > 0.7 * low => [low, 0.0],
@@ -78,7 +79,7 @@ fn linear([low, high]: [f64; 2], is_count: bool) -> ([f64; 2], Vec<(f64, String)
     let ends = [low - below, high + above];
     let least = (ends[1] - ends[0]) / TICKS;
     let least = if is_count { least.max(1.0) } else { least };
-    // The least of 1, 2, 5 times a power of ten that is not smaller.
+    // The step is the smallest of 1, 2, 5 times a power of ten that is not smaller than `least`.
     let larger =
         [1.0, 2.0, 2.5, 5.0, 10.0].map(|it| round_down(round_down(least) * it * (1.0 + 1e-9)));
     let step = larger.into_iter().find(|it| *it >= least).unwrap_or(least);
@@ -88,7 +89,7 @@ fn linear([low, high]: [f64; 2], is_count: bool) -> ([f64; 2], Vec<(f64, String)
     (ends, values.map(|value| (value, label(value, step))).collect())
 }
 
-/// The number of decimals of a round number.
+/// Returns the number of decimals of a round number.
 fn decimals(of: f64) -> f64 {
     (-of.log10() - 1e-9).ceil().max(0.0)
 }
@@ -106,8 +107,8 @@ fn label(value: f64, step: f64) -> String {
     if is_zero { "0".to_owned() } else { text }
 }
 
-/// Ends with room; decades and, if these are few, their second and fifth multiples. Labels have the same form: all with
-/// exponents or all without.
+/// Returns the ends of a logarithmic axis, with room at both, and the grid lines at powers of ten and, if these are
+/// few, at their multiples by 2 and 5. Either all labels have exponents or none.
 fn logarithmic([low, high]: [f64; 2]) -> ([f64; 2], Vec<(f64, String)>) {
     let room = (0.03 * (high - low)).max(0.1);
     let ends = [low - room, high + room];

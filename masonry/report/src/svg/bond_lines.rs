@@ -5,23 +5,23 @@ use nalgebra::Point2;
 use masonry::scene::bond::{self, JointThickness, PlacedBrick};
 use masonry::scene::{Scene, Wall};
 
-/// Two thin lines to compare the flow of stresses with, leaning towards each other.
+/// Two thin lines with which the flow of stresses is compared; they lean towards each other.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ReferenceLines {
-    /// The places at which the lines start \[m\]. The left line rises to the right and the right one to the left, until
-    /// they meet or leave the structure.
+    /// The points at which the two lines start \[m\]. The left line rises to the right and the right line to the left,
+    /// until they meet or leave the structure.
     pub origins: [Point2<f64>; 2],
-    /// Angle from the vertical \[rad\], in `[0, pi/2)`.
+    /// Angle between each line and the vertical \[rad\], in `[0, pi/2)`.
     pub angle: f64,
     /// The name of the lines in the legend, such as `arctan(l / 2h) = 26.57°`.
     pub label: String,
 }
 
 impl ReferenceLines {
-    /// The running-bond lines to compare the principal stresses with: from the inner ends of the lowest supports at
-    /// both corners of the first wall, half a brick and half a head joint sideways for every course and its bed joint.
-    /// `None` for a scene without such a wall, and if the wall is turned, has a support all along its foot, or has an
-    /// opening in the way of a line.
+    /// Returns the running-bond lines with which principal stresses are compared. The lines start at the inner ends of
+    /// the lowest supports at both corners of the first wall, and go half a brick and half a head joint sideways for
+    /// every course with its bed joint. `None` for a scene without such a wall, and if the wall is turned, has a
+    /// support all along its foot, or has an opening on a line.
     pub fn of(scene: &Scene) -> Option<Self> {
         let wall = scene.walls.first().filter(|wall| wall.turn().abs() <= 0.0)?;
         let [_, foot] = wall.origin;
@@ -41,7 +41,7 @@ impl ReferenceLines {
         Some(Self { origins, angle: (length / (2.0 * height)).atan(), label: label.to_owned() })
     }
 
-    /// The two lines, up to the same height: the height at which they meet, or the top of the structure \[m\].
+    /// Returns the two lines up to the same height: the height at which they meet, or the top of the structure \[m\].
     pub(super) fn within(&self, top: f64) -> [[Point2<f64>; 2]; 2] {
         let [mut left, mut right] = self.origins;
         if left.x > right.x {
@@ -57,10 +57,11 @@ impl ReferenceLines {
     }
 }
 
-/// Whether there are bricks all along the lines from these places at the foot of a wall until they meet, and every
-/// whole brick lies half over a joint of the course below: the bond is a running bond.
+/// Whether there are bricks all along the lines from the points `left` and `right` at the foot of a wall up to the
+/// point at which they meet, and every whole brick lies half over a joint of the course below: the bond is a running
+/// bond.
 fn is_filled(wall: &Wall, joints: JointThickness, [left, right]: [f64; 2]) -> bool {
-    /// Lengths up to this part of the length of a brick are zero.
+    /// Lengths below this part of the length of a brick count as zero.
     const NEAR: f64 = 1e-6;
     let length = wall.brick.length + joints.head;
     let bricks = bond::bricks_in_mortar(wall, joints);
@@ -72,7 +73,7 @@ fn is_filled(wall: &Wall, joints: JointThickness, [left, right]: [f64; 2]) -> bo
         (brick.fraction - 1.0).abs() > NEAR || distances.any(|it| it.abs() <= NEAR * length)
     };
     courses.iter().enumerate().all(|(k, course)| {
-        // The line is taken half a course below the top of the course.
+        // The point of the line is taken half a course below the top of the course.
         let along = (course[0].course as f64 - 0.5) * 0.5 * length;
         let is_laid = |x: f64| {
             let reach = |it: &PlacedBrick| it.low[0] - joints.head..=it.high[0] + joints.head;

@@ -1,4 +1,4 @@
-//! Text of SVG elements, with two decimals at most: files stay small, and equal input gives equal bytes.
+//! Text of SVG elements, with at most two decimals: files stay small, and equal input gives equal bytes.
 
 use std::f64::consts::PI;
 use std::fmt::{Display, Write as _};
@@ -7,7 +7,7 @@ use nalgebra::Vector2;
 
 use crate::format::trim_zeros;
 
-/// A point of the sheet in its own units (pixels at the nominal width), y down.
+/// A point of the sheet in the units of the sheet (pixels at the nominal width), y down.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Pixel {
     pub(super) x: f64,
@@ -19,12 +19,13 @@ impl Pixel {
         Self { x, y }
     }
 
-    /// The vector from this point to another one, y up.
+    /// Returns the vector from this point to another point, y up.
     pub(super) fn towards(self, other: Self) -> Vector2<f64> {
         Vector2::new(other.x - self.x, self.y - other.y)
     }
 
-    /// The point at a distance in a direction, y up, of any length; the same point for a zero direction.
+    /// Returns the point at `distance` from this point in a direction (y up), whose length does not matter; the same
+    /// point for a zero direction.
     pub(super) fn along(self, direction: Vector2<f64>, distance: f64) -> Self {
         let way = direction.try_normalize(0.0).unwrap_or_default() * distance;
         Self::new(self.x + way.x, self.y - way.y)
@@ -39,7 +40,7 @@ impl Pixel {
     }
 }
 
-/// The part of a text that stands at its point.
+/// The part of a text (start, middle or end) that lies at the point of the text.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Anchor {
     Start,
@@ -52,14 +53,14 @@ pub(super) enum Anchor {
 pub(super) struct Canvas(String);
 
 impl Canvas {
-    /// A group whose attributes hold for everything that `draw` adds.
+    /// Adds a group whose attributes hold for all elements that `draw` adds.
     pub(super) fn group(&mut self, attributes: &str, draw: impl FnOnce(&mut Self)) {
         self.push(format_args!("<g {attributes}>\n"));
         draw(self);
         self.push("</g>\n");
     }
 
-    /// Lines and areas with the data of [`open`], [`closed`] or [`arrow`], one after the other.
+    /// Adds lines and areas with the path data of [`open`], [`closed`] or [`arrow`], one after the other.
     pub(super) fn path(&mut self, data: &str, attributes: &str) {
         self.push(format_args!("<path d=\"{data}\"{}/>\n", spaced(attributes)));
     }
@@ -103,18 +104,18 @@ impl Canvas {
     }
 
     fn push(&mut self, element: impl Display) {
-        // Writing to a String never fails.
+        // Writing to a `String` never fails.
         let _ = write!(self.0, "{element}");
     }
 }
 
-/// The data of a circle.
+/// Returns SVG path data of a circle.
 pub(super) fn dot(Pixel { x, y }: Pixel, radius: f64) -> String {
     let [left, y, radius, across] = [x - radius, y, radius, 2.0 * radius].map(fixed);
     format!("M{left} {y}a{radius} {radius} 0 1 0 {across} 0a{radius} {radius} 0 1 0 -{across} 0")
 }
 
-/// The data of a line through points.
+/// Returns SVG path data of a line through points.
 pub(super) fn open(points: impl IntoIterator<Item = Pixel>) -> String {
     let mut data = String::new();
     for (k, Pixel { x, y }) in points.into_iter().enumerate() {
@@ -123,12 +124,12 @@ pub(super) fn open(points: impl IntoIterator<Item = Pixel>) -> String {
     data
 }
 
-/// The data of an area within points.
+/// Returns SVG path data of a polygon.
 pub(super) fn closed(points: impl IntoIterator<Item = Pixel>) -> String {
     open(points) + "Z"
 }
 
-/// The data of an arrow with a head, which is filled.
+/// Returns SVG path data of an arrow: a line with a filled head.
 pub(super) fn arrow([tail, tip]: [Pixel; 2]) -> String {
     let along = tail.towards(tip);
     let aside = Vector2::new(-along.y, along.x);
@@ -138,34 +139,33 @@ pub(super) fn arrow([tail, tip]: [Pixel; 2]) -> String {
     open([tail, neck]) + &closed([left, tip, right])
 }
 
-/// The data of an arrow on three quarters of a circle, counter-clockwise if `sign` is positive.
+/// Returns SVG path data of an arrow along three quarters of a circle, counter-clockwise if `sign` is positive.
 pub(super) fn turning(centre: Pixel, radius: f64, sign: f64) -> String {
     // Chords of 30 degrees; the last one has the head.
     let place = |k: u32| {
         let angle = (f64::from(k) - 4.5) * PI / 6.0;
         centre.along(Vector2::new(angle.sin() * -sign, angle.cos()), radius)
     };
-    // Each chord is a stroke of its own, since paths are filled.
+    // Each chord is a separate line, since paths are filled.
     let chords: String = (0..8).map(|k| open([place(k), place(k + 1)])).collect();
     chords + &arrow([place(8), place(9)])
 }
 
-/// The smallest number of equal parts of a stroke that are not longer than `most`.
+/// Returns the smallest number of equal parts of a line whose length is at most `most`.
 pub(super) fn parts([from, to]: [Pixel; 2], most: f64) -> u32 {
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
     let count = (from.distance(to) / most).ceil() as u32;
     count
 }
 
-/// A number with at most two decimals.
+/// Writes a number with at most two decimals.
 pub(super) fn fixed(value: f64) -> String {
     let text = format!("{value:.2}");
     let text = trim_zeros(&text);
     if text == "-0" { "0" } else { text }.to_owned()
 }
 
-/// A text in which the characters with a meaning in XML are escaped; control characters, which XML forbids, become
-/// spaces.
+/// Escapes the characters of a text that have a meaning in XML; control characters, which XML forbids, become spaces.
 pub(crate) fn escape(text: &str) -> String {
     let mut escaped = String::with_capacity(text.len());
     for character in text.chars() {
@@ -181,7 +181,7 @@ pub(crate) fn escape(text: &str) -> String {
     escaped
 }
 
-/// The width of a text in a font of the given size, rather too large than too small.
+/// Estimates the width of a text in a font of the given size, rather too large than too small.
 pub(super) fn text_width(text: &str, size: f64) -> f64 {
     let ems = |character: char| match character {
         'i' | 'j' | 'l' | '.' | ',' | ':' | ';' | '\'' | '|' | ' ' | '\u{a0}' => 0.34,
@@ -194,7 +194,7 @@ pub(super) fn text_width(text: &str, size: f64) -> f64 {
     text.chars().map(ems).sum::<f64>() * size
 }
 
-/// Lines of a text, each at most `width` wide, broken at plain spaces if that is possible.
+/// Breaks a text into lines, each at most `width` wide, at plain spaces if that is possible.
 pub(super) fn wrapped(text: &str, size: f64, width: f64) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
     for word in text.split([' ', '\n', '\t']).filter(|word| !word.is_empty()) {
@@ -216,7 +216,7 @@ pub(super) fn wrapped(text: &str, size: f64, width: f64) -> Vec<String> {
     lines
 }
 
-/// The number of bytes of the longest start of `text` that fits, at least one character.
+/// Returns the number of bytes of the longest beginning of `text` that fits into `width`; at least one character.
 fn fitting(text: &str, size: f64, width: f64) -> usize {
     let ends = text.char_indices().map(|(at, character)| at + character.len_utf8());
     let first = ends.clone().next().unwrap_or(0);

@@ -13,32 +13,34 @@ use masonry::ids::JointId;
 use masonry::model::{Model, PlacedJoint};
 use masonry::rounding::largest;
 
-/// The lower ends of classes, as parts of a round width below the largest; a width below the second is a hairline.
+/// The lower ends of the classes of widths, divided by a round width below the largest width. Widths below the second
+/// number are hairline cracks.
 const CLASSES: [f64; 6] = [0.0, 0.05, 0.1, 0.2, 0.5, 1.0];
-/// Pieces into which a joint is divided if its width changes.
+/// Number of pieces into which a joint is divided if its width changes.
 const PIECES: usize = 6;
-/// Slips below this part of the largest are not drawn.
+/// Slips below this part of the largest slip are not drawn.
 const LEAST_SLIP: f64 = 0.01;
 
-/// The structure with its open joints, wider ones darker; the legend is in millimetres. Joints that are closed and have
-/// slid have a separate colour. `None` if no joint has opened or slid.
+/// Draws the structure with its open joints in colours, wider joints darker; the legend is in millimetres. Joints that
+/// are closed and have slid have a separate colour. `None` if no joint has opened or slid.
 pub fn cracks(title: &str, model: &Model, contacts: &[PointState]) -> Option<String> {
     let is_closed = joints::openings(model, contacts).is_empty();
     (!is_closed).then(|| cracks_or_none(title, model, contacts))
 }
 
-/// The picture of [`cracks`], or the structure with a note that no joint has opened or slid.
+/// Draws the picture of [`cracks`], or the structure with a note that no joint has opened or slid.
 pub fn cracks_or_none(title: &str, model: &Model, contacts: &[PointState]) -> String {
     let by = widest(&joints::openings(model, contacts));
     compared(&Loaded { title, model, contacts }, by)
 }
 
-/// The width \[m\] of the widest crack; zero if all joints are closed.
+/// Returns the width of the widest crack \[m\]; zero if all joints are closed.
 pub(crate) fn widest(openings: &[JointOpening]) -> f64 {
     largest(openings.iter().map(|it| it.widest))
 }
 
-/// The picture of [`cracks`] in the colours of the widest crack of all compared pictures.
+/// Draws the picture of [`cracks`] with classes for `widest_of_all`, the width of the widest crack in all compared
+/// pictures \[m\].
 pub(crate) fn compared(loaded: &Loaded<'_>, widest_of_all: f64) -> String {
     let Loaded { title, model, contacts } = *loaded;
     let openings = joints::openings(model, contacts);
@@ -59,12 +61,12 @@ fn millimetres(metres: f64) -> String {
     significant(1e3 * metres, 3)
 }
 
-/// A part of a joint with one width, or with widths of one class.
+/// A part of a joint that is drawn with one width, or with widths of one class.
 #[derive(Clone, Copy)]
 struct Piece {
     joint: JointId,
     ends: [Pixel; 2],
-    /// The width in the middle of the piece \[m\].
+    /// The opening in the middle of the piece \[m\].
     width: f64,
 }
 
@@ -79,7 +81,7 @@ fn draw_widths(sheet: &mut Sheet, model: &Model, openings: &[JointOpening], wide
         let pieces = pieces(opening, &model.joints[opening.joint.index()], &sheet.frame);
         let open: Vec<Piece> = pieces.filter(|it| it.width > 0.0).collect();
         let is_one = |a: &Piece, b: &Piece| class(a) == class(b) && a.ends[1] == b.ends[0];
-        // One stroke is drawn as long as the class stays the same.
+        // Neighbouring pieces of the same class are drawn as one stroke.
         for run in open.chunk_by(is_one) {
             let ends = [run[0].ends[0], run[run.len() - 1].ends[1]];
             classes[class(&run[0])].push(Piece { ends, ..run[0] });
@@ -99,7 +101,7 @@ fn draw_widths(sheet: &mut Sheet, model: &Model, openings: &[JointOpening], wide
     }
 }
 
-/// The classes with a width, the widest first.
+/// Adds the classes of widths to the legend, the widest first.
 fn explain_widths(sheet: &mut Sheet, round: f64, widest: f64, widest_of_all: f64) {
     for (index, least) in CLASSES.iter().enumerate().skip(1).rev() {
         let least = millimetres(least * round);
@@ -115,7 +117,8 @@ fn explain_widths(sheet: &mut Sheet, round: f64, widest: f64, widest_of_all: f64
     }
 }
 
-/// Pieces of a joint: the width changes linearly between contact points and is that of the nearest point beyond them.
+/// Divides a joint into pieces. The width changes linearly between contact points, and is that of the nearest contact
+/// point beyond the outer ones.
 fn pieces<'a>(
     opening: &'a JointOpening,
     joint: &'a PlacedJoint,
@@ -141,7 +144,7 @@ fn width_at(widths: &[[f64; 2]], along: f64) -> f64 {
     }
 }
 
-/// Joints that have slid and are closed somewhere.
+/// Draws the joints that have slid and are closed at some contact point.
 fn draw_slips(sheet: &mut Sheet, model: &Model, openings: &[JointOpening]) {
     let most = largest(openings.iter().map(|it| it.slip));
     let has_slid = |it: &&JointOpening| it.slip > 0.0 && it.slip >= LEAST_SLIP * most;

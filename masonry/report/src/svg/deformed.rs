@@ -15,17 +15,19 @@ use masonry::model::mesh::BlockMesh;
 use masonry::model::{Model, PlacedBlock};
 use masonry::rounding;
 
-/// The scale and room that pictures of displacements share, so that those of a load history can be compared.
+/// The magnification and the room that pictures of displacements share, so that the pictures of a load history can be
+/// compared.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Magnified {
     motion: Motion,
     bounds: Bounds,
-    /// The largest of all displacements \[m\].
+    /// The largest displacement in all pictures \[m\].
     largest: f64,
 }
 
 impl Magnified {
-    /// A scale at which the largest displacement of these states is readable; a page has room for more.
+    /// Returns a magnification at which the largest displacement of the states is readable, with room for larger
+    /// magnifications on a page.
     pub(crate) fn of(all: &[Shown<'_>], for_page: bool) -> Self {
         let largest = rounding::largest(all.iter().map(largest));
         let still = Bounds::of(all.iter().flat_map(|it| structure::bounds(it.model).ends()));
@@ -46,7 +48,7 @@ fn largest(shown: &Shown<'_>) -> f64 {
     largest_displacement(shown.model, shown.state).map_or(0.0, |it| it.value.abs())
 }
 
-/// Points that have moved, magnified.
+/// Returns points after their displacements, which are magnified by `factor`.
 pub(super) fn moved<'a>(
     points: &'a [Point2<f64>],
     moves: &'a [Vector2<f64>],
@@ -55,14 +57,14 @@ pub(super) fn moved<'a>(
     points.iter().zip(moves).map(move |(point, u)| point + u * factor)
 }
 
-/// The deformed structure, magnified by a round factor in the legend, over the undeformed outline. Joints that open
-/// show the white of the paper.
+/// Draws the deformed structure over the undeformed outline, magnified by a round factor that the legend shows. Joints
+/// that open show the white of the paper.
 pub fn deformed(title: &str, model: &Model, state: &State) -> String {
     let shown = Shown { title, model, state };
     compared(&shown, &Magnified::of(&[shown], false))
 }
 
-/// The picture of [`deformed`], magnified like others.
+/// Draws the picture of [`deformed`] with the magnification that it shares with other pictures.
 pub(crate) fn compared(shown: &Shown<'_>, by: &Magnified) -> String {
     let Shown { title, model, state } = *shown;
     let mut sheet = Sheet::new(format!("{title}: deformed"), model, by.bounds, Sides::HATCH);
@@ -89,7 +91,7 @@ pub(crate) fn compared(shown: &Shown<'_>, by: &Magnified) -> String {
     sheet.finish()
 }
 
-/// Nodes of a block, by their positions in its list.
+/// Returns the pixels of some nodes of a block; `nodes` are indices into its list of nodes.
 fn pixels(
     frame: &Frame,
     block: &PlacedBlock,
@@ -101,7 +103,7 @@ fn pixels(
     positions.iter().filter_map(|k| nodes.get(*k)).map(|node| frame.at(*node)).collect()
 }
 
-/// The lines between the elements of one block, as positions in the list of its nodes.
+/// Returns the lines between the elements of one block, as indices into the list of its nodes.
 fn mesh_lines(block: &PlacedBlock, nodes: usize) -> Vec<Vec<usize>> {
     let mesh = block.mesh.as_ref().filter(|it| nodes >= it.nodes.len());
     mesh.map_or_else(Vec::new, BlockMesh::lines)
@@ -117,7 +119,7 @@ fn explain(sheet: &mut Sheet, shown: &Shown<'_>, by: &Magnified) {
     let text = if largest > 0.0 { "deformed" } else { "no displacement" };
     sheet.legend.add(text, "deformed", legend::block);
     if largest > 0.0 {
-        // The note is a separate line, which a page changes.
+        // The note is a separate line, since a page changes it.
         sheet.legend.note(&format!("magnified {factor} times"));
         let largest = InUnits(shown.model.units).length_text(largest);
         sheet.legend.note(&format!("largest component {largest}"));

@@ -1,4 +1,4 @@
-//! Diagrams of curves, one or many in a picture, with logarithmic or linear axes.
+//! Diagrams of curves, one or several in a picture, with logarithmic or linear axes.
 
 use super::axis::Axis;
 pub use super::axis::AxisScale;
@@ -8,19 +8,20 @@ use super::legend::{self, Legend};
 use super::sheet::Sides;
 use super::style::{COLOURS, EDGE, TEXT, TEXT_LINE, TICK, WIDTH};
 
-/// Heights of a diagram with logarithmic axes alone and of one with linear axes, and the size of one of several.
+/// Height of a single diagram with logarithmic axes, height of a diagram with linear axes, and width and height of one
+/// of several diagrams.
 const HEIGHT: f64 = 430.0;
 const LINEAR_HEIGHT: f64 = 300.0;
 const ONE_OF_MANY: [f64; 2] = [560.0, 340.0];
-/// Columns of a legend.
+/// Number of columns of a legend.
 const COLUMNS: usize = 3;
-/// Room left of, right of and below the lines of a diagram.
+/// Room left of, right of and below the area that the axes enclose.
 const LEFT: f64 = 76.0;
 const RIGHT: f64 = 15.0;
 const BELOW: f64 = 52.0;
 /// The distance between rows of diagrams.
 const GAP: f64 = 8.0;
-/// Corners of markers, in pixels.
+/// Corners of the markers about the point that they mark, in pixels.
 const SHAPES: [&[[f64; 2]]; COLOURS] = [
     &[[-1., -4.], [2., -4.], [4., -1.], [4., 2.], [2., 4.], [-1., 4.], [-4., 2.], [-4., -1.]],
     &[[-4., -4.], [4., -4.], [4., 4.], [-4., 4.]],
@@ -30,43 +31,44 @@ const SHAPES: [&[[f64; 2]]; COLOURS] = [
     &[[-3., 0.], [0., -7.], [3., 0.], [0., 7.]],
     &[[-6., 0.], [0., -3.], [6., 0.], [0., 3.]],
 ];
-/// Lines through more points have no markers.
+/// Lines through more points than this number have no markers.
 const MARKED: usize = 60;
 
-/// The look of a series.
+/// The look of a series of points.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Look {
     /// A line with markers.
     Full,
-    /// A line with the outlines of markers.
+    /// A line with hollow markers.
     Hollow,
-    /// Dots alone.
+    /// Dots without a line.
     Dots,
-    /// A grey line alone, with which others are compared; dashed unless its style is 0.
+    /// A grey line without markers, with which other series are compared; dashed unless its style is 0.
     Bound,
 }
 
-/// Points that belong together, in their order.
+/// Points of one curve, in their order.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Series {
     /// The name in the legend, unless it is empty.
     pub name: String,
-    /// The number of the colour and marker.
+    /// The number of the colour and of the marker.
     pub style: usize,
     /// The look of the series.
     pub look: Look,
-    /// Points without a place on the axes are left out.
+    /// The points \[horizontal, vertical\]. Points without a place on the axes, such as negative values on logarithmic
+    /// axes, are left out.
     pub points: Vec<[f64; 2]>,
 }
 
 impl Series {
-    /// The points that have a place on the axes.
+    /// Returns the points that have a place on the axes.
     fn placed(&self, scale: AxisScale) -> impl Iterator<Item = [f64; 2]> + Clone {
         let has_place = move |it: &f64| it.is_finite() && (scale == AxisScale::Linear || *it > 0.0);
         self.points.iter().filter(move |it| it.iter().all(has_place)).copied()
     }
 
-    /// The class of the lines.
+    /// Returns the class of the lines in the style sheet.
     fn class(&self) -> String {
         let line = match self.look {
             Look::Full | Look::Hollow => "curve",
@@ -79,7 +81,7 @@ impl Series {
 
     fn draw(&self, canvas: &mut Canvas, pixels: &[Pixel]) {
         let data = match self.look {
-            // A line of no length, with round ends.
+            // A line of length zero with round ends is a dot.
             Look::Dots => pixels.iter().map(|it| open([*it, *it])).collect(),
             _ => open(pixels.iter().copied()),
         };
@@ -99,7 +101,7 @@ impl Series {
         }
     }
 
-    /// A line with a marker in its middle, or a dot.
+    /// Draws the symbol for the legend: a line with a marker in its middle, or a dot.
     fn draw_symbol(&self, symbol: &mut Canvas) {
         let [from, middle, to] = [-22.0, 0.0, 22.0].map(|x| Pixel::new(x, 0.0));
         if self.look != Look::Dots {
@@ -109,36 +111,37 @@ impl Series {
     }
 }
 
-/// A place at which a stage begins, and its name.
+/// The place on the horizontal axis at which a stage begins, and the name of the stage.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CurveStart {
-    /// The value on the horizontal axis.
+    /// The value on the horizontal axis at which the stage begins.
     pub at: f64,
-    /// The text beside the line at that value.
+    /// The text beside the vertical line at `at`.
     pub name: String,
 }
 
-/// Two axes and the curves between them.
+/// A diagram: two axes and the curves between them.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Diagram {
-    /// The title above the diagram; empty for a single diagram.
+    /// The title above the diagram; empty if the picture has a single diagram.
     pub title: String,
     /// Names of the horizontal and the vertical values, with units.
     pub axes: [String; 2],
-    /// Scale of both axes.
+    /// The scale of both axes, linear or logarithmic.
     pub scale: AxisScale,
-    /// Values that the vertical axis includes for any points.
+    /// Values that the vertical axis includes in any case.
     pub least: Option<[f64; 2]>,
-    /// Later series are drawn over earlier ones.
+    /// The curves; later curves are drawn over earlier ones.
     pub series: Vec<Series>,
     /// The places at which stages begin.
     pub stages: Vec<CurveStart>,
-    /// The places at which a page marks its step: one for every step; empty in a file.
+    /// The values on the horizontal axis at which a page marks a step, one for every step; empty in a file.
     pub steps: Vec<f64>,
 }
 
 impl Diagram {
-    /// A diagram of full lines with linear axes, in separate colours; bounds keep their style.
+    /// Returns a diagram of full lines with linear axes. Series get separate colours, except bounds, which keep their
+    /// style.
     pub(crate) fn linear(axes: [&str; 2], mut series: Vec<Series>) -> Self {
         let full = series.iter_mut().filter(|it| it.look == Look::Full);
         full.enumerate().for_each(|(style, it)| it.style = style);
@@ -159,9 +162,9 @@ impl Diagram {
     }
 }
 
-/// The text of an SVG file, without diagrams in which no series has a point; `None` if there is no other diagram.
-/// Diagrams with logarithmic axes share a legend and stand in two columns; others stand one below the other, each with
-/// its legend.
+/// Returns the text of an SVG file. Diagrams in which no series has a point are left out; `None` if no diagram remains.
+/// Diagrams with logarithmic axes share a legend and stand in two columns; other diagrams stand one below the other,
+/// each with its legend.
 pub fn picture(title: &str, diagrams: &[Diagram], notes: &[String]) -> Option<String> {
     let drawn: Vec<&Diagram> = diagrams.iter().filter(|it| !it.is_empty()).collect();
     let first = drawn.first()?;
@@ -195,7 +198,7 @@ pub fn picture(title: &str, diagrams: &[Diagram], notes: &[String]) -> Option<St
     Some(legend::file(title, [width, top + EDGE], "", &canvas))
 }
 
-/// A diagram in its place.
+/// A diagram at its place in the picture.
 struct Panel<'a> {
     diagram: &'a Diagram,
     corner: Pixel,

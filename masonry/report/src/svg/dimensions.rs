@@ -7,15 +7,16 @@ use super::style::{TEXT, TICK};
 use crate::format::InUnits;
 use masonry::model::Model;
 
-/// The distance of a dimension line from the other marks beside the structure, and room for its text.
+/// The distance between a dimension line and the other marks beside the structure, and the room for the line with its
+/// text.
 const GAP: f64 = 10.0;
 const ROOM: f64 = GAP + TEXT + 8.0;
 
-/// Width and height of the box around all blocks.
+/// Width and height of the box around all blocks, shown by dimension lines.
 #[derive(Debug)]
 pub(super) struct Dimensions {
     bounds: Bounds,
-    /// Room for the other marks beside the structure.
+    /// Room for the other marks between the structure and the dimension lines.
     others: Sides,
 }
 
@@ -24,13 +25,13 @@ impl Dimensions {
         Self { bounds: structure::blocks(model), others }
     }
 
-    /// Room for the dimensions and the other marks.
+    /// Returns the room for the dimensions and the other marks.
     pub(super) fn margins(&self) -> Sides {
         let Sides { left, bottom, .. } = self.others;
         Sides { left: left + ROOM, bottom: bottom + ROOM, ..self.others }
     }
 
-    /// Draws the width below and the height left of the structure.
+    /// Draws the width of the structure below it, and its height left of it.
     pub(super) fn draw(&self, sheet: &mut Sheet, units: InUnits) {
         let [low, high] = self.bounds.ends().map(|end| sheet.frame.at(end));
         let x = sheet.drawn.left - self.others.left - GAP;

@@ -1,5 +1,5 @@
-//! The forces in the joints: resultants at their places, the paths between them, and the part of friction that they
-//! use.
+//! The forces in the joints: resultants at their points of application, the lines between them, and the used part of
+//! the friction.
 
 use std::collections::BTreeMap;
 
@@ -23,25 +23,25 @@ const LEAST_OF_MANY: f64 = 1e-2;
 const MANY: usize = 150;
 /// The value of every resultant is shown in structures with at most this number of joints.
 const FEW: usize = 24;
-/// Least use of friction, class, and text of the legend.
+/// Least used part of the friction, class in the style sheet, and text of the legend.
 const USES: [(f64, &str, &str); 3] = [
     (0.995, "used up", "friction used up"),
     (0.8, "used much", "80 % of friction used or more"),
     (0.5, "used", "50 % of friction used or more"),
 ];
-/// Width of the widest path of forces, in sizes of a brick.
+/// Width of the widest line of thrust, in sizes of a brick.
 const WIDEST: f64 = 0.15;
-/// Half the middle third, in lengths of a joint, with room for rounding errors.
+/// Half the width of the middle third, in lengths of a joint, with room for rounding errors.
 const MIDDLE_THIRD: f64 = 1.0 / 6.0 + 1e-9;
-/// Half a joint, with room for rounding errors.
+/// Half the length of a joint, in lengths of a joint, with room for rounding errors.
 const ENDS: f64 = 0.5 + 1e-6;
 
-/// Scale and room that pictures of forces share, so that those of a load history can be compared.
+/// Scale and room that pictures of forces share, so that the pictures of a load history can be compared.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Shared {
-    /// The largest resultant \[N\].
+    /// The largest resultant in all pictures \[N\].
     largest: f64,
-    /// Side of a middling brick \[m\]: nearly the length of the largest resultant in the picture.
+    /// Side of a square as large as a median brick \[m\]; the stroke of the largest resultant is nearly as long.
     brick: f64,
     bounds: Bounds,
     /// Room for the arrows and labels of all pictures.
@@ -49,7 +49,7 @@ pub(crate) struct Shared {
 }
 
 impl Shared {
-    /// The scale of structures and their contact forces.
+    /// Returns the scale that pictures of these structures with their contact forces share.
     pub(crate) fn of(states: &[Loaded<'_>]) -> Self {
         let (mut largest, mut brick, mut margins) = (0.0_f64, 0.0_f64, Sides::HATCH);
         for Loaded { model, contacts, .. } in states {
@@ -78,18 +78,18 @@ impl<'a> From<&Shown<'a>> for Loaded<'a> {
     }
 }
 
-/// The structure with the resultant of every joint as a stroke in its direction, through the place at which it crosses
-/// the joint; the length is proportional to the force.
+/// Draws the structure with the resultant of every joint as a stroke in the direction of the resultant, through the
+/// point at which it crosses the joint. The length of the stroke is proportional to the force.
 ///
-/// The paths of the forces are drawn behind: lines from joint to joint, whose width is proportional to the force; they
-/// are the line of thrust in an arch. Dots are hollow if the resultant has left the middle third. Joints in colour use
-/// much of their friction. Supports have their reactions. Loads are those of the model.
+/// Lines from joint to joint are drawn behind, with a width that is proportional to the force; in an arch they are the
+/// line of thrust. Dots are hollow if the resultant is outside the middle third of the joint. Coloured joints use much
+/// of their friction. Supports have their reactions. Loads are those of the model.
 pub fn forces(title: &str, model: &Model, contacts: &[PointState]) -> String {
     let loaded = Loaded { title, model, contacts };
     compared(&loaded, &Shared::of(&[loaded]))
 }
 
-/// The picture of [`forces`], as long and as wide as others.
+/// Draws the picture of [`forces`] with the scale that it shares with other pictures.
 pub(crate) fn compared(loaded: &Loaded<'_>, by: &Shared) -> String {
     let Loaded { title, model, contacts } = *loaded;
     let all = joints::forces(model, contacts);
@@ -130,7 +130,7 @@ pub(crate) fn compared(loaded: &Loaded<'_>, by: &Shared) -> String {
     sheet.finish()
 }
 
-/// The resultants that are drawn.
+/// The resultants of a structure that are drawn.
 struct Drawn<'a> {
     model: &'a Model,
     /// The largest resultant of all compared pictures \[N\].
@@ -139,8 +139,8 @@ struct Drawn<'a> {
 }
 
 impl Drawn<'_> {
-    /// Draws lines from every joint of a block to the middle of its forces: one straight line for a block with two
-    /// joints.
+    /// Draws lines from every joint of a block to the middle of the joint forces on the block: one straight line for a
+    /// block with two joints.
     fn draw_paths(&self, sheet: &mut Sheet) {
         let paths = joints::paths(self.model, self.list.iter().copied());
         if paths.is_empty() {
@@ -148,7 +148,7 @@ impl Drawn<'_> {
         }
         let widest = WIDEST * sheet.marks();
         sheet.layer("paths", |canvas, frame| {
-            // There is one element for each width: viewers and scripts are slow with thousands of elements.
+            // One element is written for each width: viewers and scripts are slow with thousands of elements.
             let mut by_width: BTreeMap<String, String> = BTreeMap::new();
             for path in paths {
                 let width = fixed((widest * path.force / self.largest).max(0.3));
@@ -161,7 +161,7 @@ impl Drawn<'_> {
         sheet.legend.add("path of forces, its width by the force", "paths", legend::line);
     }
 
-    /// Draws joints that use much of their friction.
+    /// Draws the joints that use much of their friction.
     fn draw_uses(&self, sheet: &mut Sheet) {
         let mut below = f64::INFINITY;
         for (least, class, name) in USES {
@@ -196,7 +196,7 @@ impl Drawn<'_> {
                 }
             });
             sheet.layer(&places, |canvas, frame| {
-                // Two elements serve all dots: the strokes below them have the names of joints.
+                // Two elements hold all dots: the strokes below the dots have the names of joints.
                 for (is_class, class) in [(true, ""), (false, outside)] {
                     let of_class = own.iter().filter(|it| is_inside(it) == is_class);
                     let dots: String = of_class.map(|it| dot(frame.at(it.at), radius)).collect();
@@ -222,13 +222,14 @@ impl Drawn<'_> {
         }
     }
 
-    /// The ends of the stroke of a resultant: the largest is nearly as long as a brick.
+    /// Returns the ends of the stroke of a resultant: the stroke of the largest resultant is nearly as long as a brick.
     fn stroke(&self, sheet: &Sheet, it: &JointForce) -> [Pixel; 2] {
         let half = 0.45 * sheet.brick * it.force.norm() / self.largest;
         [-half, half].map(|half| sheet.frame.at(it.at).along(it.force, half))
     }
 
-    /// Writes the value of every resultant between blocks beside it, if there is room; supports have their reactions.
+    /// Writes the value of every resultant between blocks beside its stroke, if there is room. Resultants at supports
+    /// have no value, since supports show their reactions.
     fn draw_values(&self, sheet: &mut Sheet, labels: &mut Labels) {
         let units = InUnits(self.model.units);
         sheet.layer("pressing labels", |canvas, frame| {

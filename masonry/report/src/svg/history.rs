@@ -1,5 +1,5 @@
-//! Curves: loads or reactions of a load history against displacements, and both step by step; the factor along the path of
-//! a limit load.
+//! Curves of a load history: loads or reactions against displacements, and both step by step. Curves of a limit load:
+//! the load factor along the path, and against the position of a train.
 
 use super::diagram::{CurveStart, Diagram, Look, Series, picture};
 use crate::figures::history::steps;
@@ -12,16 +12,16 @@ use masonry::rounding::largest;
 
 /// The largest number of curves in one diagram.
 const MOST: usize = 7;
-/// Values that change by less than this part of the largest one are constant.
+/// A column counts as constant if its values change by less than this part of the largest value.
 const CONSTANT: f64 = 1e-9;
 
-/// Factors of loads against the largest displacement, reactions against the movement of a support, and the largest
+/// Draws load factors against the largest displacement, reactions against the movement of a support, and the largest
 /// displacement and the reactions step by step. `None` for fewer than two steps.
 pub fn history(title: &str, model: &Model, history: &History) -> Option<String> {
     curves(title, model, history, false)
 }
 
-/// The curves of [`history`], with marks of the steps for a page.
+/// Draws the curves of [`history`], with marks of the steps for a page.
 pub(crate) fn curves(
     title: &str,
     model: &Model,
@@ -71,14 +71,14 @@ impl Column {
     }
 }
 
-/// Settings of curves of columns against one column.
+/// Settings of diagrams that show columns of a table against the column `x`.
 #[derive(Clone, Copy)]
 struct Against<'a> {
     table: &'a Table,
     x: &'a str,
-    /// Minus one if the axis shows the opposite of the column, so that curves run from left to right.
+    /// Minus one if the axis shows the column `x` with the opposite sign, so that curves run from left to right.
     sense: f64,
-    /// Whether a page marks its step.
+    /// Whether the diagram is on a page, which marks its step in the diagram.
     for_page: bool,
 }
 
@@ -88,7 +88,7 @@ impl Against<'_> {
         Series { name, style: 0, look: Look::Full, points: points.map(<[f64; 2]>::from).collect() }
     }
 
-    /// The curves of all columns that vary with the steps, by decreasing variation.
+    /// Returns the curves of all columns that vary with the steps, by decreasing variation.
     fn varying(&self, columns: impl Iterator<Item = Column>) -> Vec<Series> {
         let mut list: Vec<Series> = columns.map(|column| self.curve(column)).collect();
         let values = |it: &Series| it.points.iter().map(|it| it[1]).collect::<Vec<_>>();
@@ -111,22 +111,23 @@ impl Against<'_> {
         Diagram { steps, ..Diagram::linear(axes, series) }
     }
 
-    /// The places of the steps on the axis.
+    /// Returns the values of the steps on the horizontal axis.
     fn steps(&self) -> Vec<f64> {
         self.table.numbers(self.x).into_iter().map(|it| self.sense * it).collect()
     }
 }
 
-/// The movement of a support.
+/// The movement of a support, as the horizontal axis of a diagram.
 struct Moved<'a> {
     support: &'a str,
-    /// The column, its sign at the largest movement, and the name of the movement on an axis.
+    /// The key of the column; then its sign at the largest movement, and the name of the movement on the axis.
     x: String,
     sense: f64,
     axis: String,
 }
 
-/// The support with the largest movement, and its kind: up or down, to a side, or by turning alone.
+/// Finds the support with the largest movement, and the kind of the movement: up or down, to a side, or by turning
+/// alone. `None` if no support moves.
 fn most_moved<'a>(model: &'a Model, table: &Table) -> Option<Moved<'a>> {
     let furthest = |part: &'static str| {
         let names = model.supports.iter().map(|it| it.name.as_str());
@@ -153,15 +154,15 @@ fn most_moved<'a>(model: &'a Model, table: &Table) -> Option<Moved<'a>> {
     Some(Moved { support, x: format!("{support} {part}"), sense: most.signum(), axis })
 }
 
-/// The first step of every stage.
+/// Returns the first step of every stage.
 fn stages(records: &[StepRecord]) -> Vec<CurveStart> {
     let all = (1..).zip(records).filter(|(_, it)| it.step.number == 1);
     all.map(|(number, it)| CurveStart { at: f64::from(number), name: it.step.stage.clone() })
         .collect()
 }
 
-/// The load factors of the states at rest against their displacements, and the factor above which the structure falls.
-/// `None` for fewer than two states.
+/// Draws the load factors of the states of rest against their displacements, and the load factor above which the
+/// structure falls. `None` for fewer than two states.
 pub fn path(title: &str, group: &str, path: &Path) -> Option<String> {
     let table = curve(path);
     let displacements = table.numbers("displacement");
@@ -182,11 +183,12 @@ pub fn path(title: &str, group: &str, path: &Path) -> Option<String> {
     picture(&format!("{title}: load factor along the path"), &[diagram], &[])
 }
 
-/// Factors of a train beyond this multiple of the least are not drawn. Chosen: the curve shows its worst part clearly.
+/// Load factors of a train beyond this multiple of the least factor are not drawn. Chosen: the curve shows its worst
+/// part clearly.
 const SHOWN: f64 = 10.0;
 
-/// The load factor of a train by a law against its position, from the table of its positions, and the worst position.
-/// `None` for fewer than two factors.
+/// Draws the load factor of a train by a law of friction against the position of the train, and marks the worst
+/// position. The values come from the table of positions. `None` for fewer than two load factors.
 pub(crate) fn train(title: &str, law: &str, positions: &Table, critical: usize) -> Option<String> {
     let places = positions.numbers("position");
     let factor = |row: &Vec<Value>| match row[1] {
@@ -198,7 +200,7 @@ pub(crate) fn train(title: &str, law: &str, positions: &Table, critical: usize) 
         points.map(|(place, row)| Some([*place, factor(row)?])).collect();
     let governs = points[critical]?;
     let is_shown = |it: &Option<[f64; 2]>| it.is_some_and(|it| it[1] <= SHOWN * governs[1]);
-    // The curve has gaps at positions with a large factor or without a factor.
+    // The curve has gaps at positions with a large load factor or without one.
     let runs = points.chunk_by(|a, b| is_shown(a) == is_shown(b)).filter(|run| is_shown(&run[0]));
     let runs: Vec<Vec<[f64; 2]>> =
         runs.map(|run| run.iter().flatten().copied().collect()).collect();
@@ -215,7 +217,7 @@ pub(crate) fn train(title: &str, law: &str, positions: &Table, critical: usize) 
     series.push(Series { name, style: 1, look: Look::Full, points: vec![governs] });
     let length = positions.units.0.length_name();
     let axes = [&format!("position of the train [{length}]"), "factor of the train [-]"];
-    // All runs are parts of one curve and have one style.
+    // All pieces between gaps belong to one curve and have one style.
     let diagram = Diagram { series, ..Diagram::linear(axes, Vec::new()) };
     picture(&format!("{title}: load factor by position"), &[diagram], &[])
 }

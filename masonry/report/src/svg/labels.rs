@@ -5,43 +5,43 @@ use nalgebra::{Rotation2, Vector2};
 use super::canvas::{Anchor, Canvas, Pixel, text_width};
 use super::sheet::Sides;
 
-/// Other places of a label whose own place is taken: distances, and angles to the sides \[degrees\].
+/// Places at which a label is tried: distances from its point, and angles to its preferred side \[degrees\].
 const FURTHER: [f64; 4] = [0.0, 7.0, 15.0, 24.0];
 const ASIDE: [f64; 7] = [0.0, 40.0, -40.0, 75.0, -75.0, 110.0, -110.0];
 
-/// A text beside a place.
+/// A text beside a point.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Label<'a> {
     pub(super) text: &'a str,
     pub(super) size: f64,
     pub(super) at: Pixel,
-    /// The best side of the place, y up.
+    /// The preferred direction from the point to the label, y up.
     pub(super) side: Vector2<f64>,
-    /// Attributes of the text.
+    /// SVG attributes of the text.
     pub(super) name: &'a str,
 }
 
-/// The places that labels have taken, and the strokes that they avoid.
+/// The rectangles that labels have taken, and the strokes that labels avoid.
 #[derive(Debug)]
 pub(super) struct Labels {
-    /// The area in which labels may be.
+    /// The area in which labels may lie.
     room: Sides,
     taken: Vec<Sides>,
     strokes: Vec<[Pixel; 2]>,
 }
 
 impl Labels {
-    /// No labels yet, in an area.
+    /// Creates an empty set of labels in an area.
     pub(super) fn within(room: Sides) -> Self {
         Self { room, taken: Vec::new(), strokes: Vec::new() }
     }
 
-    /// Keeps labels away from a stroke.
+    /// Adds a stroke that labels avoid.
     pub(super) fn avoid(&mut self, stroke: [Pixel; 2]) {
         self.strokes.push(stroke);
     }
 
-    /// Draws a label on its side of its place, or near the place; draws nothing if there is no room.
+    /// Draws a label on the preferred side of its point, or near its point; draws nothing if there is no room.
     pub(super) fn draw(&mut self, canvas: &mut Canvas, label: &Label<'_>) {
         let Label { text, size, at, side, name } = *label;
         let half = Vector2::new(0.5 * text_width(text, size), 0.5 * size);
@@ -58,7 +58,7 @@ impl Labels {
         }
     }
 
-    /// Takes a rectangle; `false` if the rectangle is not free.
+    /// Takes a rectangle for a label; `false` if the rectangle is not free.
     fn take(&mut self, it: Sides) -> bool {
         let room = &self.room;
         let is_free = it.left >= room.left
@@ -74,10 +74,11 @@ impl Labels {
     }
 }
 
-/// The middle of a box with these half sides that touches a place, or is `gap` away from it, on its side `n`, y up.
+/// Returns the middle of a box with these half sides that lies on the side `n` (y up) of a point, and touches the point
+/// or is `gap` away from it.
 fn beside(at: Pixel, n: Vector2<f64>, half: Vector2<f64>, gap: f64) -> Pixel {
     let n = n.normalize();
-    // The box begins at the place for all directions.
+    // The box touches the point for all directions `n` if the gap is zero.
     let reach = (half.x / n.x.abs()).min(half.y / n.y.abs());
     at.along(n, reach + gap)
 }
@@ -89,7 +90,7 @@ fn overlap(one: &Sides, other: &Sides) -> bool {
         && other.top < one.bottom
 }
 
-/// Whether a stroke has a part in a rectangle.
+/// Whether a stroke intersects a rectangle.
 fn crosses([from, to]: &[Pixel; 2], it: &Sides) -> bool {
     let (mut enters, mut leaves) = (0.0_f64, 1.0_f64);
     for (from, to, low, high) in

@@ -1,4 +1,4 @@
-//! Legends: symbols and texts in columns; and the file around a picture, with its title.
+//! Legends: symbols and texts in columns; and the SVG file around a picture, with its title.
 
 use super::canvas::{Anchor, Canvas, Pixel, closed, escape, fixed, open, wrapped};
 use super::style::{EDGE, LARGEST_BRICK, STYLE, TEXT, TEXT_LINE, TITLE, TITLE_LINE};
@@ -8,7 +8,7 @@ const GAP: f64 = 9.0;
 const SYMBOL: f64 = 64.0;
 pub(super) const ENTRY_WIDTH: f64 = 280.0;
 
-/// A symbol, drawn about the origin, and its text.
+/// A symbol, drawn about the origin, and the text beside it.
 #[derive(Debug)]
 struct Entry {
     symbol: Canvas,
@@ -32,7 +32,8 @@ impl Legend {
         self.0.push(Entry { symbol: Canvas::default(), lines: lines(text) });
     }
 
-    /// Draws the entries in rows of `columns`, from a corner on, and returns the end of the last one.
+    /// Draws the entries in rows of `columns` entries, beginning at a corner, and returns the lower end of the last
+    /// row.
     pub(super) fn draw(&self, canvas: &mut Canvas, corner: Pixel, columns: usize) -> f64 {
         let mut top = corner.y;
         for row in self.0.chunks(columns) {
@@ -62,18 +63,18 @@ fn lines(text: &str) -> Vec<String> {
     wrapped(text, TEXT, ENTRY_WIDTH - SYMBOL - 12.0)
 }
 
-/// A line as a symbol.
+/// Draws a line as a symbol.
 pub(super) fn line(symbol: &mut Canvas) {
     symbol.path(&open([-22.0, 22.0].map(|x| Pixel::new(x, 0.0))), "");
 }
 
-/// A block as a symbol.
+/// Draws a block as a symbol.
 pub(super) fn block(symbol: &mut Canvas) {
     let corners = [[-16.0, -6.0], [16.0, -6.0], [16.0, 6.0], [-16.0, 6.0]];
     symbol.path(&closed(corners.map(|[x, y]| Pixel::new(x, y))), "");
 }
 
-/// A bar with marks at its ends, given half its length, as a symbol.
+/// Returns a function that draws a bar of half length `half`, with marks at its ends, as a symbol.
 pub(super) fn bar(half: f64) -> impl FnOnce(&mut Canvas) {
     move |symbol| {
         let end = |x: f64| open([-4.0, 4.0].map(|y| Pixel::new(x, y)));
@@ -82,7 +83,7 @@ pub(super) fn bar(half: f64) -> impl FnOnce(&mut Canvas) {
     }
 }
 
-/// Draws a title at the top of a picture of this width, and returns the end of the title.
+/// Draws a title at the top of a picture of this width, and returns the lower end of the title.
 pub(super) fn title(canvas: &mut Canvas, text: &str, width: f64) -> f64 {
     let mut top = EDGE;
     canvas.group("class=\"title\"", |canvas| {
@@ -94,7 +95,7 @@ pub(super) fn title(canvas: &mut Canvas, text: &str, width: f64) -> f64 {
     top
 }
 
-/// The text of a file of this size; `data` are attributes for a page.
+/// Returns the text of an SVG file of this size; `data` are attributes that a page uses.
 pub(super) fn file(
     title: &str,
     [width, height]: [f64; 2],

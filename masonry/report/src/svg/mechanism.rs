@@ -1,4 +1,4 @@
-//! The movement by which a structure without equilibrium collapses, with its hinges and sliding joints.
+//! The motion by which a structure without equilibrium collapses, with its hinges and sliding joints.
 
 use nalgebra::Vector2;
 
@@ -19,31 +19,31 @@ use masonry::model::Model;
 use masonry::rounding::largest;
 use masonry::verify::moving::{SLOW, speed};
 
-/// Rates below this part of the fastest are zero: blocks are drawn as at rest.
+/// Blocks whose rates are below this part of the fastest rate are drawn as at rest.
 const AT_REST: f64 = 1e-6;
-/// The largest number of hinges and sliding joints with numbers; beyond it, numbers would hide the structure, and slow
-/// joints have no marks.
+/// The largest number of hinges and sliding joints that are numbered. In a mechanism with more, numbers would hide the
+/// structure, and slow joints have no marks.
 const NUMBERED: usize = 48;
 
-/// A mechanism and the loads in its picture.
+/// A mechanism, and the loads in its picture.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Collapse<'a> {
     pub(crate) title: &'a str,
     pub(crate) model: &'a Model,
     /// Displacement rates of the corners of every block.
     pub(crate) rates: &'a [Vec<Vector2<f64>>],
-    /// The growing loads, if the mechanism is that of a limit load.
+    /// The load group that grows, if the mechanism is that of a limit load.
     pub(crate) growth: Option<Growth<'a>>,
 }
 
-/// The structure displaced along `rates`, the displacement rates of the corners of every block,
-/// over its outline, with its loads. Only ratios between rates mean something: the picture has no displacement
-/// scale. Hinges and sliding joints are marked and, if they are few, numbered in the order of the joints.
+/// Draws the structure displaced along `rates`, the displacement rates of the corners of every block, over its outline,
+/// with its loads. Only ratios between rates have a meaning, so that the picture has no displacement scale. Hinges and
+/// sliding joints are marked and, if they are few, numbered in the order of the joints.
 pub fn mechanism(title: &str, model: &Model, rates: &[Vec<Vector2<f64>>]) -> String {
     collapse(&Collapse { title, model, rates, growth: None }, false)
 }
 
-/// The picture of [`mechanism`]; a page can change the amplitude.
+/// Draws the picture of [`mechanism`]; a page can change the amplitude.
 pub(crate) fn collapse(collapse: &Collapse<'_>, for_page: bool) -> String {
     let Collapse { title, model, rates, growth } = *collapse;
     let fastest = largest(rates.iter().map(|rate| speed(rate)));
@@ -65,7 +65,7 @@ pub(crate) fn collapse(collapse: &Collapse<'_>, for_page: bool) -> String {
     draw_yielding(&mut sheet, model, &joints, motion, &mut labels);
     let rate = |on: &Pushed| rate_of(collapse, on);
     loads.draw(&mut sheet, model, &mut labels, &Displaced { motion, rate: &rate });
-    // A growing weight has no arrow, whose label would show the factor.
+    // A growing weight has no arrow whose label could show the load factor.
     let has_arrow = |it: &Growth<'_>| model.loads.iter().any(|load| load.group == it.group);
     if let Some(Growth { group, factor }) = growth.filter(|it| !has_arrow(it)) {
         let factor = significant(factor, 4);
@@ -75,7 +75,7 @@ pub(crate) fn collapse(collapse: &Collapse<'_>, for_page: bool) -> String {
     sheet.finish()
 }
 
-/// Draws blocks by their speeds, the fastest on top, and writes their number.
+/// Draws blocks in colours by speed, the fastest on top, and writes the number of moving blocks.
 fn draw_blocks(sheet: &mut Sheet, collapse: &Collapse<'_>, motion: Motion, fastest: f64) {
     let Collapse { model, rates, .. } = *collapse;
     let kind = |rate: &[Vector2<f64>]| match speed(rate) {
@@ -103,7 +103,7 @@ fn draw_blocks(sheet: &mut Sheet, collapse: &Collapse<'_>, motion: Motion, faste
     }
 }
 
-/// Draws marks of hinges and sliding joints in their displaced places, with their numbers.
+/// Draws marks of hinges and sliding joints at their displaced places, with their numbers.
 fn draw_yielding(
     sheet: &mut Sheet,
     model: &Model,
@@ -164,23 +164,23 @@ fn draw_yielding(
 struct Mark {
     does: Yield,
     at: Pixel,
-    /// The direction of the joint.
+    /// The unit vector along the joint.
     along: Vector2<f64>,
     radius: f64,
     number: String,
-    /// Attributes of the elements.
+    /// SVG attributes of the elements of the mark.
     name: String,
 }
 
 impl Mark {
-    /// The mark of a level joint, for a legend.
+    /// Returns the mark of a horizontal joint for the legend.
     fn symbol(does: Yield) -> Self {
         let (number, name) = (String::new(), String::new());
         let (at, radius) = (Pixel::new(0.0, 0.0), HINGE * LARGEST_BRICK);
         Self { does, at, along: Vector2::x(), radius, number, name }
     }
 
-    /// The ends of the mark along the joint.
+    /// Returns the ends of the mark along the joint.
     fn ends(&self) -> [Pixel; 2] {
         let half = if self.does == Yield::Hinge { self.radius } else { 2.2 * self.radius };
         [-half, half].map(|half| self.at.along(self.along, half))
@@ -203,7 +203,7 @@ impl Mark {
     }
 }
 
-/// The rate of the target of a load, which turns with its block.
+/// Returns the displacement rate of the point at which a load acts; the point turns with its block.
 fn rate_of(collapse: &Collapse<'_>, on: &Pushed) -> Vector2<f64> {
     let Some(block) = on.block else { return Vector2::zeros() };
     let corners = &collapse.model.blocks[block.index()].corners;

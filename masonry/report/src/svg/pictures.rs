@@ -1,5 +1,5 @@
-//! All pictures of an outcome; the pictures of several states, one for each step of a load history, have the same
-//! scale.
+//! All pictures of an outcome. Pictures of one kind for several states, such as the steps of a load history, have the
+//! same scale.
 
 use super::bond_lines::ReferenceLines;
 use super::cracks;
@@ -13,7 +13,7 @@ use super::stresses::{self, StressScale};
 use crate::joints;
 use masonry::analysis::outcome::Outcome;
 
-/// Pictures of one kind: one picture, or one for every shown step of a load history.
+/// Pictures of one kind: a single picture, or one for every shown step of a load history.
 #[derive(Debug, Clone)]
 pub(crate) struct Pictures {
     /// The name of the file of such a picture.
@@ -27,8 +27,8 @@ impl Pictures {
     }
 }
 
-/// The pictures of an outcome, with those of the `shown` states, in the order of the files. A page can change
-/// displacements and amplitudes, and marks its step in curves.
+/// Draws the pictures of an outcome, including those of the `shown` states, in the order of the files. With `for_page`,
+/// a page can change displacements and amplitudes, and mark its step in curves.
 pub(crate) fn of_outcome(
     outcome: &Outcome,
     title: &str,
@@ -49,16 +49,16 @@ pub(crate) fn of_outcome(
     list
 }
 
-/// A picture of a state.
+/// A kind of picture of a state.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum StatePicture {
-    /// [`principal_stresses`](super::principal_stresses()).
+    /// The picture of the principal stresses, drawn by [`principal_stresses`](super::principal_stresses()).
     Stresses,
-    /// [`deformed`](super::deformed()).
+    /// The picture of the deformed structure, drawn by [`deformed`](super::deformed()).
     Deformed,
-    /// [`forces`](super::forces()).
+    /// The picture of the contact forces, drawn by [`forces`](super::forces()).
     Forces,
-    /// [`cracks`](super::cracks()).
+    /// The picture of open joints and slips, drawn by [`cracks`](super::cracks()).
     Cracks,
 }
 
@@ -75,8 +75,8 @@ impl StatePicture {
     }
 }
 
-/// Pictures of one kind of several states, with one scale of forces, stresses, displacements or widths; empty if there
-/// is nothing to show in any state.
+/// Draws pictures of one kind for several states, with one scale of forces, stresses, displacements or widths; empty if
+/// no state has anything to show.
 pub fn compared(
     kind: StatePicture,
     shown: &[Shown<'_>],
@@ -116,7 +116,8 @@ fn drawn(
     }
 }
 
-/// The pictures of states, which have the same scales. Kinds with nothing to show in any state are left out.
+/// Draws the pictures of states with shared scales. Kinds of pictures for which no state has anything to show are left
+/// out.
 fn of_states(
     shown: &[Shown<'_>],
     reference: Option<&ReferenceLines>,

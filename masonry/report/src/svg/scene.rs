@@ -18,14 +18,14 @@ use masonry::ids::JointId;
 use masonry::law::JointLaw;
 use masonry::model::{Elasticity, Model, PlacedBlock};
 
-/// The largest number of blocks with names; more names would hide the blocks.
+/// The largest number of blocks whose names are drawn; more names would hide the blocks.
 const NAMED: usize = 120;
-/// Sizes of the letters of names.
+/// Largest and smallest size of the letters of names.
 const LARGEST: f64 = 12.0;
 const READABLE: f64 = 7.0;
 
-/// The scene as it would be solved: bricks with their materials, and their names if there is room, dimensions, hatched
-/// supports, joints in the colour of their class, contact points, and loads with values and units.
+/// Draws the scene as it would be solved: bricks with their materials, and their names if there is room, dimensions,
+/// hatched supports, joints in the colour of their class, contact points, and loads with values and units.
 pub fn scene(title: &str, model: &Model) -> String {
     let units = InUnits(model.units);
     let loads = Arrows::of_loads(model, None);
@@ -118,7 +118,7 @@ fn draw_joints(sheet: &mut Sheet, model: &Model) {
     }
 }
 
-/// The law of a class in words: friction, and strength and stiffness if there are any.
+/// Returns the law of a joint class in words: friction, and strength and stiffness if there are any.
 fn law(law: &JointLaw) -> String {
     let strength = [("c", law.cohesion), ("f_t", law.tension)].into_iter();
     let strength = strength.filter(|(_, value)| *value > 0.0);
@@ -131,7 +131,8 @@ fn law(law: &JointLaw) -> String {
     texts.join(", ")
 }
 
-/// Draws names in the middle of the blocks, in one size that fits all, or does not draw names.
+/// Draws the names of all blocks in their middle, in one size that fits all blocks; draws no names if there is no such
+/// size.
 fn draw_names(sheet: &mut Sheet, model: &Model) {
     let fitting = |block: &PlacedBlock| {
         let [wide, high] = room(&block.corners).map(|it| it * sheet.frame.scale);
@@ -151,8 +152,8 @@ fn draw_names(sheet: &mut Sheet, model: &Model) {
     });
 }
 
-/// A place well inside a block: the centroid, or, if the block is not convex, the deepest of the centroids of the block
-/// and of the triangles at its corners.
+/// Returns a point well inside a block: the centroid, or, if the block is not convex, the deepest of the centroids of
+/// the block and of the triangles at its corners.
 fn inner_place(corners: &[Point2<f64>]) -> Point2<f64> {
     let centre = geometry::centroid(corners);
     if geometry::check_convex(corners).is_ok() {
@@ -168,7 +169,8 @@ fn inner_place(corners: &[Point2<f64>]) -> Point2<f64> {
     deepest.filter(|it| depth(it) > depth(&centre)).unwrap_or(centre)
 }
 
-/// Lengths of the horizontal and the vertical line to the edges, through the place of the name of a block \[m\].
+/// Returns the lengths of the horizontal and the vertical line through the place of the name of a block, from edge to
+/// edge \[m\].
 fn room(corners: &[Point2<f64>]) -> [f64; 2] {
     let centre = inner_place(corners);
     let chord = |along: usize, across: usize| {

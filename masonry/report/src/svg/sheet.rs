@@ -1,4 +1,5 @@
-//! A sheet with a structure: title on top, drawing, and a legend beside or below it that never overlaps it.
+//! A sheet with a structure: title on top, drawing, and a legend beside or below the drawing that never overlaps the
+//! drawing.
 
 use nalgebra::{Point2, Vector2};
 
@@ -22,7 +23,7 @@ pub(super) struct Bounds {
 }
 
 impl Bounds {
-    /// The smallest box around all finite points; the origin without points.
+    /// Returns the smallest box around all finite points; a box at the origin without points.
     pub(super) fn of(points: impl IntoIterator<Item = Point2<f64>>) -> Self {
         let points = points.into_iter().filter(|p| p.x.is_finite() && p.y.is_finite());
         let boxes = points.map(|p| Self { low: p, high: p });
@@ -44,7 +45,7 @@ impl Bounds {
     }
 }
 
-/// Lengths in pixels at the four sides of the drawing, or the places of these sides.
+/// Lengths in pixels at the four sides of the drawing, or the positions of these sides.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Sides {
     pub(super) left: f64,
@@ -54,10 +55,10 @@ pub(super) struct Sides {
 }
 
 impl Sides {
-    /// Room for the hatches of supports.
+    /// Room for the hatches of supports on all sides.
     pub(super) const HATCH: Self = Self { left: 14.0, right: 14.0, top: 14.0, bottom: 14.0 };
 
-    /// The larger room on every side.
+    /// Returns the larger room on every side.
     pub(super) fn and(self, other: Self) -> Self {
         Self {
             left: self.left.max(other.left),
@@ -87,11 +88,11 @@ impl Frame {
 /// A structure in a state, and the title of its pictures.
 #[derive(Debug, Clone, Copy)]
 pub struct Shown<'a> {
-    /// The title.
+    /// The title of the picture.
     pub title: &'a str,
     /// The structure.
     pub model: &'a Model,
-    /// The state.
+    /// The state of the structure that is drawn.
     pub state: &'a State,
 }
 
@@ -100,23 +101,23 @@ pub struct Shown<'a> {
 pub(super) struct Sheet {
     pub(super) frame: Frame,
     pub(super) legend: Legend,
-    /// The area of the structure.
+    /// The area of the structure in pixels.
     pub(super) drawn: Sides,
-    /// The area of the structure with all its marks.
+    /// The area of the structure with all its marks in pixels.
     pub(super) room: Sides,
-    /// The size of a middling brick in pixels.
+    /// The side of a square as large as a median brick, in pixels.
     pub(super) brick: f64,
     canvas: Canvas,
     units: InUnits,
     title: String,
     titles: Canvas,
-    /// Attributes of the file, by which a page identifies the picture.
+    /// Attributes of the SVG file, by which a page identifies the picture.
     data: String,
     is_legend_below: bool,
 }
 
 impl Sheet {
-    /// A sheet with room for everything of a model within `bounds`.
+    /// Creates a sheet with room for a model within `bounds`, and for marks of the size `margins` around it.
     pub(super) fn new(title: String, model: &Model, bounds: Bounds, margins: Sides) -> Self {
         let mut titles = Canvas::default();
         let top = legend::title(&mut titles, &title, WIDTH);
@@ -150,12 +151,12 @@ impl Sheet {
         }
     }
 
-    /// Draws marks of a class.
+    /// Draws marks of a class of the style sheet, whose line widths depend on the size of bricks.
     pub(super) fn layer(&mut self, class: &str, draw: impl FnOnce(&mut Canvas, &Frame)) {
         self.layer_sized(class, self.marks(), draw);
     }
 
-    /// Draws marks of a class whose widths depend on another size than that of bricks.
+    /// Draws marks of a class of the style sheet, whose line widths depend on `size`.
     pub(super) fn layer_sized(
         &mut self,
         class: &str,
@@ -166,18 +167,18 @@ impl Sheet {
         self.canvas.group(&attributes, |canvas| draw(canvas, &self.frame));
     }
 
-    /// The size of a brick for the sizes of marks.
+    /// Returns the size of a brick in pixels on which marks depend, within the bounds of the style.
     pub(super) fn marks(&self) -> f64 {
         self.brick.clamp(SMALLEST_BRICK, LARGEST_BRICK)
     }
 
-    /// Adds an attribute about the picture, for a page.
+    /// Adds an attribute of the picture that a page reads.
     pub(super) fn tell(&mut self, name: &str, value: &str) {
         self.data.extend([" data-", name, "=\"", &escape(value), "\""]);
     }
 
-    /// Adds the frame of the drawing as attributes, for a page: the place of the origin, and pixels for one unit of
-    /// length, upwards.
+    /// Adds the frame of the drawing as an attribute for a page: the position of the origin, and the number of pixels
+    /// for one unit of length (y up).
     fn tell_frame(&mut self) {
         let Frame { scale, low, origin } = self.frame;
         let (x, y) = (origin.x - low.x * scale, origin.y + low.y * scale);
@@ -185,7 +186,7 @@ impl Sheet {
         self.tell("frame", &format!("{x:.3} {y:.3} {per_unit:.9e}"));
     }
 
-    /// The finished file.
+    /// Returns the text of the finished file.
     pub(super) fn finish(mut self) -> String {
         self.add_length();
         self.tell_frame();
@@ -204,7 +205,7 @@ impl Sheet {
         legend::file(&self.title, [WIDTH, end + EDGE], &self.data, &elements)
     }
 
-    /// Adds a bar that shows a round length.
+    /// Adds a bar to the legend that shows a round length.
     fn add_length(&mut self) {
         let units = self.units;
         let round = round_down(units.length(LONGEST_BAR / self.frame.scale));
@@ -216,19 +217,19 @@ impl Sheet {
     }
 }
 
-/// The side of a square as large as a middling brick \[m\].
+/// Returns the side of a square as large as a median brick \[m\].
 pub(super) fn brick_size(model: &Model) -> f64 {
     middling(model.blocks.iter().map(|it| geometry::area(&it.corners)))
 }
 
-/// The side of a square as large as a middling one of these areas.
+/// Returns the side of a square as large as the median of these areas.
 pub(super) fn middling(areas: impl Iterator<Item = f64>) -> f64 {
     let mut areas: Vec<f64> = areas.collect();
     areas.sort_by(f64::total_cmp);
     areas.get(areas.len() / 2).copied().unwrap_or(0.0).max(0.0).sqrt()
 }
 
-/// Room for a label of this size beside the drawing.
+/// Returns the room for a label with this text beside the drawing.
 pub(super) fn label_room(text: &str) -> f64 {
     text_width(text, TEXT) + 8.0
 }

@@ -14,27 +14,27 @@ use masonry::data::state::{ElementStress, State};
 use masonry::geometry;
 use masonry::model::Model;
 
-/// The shortest bar of the legend, if stresses are small.
+/// The shortest bar in the legend, which small stresses have.
 const SHORTEST_BAR: f64 = 14.0;
-/// Smallest and largest size of an element in pixels on which widths depend.
+/// Smallest and largest size of an element in pixels on which line widths depend.
 const SMALLEST: f64 = 6.0;
 const LARGEST: f64 = 33.0;
-/// The longest stroke, in lengths of an element.
+/// The longest stroke, divided by the size of an element.
 const LONGEST: f64 = 2.2;
 
 /// The scale and room that pictures of stresses share, so that their strokes can be compared.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct StressScale {
-    /// The size that a twentieth of all stresses exceed \[Pa\].
+    /// The absolute stress that a twentieth of all elements exceed \[Pa\].
     large: f64,
     largest: f64,
-    /// The side of a middling element \[m\].
+    /// The side of a square as large as a median element \[m\].
     element: f64,
     bounds: Bounds,
 }
 
 impl StressScale {
-    /// The scale of the stresses of some states.
+    /// Returns the scale that pictures of the stresses of these states share.
     pub(crate) fn of(states: &[Shown<'_>]) -> Self {
         let ends = states.iter().flat_map(|it| structure::bounds(it.model).ends());
         let none = Self { large: 0.0, largest: 0.0, element: 0.0, bounds: Bounds::of(ends) };
@@ -49,7 +49,7 @@ impl StressScale {
         })
     }
 
-    /// The size that a twentieth of some stresses exceed, and the largest.
+    /// Returns the absolute stress that a twentieth of the elements exceed, and the largest \[Pa\].
     fn sizes(stresses: &[ElementStress]) -> [f64; 2] {
         let size = |it: &ElementStress| it.principal.sigma_1.abs().max(it.principal.sigma_2.abs());
         let mut sizes: Vec<f64> = stresses.iter().map(size).collect();
@@ -59,8 +59,8 @@ impl StressScale {
         [large, sizes.last().copied().unwrap_or(0.0)]
     }
 
-    /// Pixels per pascal: large stresses fill an element, and the largest overlap the next one or two
-    /// if a few are far above the rest.
+    /// Returns pixels per pascal: large stresses fill an element; the largest stresses overlap the next one or two
+    /// elements if a few stresses are far above the others.
     fn of_strokes(self, element: f64) -> f64 {
         if self.largest > 0.0 {
             (element / self.large).min(LONGEST * element / self.largest)
@@ -70,11 +70,10 @@ impl StressScale {
     }
 }
 
-/// Principal stresses of every element as crosses whose strokes are proportional to the stresses,
-/// with the contact points that are open or slide.
+/// Draws the principal stresses of every element as crosses whose strokes are proportional to the stresses, with the
+/// contact points that are open or slide.
 ///
-/// Strokes along which the element is compressed and stretched differ in colour. The legend shows the length of a round
-/// stress.
+/// Strokes of compression and of tension differ in colour. The legend shows the length of the stroke of a round stress.
 pub fn principal_stresses(
     title: &str,
     model: &Model,
@@ -85,7 +84,7 @@ pub fn principal_stresses(
     compared(&shown, reference, StressScale::of(&[shown]))
 }
 
-/// The picture of [`principal_stresses`] with strokes as long as those of others.
+/// Draws the picture of [`principal_stresses`] with the scale that it shares with other pictures.
 pub(crate) fn compared(
     shown: &Shown<'_>,
     reference: Option<&ReferenceLines>,
@@ -149,7 +148,7 @@ fn draw_strokes(sheet: &mut Sheet, model: &Model, state: &State, scale: StressSc
     sheet.legend.add(&format!("stroke of {}", stress_text(round)), "bar", legend::bar(half));
 }
 
-/// The side of a square as large as a middling element \[m\].
+/// Returns the side of a square as large as a median element \[m\].
 fn element_size(model: &Model, state: &State) -> f64 {
     middling(state.stresses.iter().filter_map(|stress| {
         let mesh = model.blocks[stress.block.index()].mesh.as_ref()?;

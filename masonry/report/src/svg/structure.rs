@@ -13,17 +13,17 @@ use masonry::ids::{JointId, SupportId};
 use masonry::model::mesh::BlockMesh;
 use masonry::model::{Body, JointPoint, Model, PlacedBlock, PlacedSupport};
 
-/// Length of the strokes of a hatch, and the largest distance between strokes.
+/// Length of the strokes of a hatch, and the largest distance between strokes, in pixels.
 const TICK: f64 = 7.0;
-/// The line of a support is wider than its hatch.
+/// SVG attribute of the line of a support, which is wider than its hatch.
 const LINE: &str = "class=\"line\"";
 
-/// The box around all blocks.
+/// Returns the box around all blocks.
 pub(super) fn blocks(model: &Model) -> Bounds {
     Bounds::of(model.blocks.iter().flat_map(|block| block.corners.iter().copied()))
 }
 
-/// The box around all blocks and supports.
+/// Returns the box around all blocks and supports.
 pub(super) fn bounds(model: &Model) -> Bounds {
     let ends = model.supports.iter().flat_map(|support| [support.from, support.to]);
     let corners = model.blocks.iter().flat_map(|block| block.corners.iter().copied());
@@ -36,7 +36,7 @@ pub(super) fn draw(sheet: &mut Sheet, model: &Model) {
     supports(sheet, model, Motion::NONE);
 }
 
-/// Draws blocks in their places before any movement.
+/// Draws blocks at their places before any displacement.
 pub(super) fn outlines<'a>(
     sheet: &mut Sheet,
     class: &str,
@@ -50,7 +50,7 @@ pub(super) fn outlines<'a>(
     });
 }
 
-/// Draws joints as lines of a class.
+/// Draws joints as lines of a class of the style sheet.
 pub(super) fn joints(
     sheet: &mut Sheet,
     class: &str,
@@ -66,7 +66,8 @@ pub(super) fn joints(
     });
 }
 
-/// Draws all supports in their displaced places, hatched on the side away from the structure, and their legend entry.
+/// Draws all supports at their displaced places, hatched on the side away from the structure, and adds their legend
+/// entry.
 pub(super) fn supports(sheet: &mut Sheet, model: &Model, motion: Motion) {
     if model.supports.is_empty() {
         return;
@@ -92,7 +93,7 @@ pub(super) fn supports(sheet: &mut Sheet, model: &Model, motion: Motion) {
     });
 }
 
-/// Keeps labels away from the supports.
+/// Makes labels avoid the lines of the supports.
 pub(super) fn avoid_supports(frame: &Frame, model: &Model, labels: &mut Labels) {
     for (index, support) in model.supports.iter().enumerate() {
         let inward = side_of_structure(model, SupportId::new(index), support);
@@ -102,7 +103,7 @@ pub(super) fn avoid_supports(frame: &Frame, model: &Model, labels: &mut Labels) 
     }
 }
 
-/// A vector, y up, from the support to the structure.
+/// Returns a vector (y up) from the support to the structure.
 fn side_of_structure(model: &Model, id: SupportId, support: &PlacedSupport) -> Vector2<f64> {
     match model.joints.iter().find(|joint| joint.a == Body::Support(id)) {
         Some(joint) => joint.normal,
@@ -110,7 +111,8 @@ fn side_of_structure(model: &Model, id: SupportId, support: &PlacedSupport) -> V
     }
 }
 
-/// The strokes along the line of a support, away from the structure; `inward` is the direction to the structure, y up.
+/// Returns path data of the hatch of a support: strokes away from the structure; `inward` is the direction to the
+/// structure, y up.
 fn hatch([from, to]: [Pixel; 2], ticks: u32, inward: Vector2<f64>) -> String {
     let along = from.towards(to);
     let across = Vector2::new(along.y, -along.x);
@@ -122,7 +124,7 @@ fn hatch([from, to]: [Pixel; 2], ticks: u32, inward: Vector2<f64>) -> String {
     (0..ticks).map(stroke).collect()
 }
 
-/// The nodes around a block, as positions in the list of its nodes.
+/// Returns the nodes on the boundary of a block, as indices into the list of its nodes.
 pub(super) fn rim(block: &PlacedBlock) -> Vec<usize> {
     let of_mesh = |mesh: &BlockMesh| mesh.rim().collect();
     block.mesh.as_ref().map_or_else(|| (0..block.corners.len()).collect(), of_mesh)
@@ -130,8 +132,8 @@ pub(super) fn rim(block: &PlacedBlock) -> Vec<usize> {
 
 /// Draws contact points that are open (hollow circles) or slide (filled squares on a corner).
 ///
-/// Each mark is moved along its joint by nearly two radii towards the joint's middle, so that the marks of joints that
-/// meet in one place stay apart.
+/// Each mark is moved along its joint by nearly two radii towards the middle of the joint, so that the marks of joints
+/// that meet at one point stay apart.
 pub(super) fn contact_marks(sheet: &mut Sheet, model: &Model, states: &[PointState]) {
     let radius = STATUS * sheet.marks();
     for (status, name, class) in
@@ -171,7 +173,7 @@ fn mark_place(model: &Model, contact: &JointPoint, frame: &Frame, radius: f64) -
     at.along(at.towards(middle), (1.7 * radius).min(at.distance(middle)))
 }
 
-/// A number and a noun: `1 joint`, `2 joints`.
+/// Writes a number and a noun: `1 joint`, `2 joints`.
 pub(crate) fn counted(count: usize, name: &str) -> String {
     if count == 1 { format!("1 {name}") } else { format!("{count} {name}s") }
 }

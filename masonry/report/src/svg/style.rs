@@ -1,11 +1,11 @@
 //! The style sheet of pictures, and sizes.
 //!
-//! The class of an element gives its look, in a drawing and in a legend alike.
+//! The class of an element determines its look, both in a drawing and in a legend.
 
-/// One element for all pictures, so that the pictures of a page can share it.
+/// The style sheet as one element, which the pictures of a page can share.
 pub(crate) const STYLE: &str = concat!("<style>\n", include_str!("picture.css"), "</style>\n");
 
-/// Width of a picture, and of the free space at its edges.
+/// Width of a picture, and width of the free space at its edges.
 pub(super) const WIDTH: f64 = 900.0;
 pub(super) const EDGE: f64 = 18.0;
 /// Heights of letters and of lines of text.
@@ -15,15 +15,16 @@ pub(super) const TEXT: f64 = 13.0;
 pub(super) const TEXT_LINE: f64 = 17.0;
 /// Half the length of the marks at the ends of dimensions, and the length of the marks at the labels of axes.
 pub(super) const TICK: f64 = 5.0;
-/// The numbers of colours of classes, and of materials, in the style sheet.
+/// The numbers of colours of joint classes, and of materials, in the style sheet.
 pub(super) const COLOURS: usize = 7;
 pub(super) const MATERIALS: usize = 5;
 
-/// The smallest and the largest size of a brick in pixels on which marks depend; a legend has marks of the largest.
+/// The smallest and the largest size of a brick in pixels on which the sizes of marks depend; legends show marks of the
+/// largest size.
 pub(super) const SMALLEST_BRICK: f64 = 14.0;
 pub(super) const LARGEST_BRICK: f64 = 60.0;
-/// Sizes in bricks: radius of contact points in a scene, of open or sliding ones, of the places of resultants, and of
-/// hinges.
+/// Radii in sizes of a brick: contact points in a scene, open or sliding contact points, points of application of
+/// resultants, and hinges.
 pub(super) const CONTACT: f64 = 0.032;
 pub(super) const STATUS: f64 = 0.05;
 pub(super) const PLACE: f64 = 0.035;
