@@ -1,13 +1,13 @@
-//! Commented scenes to begin with.
+//! Commented scenes with which a user can begin.
 
 use serde::Serialize;
 
-/// A scene to begin with.
+/// A commented scene with which a user can begin.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 pub struct Beginning {
-    /// The name, in one word.
+    /// The name of the scene, in one word.
     pub name: &'static str,
-    /// The meaning, in a few words.
+    /// A description of the scene, in a few words.
     pub meaning: &'static str,
     /// The text of the scene, in TOML.
     pub text: &'static str,

@@ -15,8 +15,8 @@
 //! | `complete` | `at`: the place of the cursor | keys, words and names that fit there |
 //! | `begin` | | scenes to begin with |
 //!
-//! An answer is an object. If there is only a mistake, the object has `error`, with a message and, if the mistake has a
-//! place, `line` and `column` from 1. All other places in the text are in units of UTF-16, in which scripts count.
+//! An answer is an object. The object has `error` if there is a mistake: a message and, if the mistake has a place in
+//! the text, `line` and `column` from 1. All other places in the text are in UTF-16 code units, in which scripts count.
 
 mod change;
 mod compare;
@@ -46,15 +46,15 @@ use solved::{Format, Seen, Show, Solved};
 use text::Text;
 pub use watch::Watch;
 
-/// The number of solved scenes that are kept: the scene of the text, those beside it, and the one before.
+/// The number of solved scenes that are kept: the scene of the text, the scenes beside it, and the previous scene.
 const RECENT: usize = 2 + compare::MOST_BESIDE;
 
-/// Answers questions about scenes. The engine keeps the scenes that were solved last, so that another picture of them
-/// is drawn at once.
+/// Answers questions about scenes. The engine keeps the scenes that it solved last, so that it can draw other pictures
+/// of these scenes at once.
 #[derive(Debug, Default)]
 pub struct Engine {
     files: Option<Files>,
-    /// Solved scenes, the newest last.
+    /// The solved scenes that are kept, the newest last.
     recent: Mutex<Vec<Arc<Solved>>>,
 }
 
@@ -103,12 +103,12 @@ enum Task {
 }
 
 impl Engine {
-    /// An engine whose scenes may name files of a directory.
+    /// Creates an engine whose scenes may name files of a directory.
     pub fn with_files(files: Files) -> Self {
         Self { files: Some(files), ..Self::default() }
     }
 
-    /// The answer to a question, both in JSON; an error for a question that cannot be read.
+    /// Answers a question; question and answer are JSON. A question that cannot be read has an error as its answer.
     pub fn answer(&self, question: &str, watch: &mut Watch<'_>) -> String {
         let answer = serde_json::from_str(question)
             .map_err(Fault::from)
@@ -150,7 +150,7 @@ impl Engine {
         })
     }
 
-    /// Verdict and picture, or the mistake; in both cases with the parts of the text that can be changed.
+    /// Returns verdict and picture, or the mistake; in both cases with the parts of the text that can be changed.
     fn solve(
         &self,
         text: &str,
@@ -181,7 +181,7 @@ impl Engine {
     fn solved(&self, text: &str, watch: &mut Watch<'_>) -> Result<Arc<Solved>, Fault> {
         let scene = self.scene(text)?;
         let recent = || self.recent.lock().unwrap_or_else(PoisonError::into_inner);
-        // A file that the text names may have changed: scenes are compared, not texts.
+        // A file that the text names may have changed, so that scenes are compared instead of texts.
         let known = recent().iter().find(|it| it.is_of(&scene)).cloned();
         let solved = match known {
             Some(solved) => solved,
@@ -197,7 +197,8 @@ impl Engine {
         Ok(solved)
     }
 
-    /// A scene with one set of loads, for questions that take only one.
+    /// Returns a scene with one set of loads; an error for a scene with combinations, which the question does not
+    /// allow.
     fn single(&self, text: &str) -> Result<Scene, Fault> {
         let scene = self.scene(text)?;
         if scene.combinations.is_empty() {
@@ -213,7 +214,7 @@ impl Engine {
     }
 }
 
-/// The answer to `solve`.
+/// The answer to a question with the task `solve`.
 #[derive(Debug, Serialize)]
 struct Answer {
     numbers: Vec<text::Number>,

@@ -1,9 +1,9 @@
-//! The page as one text of HTML, which contains style, script, and the solver in the single file.
+//! The page as one text of HTML, which contains style and script; the single file contains the solver as well.
 
 const PAGE: &str = include_str!("../page/page.html");
 const STYLE: &str = include_str!("../page/page.css");
 const WORKER: &str = include_str!("../page/worker.js");
-/// The modules of the script; each imports only those before it.
+/// The modules of the script; each module imports only modules before it.
 const MODULES: [&str; 14] = [
     include_str!("../page/elements.js"),
     include_str!("../page/numbers.js"),
@@ -21,7 +21,7 @@ const MODULES: [&str; 14] = [
     include_str!("../page/main.js"),
 ];
 
-/// The page of a server. The nonce, a word that nobody can guess, marks the only script that browsers run.
+/// Returns the page of a server. The nonce, a word that nobody can guess, marks the only script that browsers run.
 pub fn served(nonce: &str) -> String {
     assembled(nonce, "", "connect-src 'self'")
 }
@@ -29,16 +29,16 @@ pub fn served(nonce: &str) -> String {
 /// The solver for a browser, as the single file contains it.
 #[derive(Debug, Clone, Copy)]
 pub struct BrowserSolver<'a> {
-    /// The script that starts the module, without modules of its own, and defines `wasm_bindgen`.
+    /// The script that starts the WebAssembly module. The script has no modules of its own, and defines `wasm_bindgen`.
     pub glue: &'a str,
-    /// The module of WebAssembly, as gzip in base64.
+    /// The WebAssembly module, compressed by gzip, in base64.
     pub module: &'a str,
 }
 
-/// The page with its solver, which works without a server and without a network.
+/// Returns the page with its solver, which works without a server and without a network.
 pub fn single(nonce: &str, solver: BrowserSolver<'_>) -> String {
     let BrowserSolver { glue, module } = solver;
-    // Scripts of this type are not run by the page itself.
+    // The page itself does not run scripts of this type.
     let extra = format!(
         "<script type=\"text/plain\" id=\"worker\">\n{glue}\n{WORKER}</script>\n\
          <script type=\"text/plain\" id=\"solver\">{module}</script>\n"
@@ -59,7 +59,7 @@ fn assembled(nonce: &str, extra: &str, more: &str) -> String {
     format!("{head}{}{tail}", script())
 }
 
-/// The modules as one script: their exports and imports share its top level.
+/// Joins the modules into one script, whose top level all exports and imports share.
 fn script() -> String {
     let lines = MODULES.iter().flat_map(|module| module.lines());
     let own = lines.filter(|line| !line.starts_with("import "));

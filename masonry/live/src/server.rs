@@ -1,9 +1,9 @@
-//! The page on the loopback address: one page, questions to the engine, and the file of the scene.
+//! The server of the page on the loopback address: the page, questions to the engine, and the files of scenes.
 //!
-//! Only programs of the same machine reach the address, and only pages of this server get answers: a request needs the
-//! address as its host, no other origin, and a token that is drawn anew for every server. A connection has one request.
-//! A question ends with its connection: a page that no longer needs an answer closes the connection, and the work
-//! stops.
+//! Only programs on the same machine can reach the address, and only pages of this server get answers: a request must
+//! name this address as its host, must not come from another origin, and must carry a token that is drawn anew for
+//! every server. A connection has one request. A question ends with its connection: a page that no longer needs an
+//! answer closes the connection, and the work stops.
 
 mod desk;
 mod guard;
@@ -28,22 +28,22 @@ use http::{Reply, Request};
 use crate::engine::{Engine, Files};
 use crate::page;
 
-/// The largest number of connections at once. A browser opens six to a host; connections beyond the needs of a few tabs
-/// are refused at once.
+/// The largest number of simultaneous connections. A browser opens six connections to a host; connections beyond the
+/// needs of a few tabs are refused at once.
 const MOST_CONNECTIONS: usize = 32;
 /// Time between two lines of news, and between the end of a connection and the end of its work.
 const NEWS: Duration = Duration::from_millis(100);
-/// Time until the next attempt if the system has no free connection or thread; some are free by then.
+/// Time until the next attempt if the system has no free connection or thread; some of them are free after this time.
 const PAUSE: Duration = Duration::from_millis(100);
 
-/// A server of the page, which listens from its creation on.
+/// A server of the page, which listens from its creation.
 #[derive(Debug)]
 pub struct Server {
     listener: TcpListener,
     shared: Arc<Shared>,
 }
 
-/// The state that all connections share.
+/// The state that all connections of a server share.
 #[derive(Debug)]
 struct Shared {
     guard: Guard,
@@ -52,10 +52,10 @@ struct Shared {
 }
 
 impl Server {
-    /// A server on a free port of the loopback address.
+    /// Creates a server on a free port of the loopback address.
     ///
     /// # Errors
-    /// The error of the system if there is no free port, or no source of random numbers.
+    /// The error of the operating system if there is no free port, or no source of random numbers.
     pub fn new(desk: Desk) -> io::Result<Self> {
         let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, 0))?;
         let guard = Guard::new(listener.local_addr()?.port())?;
@@ -64,27 +64,27 @@ impl Server {
         Ok(Self { listener, shared })
     }
 
-    /// The address of the page, with its token.
+    /// Returns the address of the page, with its token.
     pub fn address(&self) -> String {
         self.shared.guard.address()
     }
 
-    /// Serves until the program ends.
+    /// Serves connections until the program ends.
     pub fn run(&self) -> ! {
         loop {
             let Ok((stream, _)) = self.listener.accept() else {
                 thread::sleep(PAUSE);
                 continue;
             };
-            // Every connection holds a share until its end.
+            // Every connection holds one reference until its end, which counts the connections.
             let shared = self.shared.clone();
             if Arc::strong_count(&shared) > 1 + MOST_CONNECTIONS {
-                // Nothing is read: the reply may be lost with the connection.
+                // The request is not read, so that the reply may be lost with the connection.
                 let reply = Reply::error(503, "too many connections: close some pages");
                 let _ = http::send(&stream, &reply);
                 continue;
             }
-            // An error of sending is ignored, since the page may be gone.
+            // Errors of sending are ignored, since the page may have been closed.
             let serving = thread::Builder::new().spawn(move || shared.serve(&stream).ok());
             if serving.is_err() {
                 thread::sleep(PAUSE);
@@ -111,7 +111,7 @@ impl Shared {
     fn load(&self, request: &Request) -> Reply {
         #[derive(Deserialize)]
         struct Load {
-            /// The file of the page; `None` is the newest.
+            /// The name of a file of the page; `None` for the newest file.
             name: Option<String>,
         }
         let Ok(load) = serde_json::from_slice::<Load>(&request.body) else {
@@ -128,7 +128,7 @@ impl Shared {
         struct Save {
             name: String,
             text: String,
-            /// The text of the file when the page read it; `None` for a new file.
+            /// The text of the file at the time at which the page read it; `None` for a new file.
             was: Option<String>,
         }
         let Ok(save) = serde_json::from_slice::<Save>(&request.body) else {
@@ -140,7 +140,7 @@ impl Shared {
         }
     }
 
-    /// Sends news while the engine works, each in a line, and then the answer.
+    /// Sends a line of news from time to time while the engine works, and then a line with the answer.
     fn ask(&self, stream: &TcpStream, request: &Request) -> io::Result<()> {
         let Ok(question) = std::str::from_utf8(&request.body) else {
             return http::send(stream, &Reply::error(400, "the question is not UTF-8 text"));
@@ -161,7 +161,7 @@ impl Shared {
     }
 }
 
-/// An answer, or an error if the solver has panicked.
+/// Returns the answer, or an error in its place if the solver panics.
 fn caught(answer: impl FnOnce() -> String) -> String {
     catch_unwind(AssertUnwindSafe(answer)).unwrap_or_else(|_| {
         let message = "the solver has failed: this is a fault of the program, please report it with the scene";

@@ -1,7 +1,8 @@
-//! Values of a number at which the verdict changes. Some values of a range are tried first; the search then halves the
-//! interval between two neighbours whose verdicts differ, until there is no value with the last digit between them.
+//! Values of a number at which the verdict changes. The search first tries some values of a range, and then halves the
+//! interval between two neighbouring values with different verdicts, until no multiple of the last digit lies between
+//! them.
 //!
-//! Values that were not tried remain unknown: a wall that stands at two values may fall between them.
+//! The verdict at values that were not tried remains unknown: a wall that stands at two values may fall between them.
 
 use std::collections::BTreeMap;
 use std::fmt;
@@ -14,39 +15,41 @@ use super::solved::{Seen, Show, Solved};
 use super::watch::Watch;
 use super::work::Found;
 
-/// The number of parts of the range whose ends are tried first. Chosen: few enough for a scene that takes seconds.
+/// The number of parts into which the range is divided; the ends of all parts are tried first. Chosen: few enough for a
+/// scene that takes seconds.
 const PARTS: i64 = 8;
-/// The factor by which the upper end of a range without a change of verdict grows. Chosen: twice, to 16 times the end.
+/// The factor by which the upper end of the range grows if the verdict does not change in the range. Chosen: applied
+/// twice, it gives 16 times the end.
 const WIDER: i64 = 4;
-/// The number of times that the range grows by [`WIDER`].
+/// The largest number of times that the range grows by [`WIDER`].
 const WIDENINGS: usize = 2;
-/// Values are multiples of the power of ten below this part of the range. Chosen: three digits, more than the known
-/// digits of μ.
+/// Values are multiples of a power of ten: the largest one below this part of the range. Chosen: three digits, more
+/// than the known digits of μ.
 const LAST_DIGIT: f64 = 1e-3;
-/// An end of the range counts as a multiple despite rounding errors below this part of the last digit. Chosen: far
-/// above rounding errors, and far below the digits in texts.
+/// An end of the range counts as a multiple of the last digit if it differs from one by less than this part of the last
+/// digit. Chosen: far above rounding errors, and far below the digits in texts.
 const SAME: f64 = 1e-6;
 
-/// The number whose values are tried.
+/// The number whose values are tried, and its range.
 #[derive(Debug, Deserialize)]
 pub(super) struct Tried {
-    /// The name of the number.
+    /// The name of the number, as the page shows it.
     label: String,
-    /// The places of the text that get the number.
+    /// The places in the text at which the number is written.
     edits: Vec<Edit>,
     value: f64,
     range: [f64; 2],
-    /// Whether the number counts something.
+    /// Whether the number is a count, so that its values are whole numbers.
     whole: bool,
 }
 
-/// The result for a value of the number.
+/// The result of a solve with one value of the number.
 #[derive(Debug, Clone, PartialEq)]
 enum Answer {
     Stands,
     Falls,
     Undecided,
-    /// The text does not describe a scene, or there is no solution, for this reason.
+    /// The reason for which there is no verdict: the text does not describe a scene, or the solve failed.
     Mistake(String),
 }
 
@@ -60,7 +63,7 @@ impl Answer {
         }
     }
 
-    /// Whether two answers are of one kind.
+    /// Whether two answers are of the same kind: both stand, both fall, both are undecided, or both have a mistake.
     fn is_like(&self, other: &Self) -> bool {
         std::mem::discriminant(self) == std::mem::discriminant(other)
     }
@@ -77,10 +80,10 @@ impl fmt::Display for Answer {
     }
 }
 
-/// Values as multiples of the last digit.
+/// The values that can be tried: multiples of the last digit from `first` to `last`.
 #[derive(Debug, Clone, Copy)]
 struct Digits {
-    /// The power of ten of the last digit.
+    /// The exponent of the last digit, a power of ten.
     power: i32,
     first: i64,
     last: i64,
@@ -111,12 +114,13 @@ impl Digits {
     }
 
     fn value(self, multiple: i64) -> f64 {
-        // A quotient of two whole numbers is the nearest number to the decimals; a product need not be.
+        // The quotient of two whole numbers is the nearest number to the decimal number; a product need not be.
         let digit = 10_f64.powi(self.power.abs());
         if self.power < 0 { multiple as f64 / digit } else { multiple as f64 * digit }
     }
 
-    /// The multiples that are tried first: those at the ends of the parts, and that of the text.
+    /// Returns the multiples that are tried first, those nearest to the value of the text first: the ends of all parts
+    /// of the range, and the value of the text.
     fn scan(self, value: f64) -> Vec<i64> {
         let length = self.last - self.first;
         let mut list: Vec<i64> =
@@ -129,13 +133,13 @@ impl Digits {
     }
 }
 
-/// A function that solves a text.
+/// A function that solves the scene of a text.
 pub(super) type Solve<'a> = dyn Fn(&str, &mut Watch<'_>) -> Result<Solved, Fault> + 'a;
 
-/// Tries values, and finds those between which the verdict changes.
+/// Tries values of a number, and finds neighbouring values between which the verdict changes.
 ///
 /// # Errors
-/// The range has no values to try, or an edit has places that are not in the text.
+/// The range has no values to try, or an edit has places that are outside the text.
 pub(super) fn change(
     text: &str,
     tried: &Tried,
@@ -168,14 +172,14 @@ struct Search<'a> {
 }
 
 impl Search<'_> {
-    /// Tries all values; `false` if the search was stopped.
+    /// Tries all values of the search; `false` if the search was stopped.
     fn run(&mut self, solve: &Solve<'_>, watch: &mut Watch<'_>) -> Result<bool, Fault> {
         for multiple in self.digits.scan(self.tried.value) {
             if !self.solve(multiple, solve, watch)? {
                 return Ok(false);
             }
         }
-        // A larger count would be another structure.
+        // The range of a count does not grow, since a larger count would be another structure.
         let widenings = if self.tried.whole { 0 } else { WIDENINGS };
         for _ in 0..widenings {
             if !self.changes().is_empty() || self.digits.last <= 0 {
@@ -219,7 +223,7 @@ impl Search<'_> {
         Ok(!is_stopped)
     }
 
-    /// Neighbours whose verdicts differ, those near the value of the text first.
+    /// Returns neighbouring values whose verdicts differ, beginning with those nearest to the value of the text.
     fn changes(&self) -> Vec<[i64; 2]> {
         let own = self.tried.value / self.digits.value(1);
         let pairs = self.answers.iter().zip(self.answers.iter().skip(1));
@@ -232,7 +236,7 @@ impl Search<'_> {
         list
     }
 
-    /// The text with another value of the number.
+    /// Returns the text with another value of the number.
     fn text_with(&self, multiple: i64) -> Result<String, Fault> {
         let mut units: Vec<u16> = self.text.encode_utf16().collect();
         let mut edits: Vec<&Edit> = self.tried.edits.iter().collect();
@@ -247,7 +251,7 @@ impl Search<'_> {
         Ok(String::from_utf16_lossy(&units))
     }
 
-    /// The changes in words, in the order of the values.
+    /// Returns the changes of the verdict in words, in the order of the values.
     fn told(&self) -> String {
         let mut changes = self.changes();
         changes.sort_unstable();
@@ -276,7 +280,7 @@ impl Search<'_> {
         )
     }
 
-    /// All values that were tried, with their verdicts.
+    /// Returns a table of all values that were tried, with their verdicts.
     fn table(&self) -> String {
         let line = |(multiple, answer): (&i64, &Answer)| {
             let value = self.digits.value(*multiple);

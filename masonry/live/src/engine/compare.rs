@@ -1,4 +1,4 @@
-//! Pictures of a scene, and of other scenes beside it in the same scale.
+//! Pictures of a scene, and of other scenes beside it at the same scale.
 
 use std::sync::Arc;
 
@@ -8,7 +8,7 @@ use serde::Serialize;
 use super::fault::Fault;
 use super::solved::{Seen, Show, Shown, Solved};
 
-/// The largest number of scenes beside that of the text. Chosen: more are too small on a screen.
+/// The largest number of scenes beside the scene of the text. Chosen: more pictures are too small on a screen.
 pub(super) const MOST_BESIDE: usize = 3;
 
 /// The answer for the scene of the text, and for the scenes beside it.
@@ -18,14 +18,14 @@ pub(super) struct Compared {
     shown: Shown,
     picture: Option<String>,
     beside: Vec<Beside>,
-    /// A sentence on the scale of the pictures.
+    /// A sentence on the scale that the pictures share; `None` without scenes beside it.
     scale: Option<&'static str>,
 }
 
-/// A scene beside that of the text.
+/// The answer for one scene beside the scene of the text.
 #[derive(Debug, Serialize)]
 struct Beside {
-    /// The verdict, or the reason for which there is no verdict any more.
+    /// The verdict in words, or the reason for which the scene can no longer be solved.
     sentence: String,
     picture: Option<String>,
 }
@@ -49,7 +49,8 @@ pub(super) fn shown(
     Compared { shown: solved.shown(seen.show), picture, beside, scale }
 }
 
-/// The pictures of several scenes, in one scale if all are of the same kind.
+/// Draws the pictures of several scenes, at one scale if all pictures are of the same kind; returns them with a
+/// sentence on the scale.
 fn pictures(all: &[&Solved], seen: Seen) -> (Vec<Option<String>>, Option<&'static str>) {
     let kind = all[0].seen(seen.show);
     let each = || all.iter().map(|it| it.picture(seen)).collect();

@@ -8,16 +8,16 @@ use super::text::{Text, text_of};
 /// The possible continuations of a text at the cursor.
 #[derive(Debug, Serialize)]
 pub(super) struct Completion {
-    /// The length of the word before the cursor, in units of UTF-16.
+    /// The length of the word before the cursor, in UTF-16 code units.
     before: usize,
-    /// The words that may replace it.
+    /// The words that may replace the word before the cursor.
     entries: Vec<Key>,
-    /// The text after a key of a table.
+    /// The text to write after the word: ` = ` after a key of a table.
     after: &'static str,
 }
 
-/// The keys, words or names that fit at the end of a text that is cut off at the cursor; names are taken from the whole
-/// text.
+/// Returns the keys, words or names that fit at the cursor. `until` is the text before the cursor; names are taken from
+/// the `whole` text.
 pub(super) fn complete(until: &str, whole: &Text<'_>) -> Completion {
     let line_start = until.rfind('\n').map_or(0, |it| it + 1);
     let (above, line) = until.split_at(line_start);
@@ -33,10 +33,10 @@ pub(super) fn complete(until: &str, whole: &Text<'_>) -> Completion {
             path.extend(key.unwrap_or_default().split('.').map(Entry::Key));
             values(&path, whole)
         }
-        // There are no keys in a comment or a header.
+        // There are no keys to complete in a comment or a header.
         None if context.contains('#') || context.trim_end().ends_with(['[', '.']) => Vec::new(),
         None => {
-            // Keys of the whole scene may be tables, which have headers of their own.
+            // Keys at the top level of a scene may be tables, which have headers instead of ` = `.
             after = if path.is_empty() { "" } else { " = " };
             Schema::keys(&path)
         }
@@ -49,7 +49,7 @@ pub(super) fn complete(until: &str, whole: &Text<'_>) -> Completion {
     }
 }
 
-/// The table that the last header opens.
+/// Returns the path of the table that the last header above the cursor opens.
 fn header(above: &str) -> Vec<Entry<'_>> {
     let Some(line) = above.lines().rev().map(str::trim).find(|it| it.starts_with('[')) else {
         return Vec::new();
@@ -62,7 +62,7 @@ fn header(above: &str) -> Vec<Entry<'_>> {
     path
 }
 
-/// The tables in braces of a line that are still open, with the keys that have them.
+/// Returns the path of the inline tables and lists of a line that are still open at its end.
 fn braces(line: &str) -> Vec<Entry<'_>> {
     let mut open: Vec<Vec<Entry<'_>>> = Vec::new();
     for (at, letter) in line.char_indices() {
@@ -78,7 +78,8 @@ fn braces(line: &str) -> Vec<Entry<'_>> {
     open.concat()
 }
 
-/// The words of the schema, or the names to which a key refers, as they are written.
+/// Returns the values that fit, as they are written: the words that the schema allows, or the names to which the key
+/// refers.
 fn values(path: &[Entry<'_>], whole: &Text<'_>) -> Vec<Key> {
     let mut list = Schema::words(path);
     let Some(Entry::Key(key)) = path.last() else { return list };

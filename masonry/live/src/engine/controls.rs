@@ -5,27 +5,27 @@ use serde::{Deserialize, Serialize};
 use super::schema::Entry;
 use super::text::{Number, Text, Value, text_of, value_of};
 
-/// A slider.
+/// A slider that changes one or several numbers of the text.
 #[derive(Debug, Serialize)]
 pub(super) struct Control {
     label: String,
     value: f64,
-    /// Whether the controlled numbers differ; `value` is the largest of them.
+    /// Whether the numbers differ, so that `value` is only the largest of them.
     is_largest: bool,
-    /// The end of the slider, which begins at zero.
+    /// The value at the right end of the slider; the left end is zero.
     most: f64,
-    /// The places of the text that get the number.
+    /// The places in the text at which the number is written.
     edits: Vec<Edit>,
 }
 
-/// A place of the text that gets a new number. Places are in units of UTF-16.
+/// A place in the text at which a number is written. Positions are in UTF-16 code units.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub(super) struct Edit {
     pub(super) from: usize,
     pub(super) to: usize,
-    /// The text to write before the number, if the key is not there yet.
+    /// The text to write before the number if the text does not have the key yet.
     pub(super) before: String,
-    /// The number is this factor times the number of the control.
+    /// The number to write, divided by the number of the control.
     pub(super) part: f64,
 }
 
@@ -35,14 +35,14 @@ impl Edit {
     }
 }
 
-/// A larger coefficient of friction is that of rough rock.
+/// The right end of a slider for a coefficient of friction; rough rock has larger coefficients.
 const MOST_FRICTION: f64 = 1.2;
-/// The angle of that coefficient of friction, rounded up.
+/// The right end of a slider for an angle of friction \[degrees\]: the angle of `MOST_FRICTION`, rounded up.
 const MOST_ANGLE: f64 = 60.0;
-/// The usual end of the slider of a load factor.
+/// The usual right end of a slider for a load factor.
 const MOST_FACTOR: f64 = 3.0;
 
-/// All sliders of a scene.
+/// Returns all sliders of a scene.
 pub(super) fn controls(text: &Text<'_>) -> Vec<Control> {
     [friction(text), factors(text), thicknesses(text)].into_iter().flatten().collect()
 }
@@ -68,7 +68,8 @@ fn friction(text: &Text<'_>) -> Vec<Control> {
     list
 }
 
-/// A slider for the friction of all classes, if there are several: its value is the largest, and their ratios stay.
+/// Returns a slider that changes the friction of all classes at once and keeps their ratios; its value is the largest
+/// of them. `None` for fewer than two classes.
 fn together(classes: &[Control], sign: &str) -> Option<Control> {
     let largest = classes.iter().max_by(|a, b| a.value.total_cmp(&b.value))?;
     let (value, most) = (largest.value, largest.most);
@@ -82,7 +83,7 @@ fn together(classes: &[Control], sign: &str) -> Option<Control> {
     (classes.len() > 1).then(|| Control { label, value, is_largest, most, edits: edits.concat() })
 }
 
-/// A slider for every group of loads, which keeps the ratios of the factors within it.
+/// Returns a slider for every group of loads, which changes all factors of the group and keeps their ratios.
 fn factors(text: &Text<'_>) -> Vec<Control> {
     let mut list: Vec<Control> = Vec::new();
     for load in &text.tables("loads") {
@@ -108,7 +109,7 @@ fn factors(text: &Text<'_>) -> Vec<Control> {
     list
 }
 
-/// The factor of a load, and the place of its number, which may still be missing.
+/// Returns the factor of a load and the place of its number; 1 and the place for a new key if the text has no factor.
 fn factor(text: &Text<'_>, load: &Value<'_>) -> Option<(f64, Edit)> {
     if let Some(number) = text.number_in("loads", load, &[Entry::Key("factor")]) {
         return Some((number.value, Edit::of(number)));
@@ -133,7 +134,7 @@ fn thicknesses(text: &Text<'_>) -> Vec<Control> {
     text.tables("arches").iter().filter_map(of).collect()
 }
 
-/// The usual end of a slider, or twice a value that has reached it.
+/// Returns the usual end of a slider, or twice the value if the value has reached that end.
 fn at_least(usual: f64, value: f64) -> f64 {
     if value >= usual { 2.0 * value } else { usual }
 }

@@ -1,4 +1,4 @@
-//! Mistakes, with their places in the text of a scene.
+//! Mistakes in the text of a scene, with their places.
 
 use std::path::Path;
 
@@ -6,14 +6,14 @@ use masonry::scene::SceneError;
 use masonry::{LimitError, SolveError};
 use serde::Serialize;
 
-/// The name of the file of a text; mistakes in it have places in the text.
+/// The name of the file that stands for the text of the page; mistakes in this file have places in the text.
 pub(super) const SCENE: &str = "text of the page";
 
-/// The reason for which there is no answer.
+/// The reason for which a question has no answer.
 #[derive(Debug, Serialize)]
 pub(super) struct Fault {
     pub(super) message: String,
-    /// The place of the mistake in the text of the scene, from 1.
+    /// The line of the mistake in the text of the scene, from 1; `None` if the mistake has no place in the text.
     pub(super) line: Option<usize>,
     pub(super) column: Option<usize>,
 }
@@ -28,7 +28,7 @@ impl From<SceneError> for Fault {
     fn from(error: SceneError) -> Self {
         let file = error.file().and_then(Path::file_name);
         if file.is_some_and(|it| it != SCENE) {
-            // The mistake is in the file with the blocks of the scene.
+            // The mistake is in the file that lists the blocks of the scene.
             return Self::new(&error);
         }
         let (key, kind) = (error.key(), error.kind());

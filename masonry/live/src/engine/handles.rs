@@ -7,21 +7,21 @@ use super::controls::Edit;
 use super::schema::Entry;
 use super::text::{Number, Text, Value, text_of, value_of};
 
-/// A part of the picture that changes numbers of the text when it is dragged. Lengths are in units of the scene.
+/// A part of the picture that changes numbers of the text when a user drags it. Lengths are in units of the scene.
 #[derive(Debug, Serialize)]
 pub(super) struct Handle {
-    /// The name, equal for the same handle of a changed scene.
+    /// The name of the handle, which stays the same when the scene is changed.
     label: String,
-    /// Two opposite corners, or twice the same point.
+    /// The lower left and the upper right corner of the handle; equal if the handle is a point.
     low: [f64; 2],
     high: [f64; 2],
-    /// The numbers that change when the handle moves to the right.
+    /// The numbers that change when the handle is dragged to the right.
     right: Vec<Target>,
-    /// The numbers that change when the handle moves up.
+    /// The numbers that change when the handle is dragged upwards.
     up: Vec<Target>,
 }
 
-/// A number that follows a handle.
+/// A number in the text that changes when a handle is dragged.
 #[derive(Debug, Serialize)]
 struct Target {
     #[serde(flatten)]
@@ -29,7 +29,7 @@ struct Target {
     value: f64,
     whole: bool,
     least: Option<f64>,
-    /// The change of the number per unit of length that the handle moves.
+    /// The change of the number, divided by the distance over which the handle is dragged.
     per_length: f64,
 }
 
@@ -40,14 +40,15 @@ impl Target {
     }
 }
 
-/// All handles of a scene.
+/// Returns all handles of a scene.
 pub(super) fn handles(text: &Text<'_>) -> Vec<Handle> {
     let walls = text.tables("walls").into_iter().filter_map(|table| wall(text, table));
     let supports = text.tables("supports").into_iter().flat_map(|table| support(text, table));
     walls.flatten().chain(supports).collect()
 }
 
-/// The handles of the openings of a wall.
+/// Returns the handles of the openings of a wall; `None` for a turned wall or one without openings, and if a number is
+/// missing.
 fn wall(text: &Text<'_>, table: &Value<'_>) -> Option<Vec<Handle>> {
     let name = text_of(table, "name")?;
     // The sides of openings in a turned wall are not parallel to the axes.
@@ -65,14 +66,14 @@ fn wall(text: &Text<'_>, table: &Value<'_>) -> Option<Vec<Handle>> {
     Some(openings.iter().enumerate().filter_map(of).flatten().collect())
 }
 
-/// The thickness of the beds of a wall in mortar.
+/// Returns the thickness of the bed joints of a wall with mortar.
 fn bed(text: &Text<'_>, wall: &Value<'_>) -> Option<f64> {
     let class = value_of(wall, "joints").and_then(|it| text_of(it, "bed")).unwrap_or("bed");
     let joint = text.named("joints").into_iter().find(|(name, _)| *name == class)?.1;
     Some(text.number(value_of(joint, "thickness")?, &[])?.value)
 }
 
-/// The handles of an opening: all of it, its right side and its top.
+/// Returns the handles of an opening: its place, its right side and its top.
 fn opening(
     text: &Text<'_>,
     table: &Value<'_>,
@@ -102,7 +103,7 @@ fn opening(
     ])
 }
 
-/// The handles of the ends of a support.
+/// Returns the handles of the ends of a support.
 fn support(text: &Text<'_>, table: &Value<'_>) -> Vec<Handle> {
     let end = |key: &str| {
         let at = pair(text, value_of(table, key)?)?;
@@ -114,7 +115,7 @@ fn support(text: &Text<'_>, table: &Value<'_>) -> Vec<Handle> {
     ["from", "to"].into_iter().filter_map(end).collect()
 }
 
-/// Two numbers.
+/// Reads a list of two numbers.
 fn pair(text: &Text<'_>, value: &Value<'_>) -> Option<[Number; 2]> {
     let [x, y] = value.get_ref().as_array()?.as_ref() else { return None };
     Some([text.number(x, &[Entry::Item])?, text.number(y, &[Entry::Item])?])

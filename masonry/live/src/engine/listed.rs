@@ -1,4 +1,4 @@
-//! The scene of a text, whose blocks may be in another file of its directory.
+//! The scene of a text, which may name another file of its directory as its list of blocks.
 
 use std::fs;
 use std::path::{Component, Path, PathBuf};
@@ -9,15 +9,16 @@ use masonry::scene::SceneError;
 use super::fault::{Fault, SCENE};
 use super::text::Text;
 
-/// The longest text of a scene \[bytes\]: that of a wall of 10 000 single blocks.
+/// The longest text of a scene \[bytes\]. Chosen: the text of a wall of 10 000 single blocks.
 pub const LONGEST_TEXT: usize = 4 << 20;
-/// The largest file with blocks \[bytes\]. Chosen: a block takes several times as much in a drawing as in a scene.
+/// The largest file with a list of blocks \[bytes\]. Chosen: a block takes several times as much space in a drawing as
+/// in a scene.
 const LARGEST_LIST: u64 = 16 << 20;
 
-/// Reads a scene from its text and the path that its file would have.
+/// A function that reads a scene from its text and the path that its file would have.
 pub type ReadScene = fn(&str, &Path) -> Result<Scene, SceneError>;
 
-/// The directory of a scene, whose files it may name.
+/// The directory of a scene, and the function that reads a scene which names files of this directory.
 #[derive(Debug, Clone)]
 pub struct Files {
     directory: PathBuf,
@@ -25,7 +26,7 @@ pub struct Files {
 }
 
 impl Files {
-    /// The files of a directory, and the function that reads a scene which names one of them.
+    /// Creates the files of a directory; `read` reads a scene that names one of them.
     pub fn new(directory: &Path, read: ReadScene) -> Self {
         // The directory of a path without directories is the current one.
         let here = directory.as_os_str().is_empty();
@@ -33,7 +34,8 @@ impl Files {
         Self { directory: directory.to_owned(), read }
     }
 
-    /// Refuses large files, and files outside the directory, also behind links. The reader reports other mistakes.
+    /// Refuses a list of blocks that is too large, or outside the directory (a link counts as the file to which it
+    /// leads). The reader reports other mistakes.
     fn check(&self, list: &str) -> Result<(), String> {
         let is_inner = |it| matches!(it, Component::Normal(_) | Component::CurDir);
         let path = self.directory.join(list);
@@ -57,7 +59,7 @@ impl Files {
     }
 }
 
-/// The scene of a text. Other files are read only with `files`.
+/// Reads the scene of a text. A list of blocks is read only with `files`.
 pub(super) fn scene(text: &str, files: Option<&Files>) -> Result<Scene, Fault> {
     if text.len() > LONGEST_TEXT {
         let message = format!(

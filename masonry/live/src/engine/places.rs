@@ -1,22 +1,22 @@
-//! The lines of the text that describe parts of the picture.
+//! Lines of the text that describe parts of the picture.
 
 use serde::Serialize;
 
 use super::text::{Text, Value, text_of};
 
-/// Lines that describe a part of the picture.
+/// The lines of the text that describe one part of the picture.
 #[derive(Debug, Serialize)]
 pub(super) struct Place {
-    /// `block`, whose name may be that of the wall or arch before the first `/`; `joint`, a class of joints; `support`
-    /// or `load`.
+    /// The kind of the part: `block`, `joint` (a joint class), `support` or `load`. The name of a `block` may be that
+    /// of a wall or an arch, whose blocks have this name before the first `/` of theirs.
     kind: &'static str,
     name: String,
-    /// Lines, from 1.
+    /// The first and the last line, from 1.
     first: usize,
     last: usize,
 }
 
-/// The places at which a scene describes blocks, joint classes, supports and loads.
+/// Returns the lines of a scene that describe blocks, joint classes, supports and loads.
 pub(super) fn places(text: &Text<'_>) -> Vec<Place> {
     let place = |kind: &'static str, name: &str, table: &Value<'_>| Place {
         kind,

@@ -1,4 +1,4 @@
-//! The schema of scenes: the numbers that count something, and the keys and values that are possible at a place.
+//! The schema of scenes: the numbers that are counts, and the keys and values that a place allows.
 
 use std::sync::LazyLock;
 
@@ -6,28 +6,28 @@ use masonry::Scene;
 use serde::Serialize;
 use serde_json::Value;
 
-/// One step into the data of a scene.
+/// One step of a path into the data of a scene.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Entry<'a> {
     Key(&'a str),
     Item,
 }
 
-/// The schema of scenes.
+/// The JSON schema of scenes.
 pub(super) struct Schema;
 
 static ROOT: LazyLock<Value> =
     LazyLock::new(|| serde_json::from_str(Scene::schema()).unwrap_or(Value::Null));
 
 impl Schema {
-    /// Whether the number at a place counts something.
+    /// Whether the number at a path is a count.
     pub(super) fn is_whole(path: &[Entry<'_>]) -> bool {
         let places = at(path);
         let has = |name: &str| places.iter().any(|it| types(it).any(|it| it == name));
         has("integer") && !has("number")
     }
 
-    /// The keys of the table at a place.
+    /// Returns the keys that the table at a path may have.
     pub(super) fn keys(path: &[Entry<'_>]) -> Vec<Key> {
         let properties = at(path).into_iter().filter_map(|it| it["properties"].as_object());
         let key = |(name, inner): (&String, &Value)| Key {
@@ -37,7 +37,7 @@ impl Schema {
         properties.flatten().map(key).collect()
     }
 
-    /// The words that are possible values at a place.
+    /// Returns the words that are possible values at a path.
     pub(super) fn words(path: &[Entry<'_>]) -> Vec<Key> {
         let mut list = Vec::new();
         for place in at(path) {
@@ -51,14 +51,14 @@ impl Schema {
     }
 }
 
-/// A key or a word, and its meaning.
+/// A key or a word that the schema allows, and its meaning.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub(super) struct Key {
     pub(super) name: String,
     pub(super) meaning: String,
 }
 
-/// The alternatives that the schema has at a place.
+/// Returns the nodes of the schema that describe a path.
 fn at(path: &[Entry<'_>]) -> Vec<&'static Value> {
     let mut places = alternatives(&ROOT);
     for step in path {
@@ -73,7 +73,7 @@ fn at(path: &[Entry<'_>]) -> Vec<&'static Value> {
     places
 }
 
-/// A node of the schema, or the nodes that it refers to.
+/// Returns a node of the schema, or the nodes to which it refers.
 fn alternatives(node: &'static Value) -> Vec<&'static Value> {
     let named = node["$ref"].as_str().and_then(|it| ROOT.pointer(it.trim_start_matches('#')));
     let listed = ["anyOf", "oneOf"].into_iter().filter_map(|it| node[it].as_array()).flatten();

@@ -15,11 +15,11 @@ use serde::{Deserialize, Serialize};
 use super::fault::Fault;
 use super::watch::Watch;
 
-/// A view beside the text.
+/// A view that the page can show beside the text.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub(super) enum Show {
-    /// The picture that explains the verdict: the forces if the wall stands, the mechanism if it falls.
+    /// The picture that explains the verdict: the forces if the structure stands, the mechanism if it falls.
     Answer,
     Forces,
     Stresses,
@@ -32,7 +32,7 @@ pub(super) enum Show {
     Report,
 }
 
-/// A kind of file.
+/// A kind of file that the page can export.
 #[derive(Debug, Clone, Copy, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub(super) enum Format {
@@ -42,26 +42,26 @@ pub(super) enum Format {
     Dxf,
 }
 
-/// The wanted view, and the step of a load history; `None` is the last step.
+/// The view that the page requests, and the step of a load history; `None` for the last step.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Seen {
     pub(super) show: Show,
     pub(super) step: Option<usize>,
 }
 
-/// A scene that was solved; the governing one if there are combinations.
+/// A scene that was solved; if the scene has combinations, the result is that of the governing combination.
 #[derive(Debug)]
 pub(super) struct Solved {
     scene: Scene,
     ran: Ran,
-    /// The lines of all combinations.
+    /// The table of all combinations; `None` for a scene without combinations.
     cases: Option<Cases>,
-    /// Whether the solve was not ended early.
+    /// Whether the solve ran to its end.
     is_complete: bool,
     pub(super) reference: Option<ReferenceLines>,
 }
 
-/// The result of all steps.
+/// The result of a solve after all steps.
 #[derive(Debug)]
 struct Ran {
     outcome: Outcome,
@@ -83,7 +83,7 @@ impl Ran {
         };
         let mut run = Run::new(scene, &mut observe)?;
         let mut frames = Vec::new();
-        // The second loading of a history, which doubles its time, is left out.
+        // The second loading of a load history is left out, since it would double the time.
         while run.advance(&mut observe)? {
             let is_shown = |it: &Frame| page::is_framed(it.position, run.steps());
             frames.extend(run.frame().filter(is_shown));
@@ -91,8 +91,8 @@ impl Ran {
         Ok(Self { outcome: run.finish(), frames })
     }
 
-    /// The combination that governs, with the lines of all combinations. No step has a picture, since there are no
-    /// stages.
+    /// Solves all combinations, and returns the result of the governing one with the table of all. No step has a
+    /// picture, since scenes with combinations have no stages.
     fn governing(scene: &Scene, watch: &mut Watch<'_>) -> Result<(Self, Option<Cases>), Fault> {
         let mut list: Vec<Combined<Outcome>> = Vec::new();
         for Combined { name, of } in scene.combined() {
@@ -118,7 +118,7 @@ fn is_cancelled(outcome: &Outcome) -> bool {
     outcome.solve.status == lcp::Status::Cancelled
 }
 
-/// The answer for a view.
+/// The answer for one view of a solved scene.
 #[derive(Debug, Serialize)]
 pub(super) struct Shown {
     verdict: &'static str,
@@ -126,12 +126,12 @@ pub(super) struct Shown {
     warnings: Vec<String>,
     /// Time of the solve \[s\].
     seconds: f64,
-    /// The views that exist.
+    /// The views that the solved scene has.
     choices: Vec<Show>,
-    /// The view of this answer.
+    /// The view that this answer shows.
     show: Show,
     report: Option<String>,
-    /// Tables, in HTML.
+    /// The tables in HTML, if the view shows tables.
     tables: Option<String>,
     /// Names of the steps that have pictures; empty without a load history.
     steps: Vec<String>,
@@ -167,7 +167,7 @@ impl Solved {
         &self.ran.outcome.title
     }
 
-    /// The answer for a wanted view.
+    /// Returns the answer for the requested view.
     pub(super) fn shown(&self, show: Show) -> Shown {
         let outcome = &self.ran.outcome;
         let seen = self.seen(show);
@@ -206,7 +206,7 @@ impl Solved {
         head + &table::report(&self.ran.outcome)
     }
 
-    /// The wanted view if it exists, or else the view that explains the verdict.
+    /// Returns the requested view if it exists; otherwise the view that explains the verdict.
     pub(super) fn seen(&self, show: Show) -> Show {
         let outcome = &self.ran.outcome;
         if show != Show::Answer && self.choices().contains(&show) {
@@ -237,7 +237,7 @@ impl Solved {
         list
     }
 
-    /// The state after a step with its model.
+    /// Returns the model and the state after a step.
     pub(super) fn state(&self, step: Option<usize>) -> Option<(&Model, &State)> {
         let Ran { outcome, frames } = &self.ran;
         match step.and_then(|it| frames.get(it)) {
@@ -246,7 +246,7 @@ impl Solved {
         }
     }
 
-    /// The picture of a view; `None` for tables and reports.
+    /// Draws the picture of a view; `None` for tables and reports.
     pub(super) fn picture(&self, Seen { show, step }: Seen) -> Option<String> {
         let (outcome, title) = (&self.ran.outcome, self.title());
         let show = self.seen(show);
@@ -270,7 +270,7 @@ impl Solved {
         })
     }
 
-    /// The text of a file.
+    /// Returns the text of a file of this format.
     pub(super) fn file(&self, format: Format) -> Result<String, Fault> {
         let Ran { outcome, frames } = &self.ran;
         let cases = self.cases.as_ref();

@@ -1,5 +1,5 @@
-//! The text of a scene as tables and values, each with its place. Broken parts are left out, so that the rest can be
-//! changed.
+//! The text of a scene as tables and values, each with its place in the text. Broken parts are left out, so that the
+//! other parts can be changed.
 
 use std::ops::Range;
 
@@ -9,7 +9,7 @@ use toml::de::{DeTable, DeValue};
 
 use super::schema::{Entry, Schema};
 
-/// A value and the bytes of the text that it takes.
+/// A value and the bytes of the text that it occupies.
 pub(super) type Value<'a> = Spanned<DeValue<'a>>;
 
 /// The text of a scene with its values.
@@ -17,19 +17,19 @@ pub(super) type Value<'a> = Spanned<DeValue<'a>>;
 pub(super) struct Text<'a> {
     source: &'a str,
     root: Spanned<DeTable<'a>>,
-    /// Units of UTF-16, in which scripts count, before every byte.
+    /// For every byte of the text, the number of UTF-16 code units before it; scripts count in these units.
     units: Vec<usize>,
 }
 
-/// A number in the text, as it can be changed. Places are in units of UTF-16.
+/// A number in the text that can be changed. Positions are in UTF-16 code units.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub(super) struct Number {
     pub(super) from: usize,
     pub(super) to: usize,
     pub(super) value: f64,
-    /// Whether the number counts something.
+    /// Whether the number is a count.
     pub(super) whole: bool,
-    /// The least value that the number may get: zero for sizes and factors, one for counts; `None` for coordinates and
+    /// The least value that the number may have: zero for sizes and factors, one for counts; `None` for coordinates and
     /// components.
     pub(super) least: Option<f64>,
 }
@@ -47,24 +47,24 @@ impl<'a> Text<'a> {
         Self { source, root, units }
     }
 
-    /// The value of a key at the top of the scene.
+    /// Returns the value of a top-level key of the scene.
     pub(super) fn get(&self, key: &str) -> Option<&Value<'a>> {
         self.root.get_ref().get(key)
     }
 
-    /// The tables in the list of a key at the top of the scene.
+    /// Returns the tables in the list of a top-level key of the scene.
     pub(super) fn tables(&self, key: &str) -> Vec<&Value<'a>> {
         let list = self.get(key).and_then(|it| it.get_ref().as_array());
         list.into_iter().flatten().filter(|it| it.get_ref().is_table()).collect()
     }
 
-    /// The tables below a key at the top of the scene, with their names.
+    /// Returns the tables below a top-level key of the scene, with their names.
     pub(super) fn named(&self, key: &str) -> Vec<(&str, &Value<'a>)> {
         let tables = self.get(key).and_then(|it| it.get_ref().as_table());
         tables.into_iter().flatten().map(|(name, it)| (name.get_ref().as_ref(), it)).collect()
     }
 
-    /// All numbers, in their order in the text.
+    /// Returns all numbers of the text, in their order.
     pub(super) fn numbers(&self) -> Vec<Number> {
         let mut list = Vec::new();
         let top = self.root.get_ref().iter();
@@ -97,7 +97,7 @@ impl<'a> Text<'a> {
         }
     }
 
-    /// A number with the properties of its place in the schema.
+    /// Returns a number with the properties that the schema gives for its path.
     pub(super) fn number(&self, value: &Value<'a>, path: &[Entry<'_>]) -> Option<Number> {
         let number = match value.get_ref() {
             DeValue::Integer(it) if it.radix() == 10 => it.as_str().parse::<f64>().ok()?,
@@ -116,7 +116,7 @@ impl<'a> Text<'a> {
         number.is_finite().then_some(Number { from, to, value: number, whole, least })
     }
 
-    /// The number of a key in a table of a list, such as `loads[2].factor`.
+    /// Returns the number of a key in a table of a list, such as `loads[2].factor`.
     pub(super) fn number_in(
         &self,
         list: &str,
@@ -131,13 +131,13 @@ impl<'a> Text<'a> {
         self.number(value, &[&[Entry::Key(list), Entry::Item], path].concat())
     }
 
-    /// The line of a byte, from 1.
+    /// Returns the line of a byte, from 1.
     pub(super) fn line(&self, byte: usize) -> usize {
         self.source[..byte].matches('\n').count() + 1
     }
 
-    /// The place for a new key of a table, and the text before the key: after one of the values in a table in braces,
-    /// or else on a new line.
+    /// Returns the place for a new key of a table, and the text to write before the key: in an inline table (in
+    /// braces), the place after one of its values; otherwise a new line.
     pub(super) fn room_after(&self, table: &Value<'a>, value: &Value<'a>) -> (usize, &'static str) {
         let end = value.span().end;
         if self.source[table.span().start..].starts_with('{') {
@@ -147,7 +147,7 @@ impl<'a> Text<'a> {
         (self.units[line_end], "\n")
     }
 
-    /// The last byte of a table that is written out, with all its keys.
+    /// Returns the last byte of a table, including all its keys.
     pub(super) fn end(value: &Value<'_>) -> usize {
         let inner = match value.get_ref() {
             DeValue::Table(table) => table.iter().map(|(_, it)| Self::end(it)).max(),
@@ -158,12 +158,12 @@ impl<'a> Text<'a> {
     }
 }
 
-/// The value of a key in a table.
+/// Returns the value of a key in a table.
 pub(super) fn value_of<'t, 'a>(table: &'t Value<'a>, key: &str) -> Option<&'t Value<'a>> {
     table.get_ref().as_table()?.get(key)
 }
 
-/// The text of a key in a table.
+/// Returns the text of a key in a table.
 pub(super) fn text_of<'t>(table: &'t Value<'_>, key: &str) -> Option<&'t str> {
     value_of(table, key)?.get_ref().as_str()
 }

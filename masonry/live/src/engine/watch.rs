@@ -3,5 +3,5 @@
 use std::fmt::Display;
 use std::ops::ControlFlow;
 
-/// Receives the progress of the work on an answer many times; the work ends early after `Break`.
+/// A function that is called many times with the progress of the work on an answer; the work ends early after `Break`.
 pub type Watch<'a> = dyn FnMut(&dyn Display) -> ControlFlow<()> + 'a;

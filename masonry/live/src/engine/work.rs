@@ -1,4 +1,4 @@
-//! Work that takes longer than a solve: limit loads, ranges, least thicknesses, studies.
+//! Tasks that take longer than a solve: limit loads, ranges, least thicknesses, studies.
 
 use std::fmt;
 use std::ops::ControlFlow;
@@ -17,14 +17,14 @@ use serde::Serialize;
 use super::fault::Fault;
 use super::watch::Watch;
 
-/// The result of the work.
+/// The result of a task.
 #[derive(Debug, Serialize)]
 pub(super) struct Found {
     sentence: String,
     pictures: Vec<Picture>,
-    /// Tables, in HTML.
+    /// The tables in HTML.
     tables: String,
-    /// The report.
+    /// The report as text.
     text: String,
 }
 
@@ -35,7 +35,7 @@ struct Picture {
 }
 
 impl Found {
-    /// A result without tables, with those of the pictures that exist.
+    /// Creates a result without tables; pictures that are `None` are left out.
     pub(super) fn new(
         sentence: &str,
         pictures: Vec<(impl Into<String>, Option<String>)>,
@@ -51,7 +51,7 @@ impl Found {
     }
 }
 
-/// The limit load; the governing one if there are combinations.
+/// Computes the limit load of a scene; that of the governing combination if there are combinations.
 pub(super) fn limit(scene: &Scene, law: Laws, watch: &mut Watch<'_>) -> Result<Found, Fault> {
     if scene.combinations.is_empty() {
         let limit = limit_observed(scene, law, &mut |at| watch(&Known(at)))?;
@@ -84,13 +84,13 @@ pub(super) fn limit(scene: &Scene, law: Laws, watch: &mut Watch<'_>) -> Result<F
     Ok(found)
 }
 
-/// The limit load of the train of the scene at the position that governs.
+/// Computes the limit load of the train of the scene at the governing position.
 pub(super) fn train(scene: &Scene, law: Laws, watch: &mut Watch<'_>) -> Result<Found, LimitError> {
     let crossing = train_observed(scene, law, &mut |at| watch(&Known(at)))?;
     Ok(of_limit(&crossing.limit, Some(&Cases::of_train(&crossing))))
 }
 
-/// A limit load, with the lines of the cases if it governs several.
+/// Returns the result for a limit load, with the table of all cases if the limit load governs several.
 fn of_limit(limit: &Limit, cases: Option<&Cases>) -> Found {
     let (title, mut pictures) = (limit.title.as_str(), Vec::new());
     if let Some(path) = &limit.path {
@@ -155,7 +155,7 @@ pub(super) fn study(scene: &Scene, watch: &mut Watch<'_>) -> Result<Found, Fault
     Ok(Found::new(&sentence, pictures, study_output::table(&study)))
 }
 
-/// The bounds of a limit that are known during its search.
+/// The bounds of a limit load that are known during its search.
 struct Known(Bracket);
 
 impl fmt::Display for Known {

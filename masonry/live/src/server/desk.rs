@@ -1,5 +1,5 @@
-//! The files of the page: the scene of the command, and the new files that the page has created beside it. No other
-//! file is read or written.
+//! The files that the page may read and write: the scene of the command, and the new files that the page has created in
+//! the same directory.
 
 use std::ffi::OsStr;
 use std::fs::{self, OpenOptions};
@@ -13,11 +13,11 @@ use thiserror::Error;
 
 use crate::engine::LONGEST_TEXT;
 
-/// A directory and the scene files in it that the page edits.
+/// A directory, and the scene files in it that the page edits.
 #[derive(Debug)]
 pub struct Desk {
     directory: PathBuf,
-    /// Names of the files of the page, the newest last. The lock also keeps a second save from starting between the
+    /// Names of the page's own files, the newest last. The lock also keeps a second save from starting between the
     /// comparison and the writing of a first.
     own: Mutex<Vec<String>>,
 }
@@ -39,44 +39,44 @@ pub enum DeskError {
         /// The path.
         path: PathBuf,
     },
-    /// The name has directories, or another ending.
+    /// The name contains directories, or does not have the ending of a scene file.
     #[error("\"{name}\" is not a plain name that ends in .toml: give one such as wall.toml")]
     NotPlain {
-        /// The name.
+        /// The name that was refused.
         name: String,
     },
-    /// The file exists, but is not a file of the page.
+    /// The file exists, but is not one of the page's own files.
     #[error("{} is not a file of this page: save under the name of a new file", path.display())]
     Foreign {
         /// The file.
         path: PathBuf,
     },
-    /// The text is too long.
+    /// The text of the file is too long.
     #[error("{} has {bytes} bytes, and the page treats at most {LONGEST_TEXT}: solve it with `masonry solve`", path.display())]
     TooLong {
         /// The file.
         path: PathBuf,
-        /// The size of the file.
+        /// The size of the text \[bytes\].
         bytes: u64,
     },
-    /// Another program has changed the file.
+    /// Another program has changed the file since the page read it.
     #[error("{} has changed on the disk: load it, or keep the text of the page and save again", path.display())]
     Changed {
         /// The file.
         path: PathBuf,
     },
-    /// The system refuses.
+    /// The operating system refuses to read or write the file.
     #[error("cannot read or write {}: {source}; give another file", path.display())]
     System {
         /// The file.
         path: PathBuf,
-        /// The error.
+        /// The error of the operating system.
         source: io::Error,
     },
 }
 
 impl Desk {
-    /// A desk with a scene file, which must exist.
+    /// Creates a desk with one scene file, which must exist.
     ///
     /// # Errors
     /// [`DeskError`] if the file cannot be read.
@@ -89,7 +89,7 @@ impl Desk {
         Ok(desk)
     }
 
-    /// A desk without a scene yet, in a directory.
+    /// Creates a desk for a directory, without a scene file yet.
     pub fn empty(directory: &Path) -> Self {
         Self { directory: directory.to_owned(), own: Mutex::default() }
     }
@@ -98,7 +98,8 @@ impl Desk {
         &self.directory
     }
 
-    /// Reads a file of the page, or the newest of them if none is named. Line ends are those of a text area.
+    /// Reads one of the page's own files; the newest if `name` is `None`. Line ends are converted to those of a text
+    /// area.
     pub(super) fn load(&self, name: Option<&str>) -> Result<Sheet, DeskError> {
         let own = self.own();
         let Some(name) = name.or(own.last().map(String::as_str)) else {
@@ -112,7 +113,7 @@ impl Desk {
         Ok(Sheet { name: Some(name.to_owned()), text: Some(text) })
     }
 
-    /// Writes a text over a file of the page that still has the text that it `was`, or into a new file.
+    /// Writes a text into a new file, or over one of the page's own files if that file still has the text `was`.
     pub(super) fn save(&self, name: &str, text: &str, was: Option<&str>) -> Result<(), DeskError> {
         let mut own = self.own();
         let is_own = own.iter().any(|it| it == name);
@@ -130,7 +131,7 @@ impl Desk {
                 }
                 let text =
                     if old.contains("\r\n") { text.replace('\n', "\r\n") } else { text.to_owned() };
-                // A link stays: the target of the link is written.
+                // If the path is a link, the target of the link is written, so that the link stays.
                 let target = fs::canonicalize(&path).map_err(system)?;
                 write_atomically(&target, text.as_bytes()).map_err(system)
             }
@@ -143,13 +144,14 @@ impl Desk {
         }
     }
 
-    /// The names, locked. The list is consistent at any time, so that a panic elsewhere does not harm it.
+    /// Locks the list of the names of the page's own files. The list is always consistent, so a lock that a panic has
+    /// poisoned is used all the same.
     fn own(&self) -> MutexGuard<'_, Vec<String>> {
         self.own.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
 
-/// Whether a name is that of a scene file, without directories in the manner of any system.
+/// Whether a name is that of a scene file, without directories in the notation of any operating system.
 fn is_plain(name: &str) -> bool {
     let mut parts = Path::new(name).components();
     matches!((parts.next(), parts.next()), (Some(Component::Normal(_)), None))

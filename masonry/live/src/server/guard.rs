@@ -1,14 +1,14 @@
-//! Access: only for pages of this server.
+//! Access control: only pages of this server get answers.
 
 use std::io;
 
 use super::http::{Head, Reply};
 
 /// The header in which a page sends the token. A page of another origin cannot send this header without a preflight
-/// request, which is refused.
+/// request, which the server refuses.
 const TOKEN: &str = "x-masonry-token";
 
-/// The address of the server, and its token.
+/// The address of the server, and the token that requests must carry.
 #[derive(Debug)]
 pub(super) struct Guard {
     port: u16,
@@ -24,13 +24,14 @@ impl Guard {
         format!("http://127.0.0.1:{}/?token={}", self.port, self.token)
     }
 
-    /// Refuses requests to other hosts, from other pages, and without the token.
+    /// Refuses requests that name another host, come from another origin, or lack the token.
     ///
     /// # Errors
-    /// The reply with the reason.
+    /// The reply that states the reason.
     pub(super) fn check(&self, head: &Head<'_>) -> Result<(), Reply> {
         let host = format!("127.0.0.1:{}", self.port);
-        // The name of another host can lead to this address too, and pages of that host would count as pages of this server.
+        // The name of another host can lead to this address as well, and pages of that host would then have the same
+        // origin as pages of this server.
         if head.header("host") != Some(host.as_str()) {
             return Err(Reply::error(
                 403,
@@ -57,14 +58,14 @@ impl Guard {
         }
     }
 
-    /// Compares all letters, so that the time does not depend on the first difference.
+    /// Compares all characters of the given token, so that the time does not depend on the first difference.
     fn is_token(&self, given: &str) -> bool {
         let differences = self.token.bytes().zip(given.bytes()).map(|(a, b)| a ^ b);
         given.len() == self.token.len() && differences.fold(0, |all, it| all | it) == 0
     }
 }
 
-/// A word that nobody can guess.
+/// Returns a random word that nobody can guess.
 pub(super) fn secret() -> io::Result<String> {
     let mut bytes = [0; 16];
     getrandom::fill(&mut bytes).map_err(io::Error::other)?;

@@ -1,4 +1,4 @@
-//! As much of HTTP/1.1 as one page needs: one request to a connection, of limited size and time.
+//! The part of HTTP/1.1 that one page needs: one request per connection, of limited size and time.
 
 use std::io::{self, ErrorKind, Read as _, Write as _};
 use std::net::{Shutdown, TcpStream};
@@ -8,15 +8,16 @@ use serde_json::Value;
 
 use crate::engine::LONGEST_TEXT;
 
-/// The longest head \[bytes\]; the head of a browser has one or two thousand.
+/// The longest head of a request \[bytes\]; browsers send heads of one or two thousand bytes.
 const LONGEST_HEAD: usize = 16 << 10;
 const MOST_HEADERS: usize = 64;
-/// The longest body \[bytes\]: a scene and its question; a letter may take six bytes in JSON, but few do.
+/// The longest body of a request \[bytes\]: twice the longest text of a scene. A character may take six bytes in JSON,
+/// but few do.
 const LONGEST_BODY: usize = 2 * LONGEST_TEXT;
-/// The time to wait for a request; a request from the same machine comes at once.
+/// The longest time to wait for a request; a request from the same machine comes at once.
 const PATIENCE: Duration = Duration::from_secs(5);
 
-/// Line, query and headers of a request.
+/// Request line and headers of a request, with the query separated from the path.
 pub(super) struct Head<'a> {
     pub(super) method: &'a str,
     pub(super) path: &'a str,
@@ -25,7 +26,8 @@ pub(super) struct Head<'a> {
 }
 
 impl Head<'_> {
-    /// The value of the only header with a name; empty if the value is not UTF-8, since it must not count as absent.
+    /// Returns the value of a header. The value is empty if the header occurs twice or is not UTF-8, so that it does
+    /// not count as absent. `None` if there is no such header.
     pub(super) fn header(&self, name: &str) -> Option<&str> {
         let mut named = self.headers.iter().filter(|it| it.name.eq_ignore_ascii_case(name));
         let value = std::str::from_utf8(named.next()?.value).unwrap_or_default();
@@ -34,7 +36,7 @@ impl Head<'_> {
     }
 }
 
-/// A request that was read.
+/// A request that was read completely.
 #[derive(Debug)]
 pub(super) struct Request {
     pub(super) method: String,
@@ -42,7 +44,7 @@ pub(super) struct Request {
     pub(super) body: Vec<u8>,
 }
 
-/// A whole answer.
+/// A complete answer: status, content type and body.
 #[derive(Debug)]
 pub(super) struct Reply {
     status: u16,
@@ -64,10 +66,10 @@ impl Reply {
     }
 }
 
-/// Reads a request; `check` may refuse it by its head before anything more is read.
+/// Reads a request; `check` may refuse it by its head before the body is read.
 ///
 /// # Errors
-/// The reply with the reason for the refusal.
+/// The reply that states the reason for the refusal.
 pub(super) fn receive(
     stream: &TcpStream,
     check: impl FnOnce(&Head<'_>) -> Result<(), Reply>,
@@ -128,11 +130,12 @@ fn read_more(stream: &TcpStream, bytes: &mut Vec<u8>, until: Instant) -> Result<
     }
 }
 
-/// Headers of every answer: browsers do not keep it, show it in other pages, or guess another type.
+/// Headers of every answer: browsers must not store the answer, show it in frames of other pages, or guess another
+/// content type.
 const ALWAYS: &str = "Connection: close\r\nCache-Control: no-store\r\nX-Content-Type-Options: nosniff\r\n\
      X-Frame-Options: DENY\r\nReferrer-Policy: no-referrer\r\nCross-Origin-Resource-Policy: same-origin\r\n";
 
-/// Sends a whole answer.
+/// Sends a complete answer.
 pub(super) fn send(mut stream: &TcpStream, reply: &Reply) -> io::Result<()> {
     let Reply { status, kind, body } = reply;
     let reason = if *status == 200 { "OK" } else { "Refused" };
@@ -145,8 +148,8 @@ pub(super) fn send(mut stream: &TcpStream, reply: &Reply) -> io::Result<()> {
     stream.shutdown(Shutdown::Write)
 }
 
-/// Sends the answer to a request that was not read to its end. Incoming bytes are read and dropped for a moment, since
-/// closing the connection earlier would break it off, and the answer would be lost.
+/// Sends the answer to a request that was not read to its end. Reads and drops incoming bytes for a moment, since
+/// closing the connection at once would reset it before the page has received the answer.
 pub(super) fn refuse(stream: &TcpStream, reply: &Reply) -> io::Result<()> {
     const MOMENT: Duration = Duration::from_millis(200);
     send(stream, reply)?;
@@ -158,7 +161,7 @@ pub(super) fn refuse(stream: &TcpStream, reply: &Reply) -> io::Result<()> {
     Ok(())
 }
 
-/// Begins an answer of lines of JSON, which ends with the connection.
+/// Begins an answer that consists of lines of JSON and ends with the connection.
 pub(super) fn begin_lines(mut stream: &TcpStream) -> io::Result<()> {
     stream.set_nodelay(true)?;
     stream.set_write_timeout(Some(PATIENCE))?;
