@@ -1,7 +1,8 @@
 //! COMPAS JSON: assemblies and meshes.
 //!
-//! The versions of COMPAS nest their data differently, but a mesh always has an object `vertex`, of objects with `x`,
-//! `y` and `z`, and an object `face`, of lists of keys. Meshes are therefore searched at all levels.
+//! The versions of COMPAS nest their data differently, but every mesh has an object `vertex`, whose values are objects
+//! with `x`, `y` and `z`, and an object `face`, whose values are lists of keys of vertices. Meshes are therefore
+//! searched at all levels.
 
 use nalgebra::Point3;
 use serde_json::{Map, Value};
@@ -12,7 +13,7 @@ use super::mesh::{self, Mesh};
 use super::shapes::MOST_SHAPES;
 use super::{Drawing, DrawingError, DrawingErrorKind, Place};
 
-/// The material of blocks without a material.
+/// The material of blocks for which the file gives none.
 const MATERIAL: &str = "stone";
 
 pub(super) fn read(text: &str) -> Result<Drawing, DrawingError> {
@@ -24,7 +25,7 @@ pub(super) fn read(text: &str) -> Result<Drawing, DrawingError> {
     Ok(drawing)
 }
 
-/// The data of a block from the objects around its mesh.
+/// The name of a block, and whether it is fixed, as the objects around its mesh give them.
 #[derive(Clone)]
 struct About {
     name: Option<String>,
@@ -114,11 +115,11 @@ impl Search {
 }
 
 impl About {
-    /// The data with those of an inner object.
+    /// Returns the data together with those of an inner object.
     fn with(&self, map: &Map<String, Value>) -> Self {
         let attributes = map.get("attributes").and_then(Value::as_object);
         let get = |key| map.get(key).or_else(|| attributes?.get(key));
-        // Assemblies have names too; the innermost name counts, and default names of classes do not count.
+        // Assemblies have names, too; the innermost name counts, except default names of classes.
         let name = get("name").and_then(Value::as_str).filter(|it| !is_class(it));
         Self {
             name: name.map(str::to_owned).or_else(|| self.name.clone()),
@@ -127,7 +128,7 @@ impl About {
     }
 }
 
-/// Whether a name is that of a class, which COMPAS gives to unnamed objects.
+/// Whether a name is that of a COMPAS class, which unnamed objects have as their name.
 fn is_class(name: &str) -> bool {
     ["Assembly", "Block", "Graph", "Mesh", "Network", "Datastructure"].contains(&name)
 }
@@ -142,7 +143,7 @@ fn corner(vertex: &Value, key: &str, place: &Place) -> Result<Point3<f64>, Drawi
     Ok(Point3::new(get("x")?, get("y")?, get("z")?))
 }
 
-/// The entries of an object; numeric keys are sorted by value.
+/// Returns the entries of an object; numeric keys are sorted by value.
 fn in_order(map: &Map<String, Value>) -> Vec<(&String, &Value)> {
     let mut entries: Vec<_> = map.iter().collect();
     entries.sort_by_key(|(key, _)| key.parse::<u64>().unwrap_or(u64::MAX));

@@ -1,16 +1,17 @@
-//! Curves as chords.
+//! Curves as polylines of chords.
 
 use std::f64::consts::{FRAC_PI_6, TAU};
 
 use nalgebra::{Point2, Rotation2, Vector2};
 
-/// The largest angle of one chord. Chosen: voussoirs have one chord on each side if a semicircle has six or more, so
-/// that their intrados does not make them concave; a chord of 30 degrees is off by 3 % of its length.
+/// The largest angle of one chord \[rad\]. Chosen: voussoirs have one chord on each side if a semicircle has six or
+/// more voussoirs, so that the intrados does not make them concave; a chord of 30 degrees differs from its arc by 3 %
+/// of its length.
 const CHORD: f64 = FRAC_PI_6;
-/// The part of an angle that counts as a rounding error: an arc of 30 degrees is one chord.
+/// The part of a chord's angle that counts as a rounding error, so that an arc of 30 degrees is one chord.
 const ROUNDING: f64 = 1e-6;
 
-/// Points of a curve, and the distance of its chords from it.
+/// Points of a curve, and the largest distance `off` between the curve and its chords.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Chords {
     pub(super) points: Vec<Point2<f64>>,
@@ -22,14 +23,14 @@ pub(super) struct Chords {
 pub(super) struct Arc {
     pub(super) centre: Point2<f64>,
     pub(super) radius: f64,
-    /// The angle of its first point.
+    /// The angle of the first point of the arc \[rad\].
     pub(super) from: f64,
-    /// The angle of the arc, counter-clockwise.
+    /// The angle from the first to the last point, counter-clockwise \[rad\].
     pub(super) sweep: f64,
 }
 
 impl Arc {
-    /// The whole circle.
+    /// Returns a whole circle.
     pub(super) fn circle(centre: Point2<f64>, radius: f64) -> Self {
         Self { centre, radius, from: 0.0, sweep: TAU }
     }
@@ -46,8 +47,8 @@ impl Arc {
     }
 }
 
-/// The chords of an arc between two points; `bulge` is the tangent of a quarter of the angle. The points include the
-/// first, but not the last.
+/// Returns the chords of an arc between two points; `bulge` is the tangent of a quarter of the angle of the arc. The
+/// points include the first point, but not the last.
 pub(super) fn bulged([from, to]: [Point2<f64>; 2], bulge: f64) -> Chords {
     if bulge == 0.0 || from == to || !bulge.is_finite() {
         return Chords { points: vec![from], off: 0.0 };
@@ -66,7 +67,7 @@ pub(super) fn bulged([from, to]: [Point2<f64>; 2], bulge: f64) -> Chords {
     Chords { points: (0..count).map(at).collect(), off }
 }
 
-/// The chords of a cubic Bezier curve without its first point.
+/// Returns the chords of a cubic Bezier curve. The points include the last point, but not the first.
 pub(super) fn cubic(points: [Point2<f64>; 4]) -> Chords {
     let sides: Vec<_> = points.windows(2).map(|pair| pair[1] - pair[0]).collect();
     let sides: Vec<_> = sides.into_iter().filter(|side| side.norm() > 0.0).collect();
@@ -88,10 +89,10 @@ pub(super) fn cubic(points: [Point2<f64>; 4]) -> Chords {
     Chords { points: (1..=count).map(last).collect(), off }
 }
 
-/// The number of chords for an angle.
+/// Returns the number of chords of an arc with this angle \[rad\].
 fn chords_of(angle: f64) -> u32 {
     let turns = (angle.abs() / TAU).min(1.0);
-    // The number is at most twelve.
+    // The number of chords is at most twelve.
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "between 0 and 12")]
     let count = (turns * (TAU / CHORD) - ROUNDING).ceil() as u32;
     count.max(1)

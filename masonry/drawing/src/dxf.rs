@@ -1,7 +1,7 @@
-//! DXF as text: polylines, lines, arcs, circles and solids, of the drawing itself and of inserted blocks.
+//! DXF as text: polylines, lines, arcs, circles and solids, both in the drawing itself and in inserted blocks.
 //!
-//! A file is a list of pairs, a code and a value on a line each; code 0 begins an entity. Only few kinds of entities
-//! bound blocks, so that a reader for DXF alone is small, gives the line of every entity, and skips unknown ones.
+//! A file is a list of pairs of a code and a value, each on its own line; code 0 begins an entity. Only few kinds of
+//! entities bound blocks, so that this reader is small, gives the line of every entity, and skips unknown entities.
 
 mod insert;
 mod layers;
@@ -15,14 +15,14 @@ use self::layers::Hidden;
 use self::pairs::{Record, records};
 use super::{Drawing, DrawingError, DrawingErrorKind, Place, Unit};
 
-/// The parts of a file that matter.
+/// The parts of a DXF file that a drawing needs.
 #[derive(Default)]
 struct File<'a> {
-    /// The number of the unit.
+    /// The number of the unit in `$INSUNITS`; `None` if the file gives no unit.
     unit: Option<i64>,
-    /// Blocks by name: their first record, which has the base point, and those inside.
+    /// Blocks of the file by name: the first record of a block has its base point; the other records are its entities.
     blocks: BTreeMap<&'a str, Vec<Record<'a>>>,
-    /// Layers that are not shown, by their names in small letters.
+    /// Layers that are not shown, by their names in lower case.
     hidden: BTreeMap<String, Hidden>,
     entities: Vec<Record<'a>>,
 }
@@ -80,7 +80,7 @@ impl<'a> File<'a> {
     }
 }
 
-/// The number of the unit in the header; zero counts as no unit.
+/// Returns the number of the unit in the header; `None` if there is none or the number is zero.
 fn unit(header: &Record) -> Option<i64> {
     let at = header.pairs.iter().position(|pair| pair.value == "$INSUNITS")?;
     header.pairs.get(at + 1)?.value.parse().ok().filter(|number| *number != 0)

@@ -13,12 +13,12 @@ pub struct DrawingError {
 }
 
 impl DrawingError {
-    /// The kind of the mistake.
+    /// Returns the kind of the mistake.
     pub fn kind(&self) -> &DrawingErrorKind {
         &self.kind
     }
 
-    /// The entity, and the line of the file; `None` for the whole file.
+    /// Returns the entity and the line of the mistake; `None` if the mistake concerns the whole file.
     pub fn place(&self) -> Option<&Place> {
         self.place.as_ref()
     }
@@ -37,40 +37,40 @@ impl fmt::Display for DrawingError {
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum DrawingErrorKind {
-    /// The file is larger than any drawing.
+    /// The file is larger than any drawing should be.
     #[error("the file is larger than {limit} MB: save only the layers with the blocks")]
     LargeFile {
         /// The limit \[MB\].
         limit: usize,
     },
-    /// The file is not a text.
+    /// The file is not text.
     #[error("the file is binary: save it as text (DXF: \"ASCII\")")]
     Binary,
-    /// Nothing in the file bounds a block.
+    /// The file has no entity that can bound a block.
     #[error("nothing in the file bounds a block{left_out}: draw blocks as closed polylines")]
     Empty {
         /// The first entity that was left out, with the reason.
         left_out: String,
     },
-    /// The file ends before it should.
+    /// The file ends too early.
     #[error("the file ends in the middle: save it again")]
     Truncated,
     /// The text does not fit the format.
     #[error("{message}")]
     Syntax {
-        /// The mistake.
+        /// The message about the mistake.
         message: String,
     },
-    /// A text stands in the place of a number.
+    /// A number was expected, and the file has another text.
     #[error("\"{text}\" is not a number")]
     Number {
-        /// The text.
+        /// The text in place of the number.
         text: String,
     },
-    /// A coordinate is not finite, or too large for a place.
+    /// A coordinate is not finite, or too large.
     #[error("a coordinate is not a finite number below 1e60: correct it or delete the entity")]
     NotFinite,
-    /// There are more items than a drawing may have.
+    /// The file has more items of a kind than a drawing may have.
     #[error("there are more than {limit} {what}: save only the layers with the blocks")]
     TooMany {
         /// The name of the items.
@@ -78,39 +78,39 @@ pub enum DrawingErrorKind {
         /// The largest possible number.
         limit: usize,
     },
-    /// Blocks are inserted in each other without an end, or too deeply.
+    /// References of blocks are nested without end, or too deeply.
     #[error("block references are nested more than {depth} deep: explode them")]
     Nested {
-        /// The largest depth.
+        /// The largest allowed depth.
         depth: usize,
     },
-    /// A block is inserted that the file does not have.
+    /// A block is inserted that is not in the file.
     #[error(
         "it inserts the block \"{name}\", which the file does not have: bind external references"
     )]
     UnknownBlock {
-        /// The name.
+        /// The name of the block.
         name: String,
     },
-    /// A face has a corner that the file does not have.
+    /// A face or line has a corner that is not in the file.
     #[error("there is no corner {corner}: save the file again")]
     UnknownCorner {
         /// The number or key of the corner.
         corner: String,
     },
-    /// A body is not a prism across the plane of the others.
+    /// A body is not a prism perpendicular to the plane that the other bodies have.
     #[error(
         "it is not a prism across the plane of the others: the model is plane; cut it with a plane and draw the section"
     )]
     NotPlane,
-    /// Bodies lie behind each other.
+    /// Bodies lie behind each other, seen perpendicular to the plane.
     #[error(
         "it reaches from {from} to {to} across the plane and others do not: the model is plane; export one layer of blocks"
     )]
     NotOneLayer {
-        /// The near end.
+        /// The coordinate of the near end of the body, perpendicular to the plane.
         from: f64,
-        /// The far end.
+        /// The coordinate of the far end of the body, perpendicular to the plane.
         to: f64,
     },
 }
@@ -125,7 +125,7 @@ impl DrawingErrorKind {
     }
 }
 
-/// The beginning of a text of the file, without characters that control a terminal.
+/// Returns the beginning of a text of the file, without characters that control a terminal.
 pub(super) fn shown(text: &str) -> String {
     const LONGEST: usize = 40;
     text.chars().take(LONGEST).map(harmless).collect()

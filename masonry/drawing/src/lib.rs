@@ -1,6 +1,6 @@
-//! Drawings: closed outlines and lines in a plane, with their layer and their place in the file.
+//! Drawings: closed outlines and lines in a plane, each with its layer and its place in the file.
 //!
-//! A [`Drawing`] has the contents of a file, without repairs: the crate `masonry-import` makes a scene of it.
+//! A [`Drawing`] has the contents of a file, without repairs. The crate `masonry-import` makes a scene from it.
 //!
 //! ```
 //! use masonry_drawing::{Drawing, DrawingFormat};
@@ -27,11 +27,11 @@ pub use self::place::Place;
 pub use self::shapes::{Change, Drawing, DrawnLine, Outline};
 pub use self::unit::Unit;
 
-/// The largest size of a file in bytes. Chosen: fifty times a drawing of 1500 stones; a JSON file of numbers in a list
-/// takes half a gigabyte of memory.
+/// The largest size of a file in bytes. Chosen: fifty times a drawing of 1500 stones; a JSON file that is one list of
+/// numbers takes half a gigabyte of memory at this size.
 pub const LARGEST_FILE: usize = 32 << 20;
 
-/// A format of files.
+/// A file format of drawings.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum DrawingFormat {
     /// Drawing exchange format, as text.
@@ -42,12 +42,12 @@ pub enum DrawingFormat {
     Obj,
     /// JSON: an assembly or a mesh of COMPAS, or a list of blocks.
     Json,
-    /// JSON: a list of objects with `material`, `corners` and perhaps `name`.
+    /// JSON: a list of objects with `material`, `corners` and optionally `name`.
     List,
 }
 
 impl DrawingFormat {
-    /// The format by the ending of a file's name.
+    /// Returns the format for the ending of a file's name; `None` for an unknown ending.
     pub fn of_ending(ending: &str) -> Option<Self> {
         match ending.to_ascii_lowercase().as_str() {
             "dxf" => Some(Self::Dxf),
@@ -60,10 +60,10 @@ impl DrawingFormat {
 }
 
 impl Drawing {
-    /// Reads a file.
+    /// Reads a drawing from the bytes of a file.
     ///
     /// # Errors
-    /// The mistake in the file, with the entity and the line, and the remedy.
+    /// The mistake in the file, with its entity, its line, and a remedy.
     pub fn read(bytes: &[u8], format: DrawingFormat) -> Result<Self, DrawingError> {
         if bytes.len() > LARGEST_FILE {
             return Err(DrawingErrorKind::LargeFile { limit: LARGEST_FILE >> 20 }.nowhere());
@@ -88,7 +88,8 @@ impl Drawing {
     }
 }
 
-/// The text of a file. Old drawings are not UTF-8: each of their bytes becomes a character, which keeps names apart.
+/// Returns the bytes of a file as text. Old drawings are not UTF-8: each byte then becomes a character, so that
+/// different names stay different.
 fn decoded(bytes: &[u8]) -> std::borrow::Cow<'_, str> {
     match std::str::from_utf8(bytes) {
         Ok(text) => text.into(),

@@ -1,11 +1,11 @@
-//! A JSON list of blocks, as scenes have it.
+//! A JSON list of blocks, with the same keys as in scenes.
 
 use nalgebra::Point2;
 use serde::Deserialize;
 
 use super::{Drawing, DrawingError, DrawingErrorKind, Outline, Place};
 
-/// A block of the list.
+/// A block of the JSON list.
 #[derive(Deserialize)]
 struct Listed {
     #[serde(default)]
@@ -30,7 +30,7 @@ pub(super) fn read(text: &str) -> Result<Drawing, DrawingError> {
     Ok(drawing)
 }
 
-/// The mistake of a text that is not JSON, or not a list of blocks.
+/// Returns the mistake in a text that is not JSON, or not a list of blocks.
 pub(super) fn json_error(error: &serde_json::Error) -> DrawingError {
     let place = Place::new("JSON", Some(error.line()));
     if error.is_eof() {

@@ -1,4 +1,5 @@
-//! Bodies in space, brought into the plane of a wall: the section of prisms that lie in one layer, and faces in a plane.
+//! Bodies in space, projected into the plane of a wall: the cross-section of prisms that lie in one layer, or faces
+//! that lie in one plane.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -6,10 +7,10 @@ use nalgebra::{Point2, Point3, Vector3};
 
 use super::{Drawing, DrawingError, DrawingErrorKind, Outline, Place};
 
-/// The largest sine of an angle between faces of a prism that ought to be parallel, or at right angles. Chosen: corners
-/// of blocks of 0.1 m that are rounded to millimetres miss by a hundredth.
+/// The largest sine of an angle by which faces of a prism may differ from parallel, or from a right angle. Chosen: the
+/// faces of blocks of 0.1 m whose corners are rounded to millimetres differ by a hundredth.
 const TURNED: f64 = 1e-2;
-/// The part of the depth by which the ends of blocks may differ. Chosen: equal to the angle.
+/// The difference that the ends of blocks may have, divided by the depth of the blocks. Chosen: equal to [`TURNED`].
 const UNEVEN: f64 = 1e-2;
 
 /// Corners and faces of a body.
@@ -20,23 +21,24 @@ pub(super) struct Mesh {
     pub(super) is_fixed: bool,
     pub(super) place: Place,
     pub(super) corners: Vec<Point3<f64>>,
-    /// Indices of corners.
+    /// The faces; each is a list of indices into `corners`.
     pub(super) faces: Vec<Vec<usize>>,
 }
 
-/// The plane of a drawing in space.
+/// The plane in space into which a drawing is projected.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Plane {
     right: Vector3<f64>,
     up: Vector3<f64>,
-    /// The direction across the plane.
+    /// The unit normal of the plane.
     across: Vector3<f64>,
 }
 
-/// Adds bodies with faces to a drawing, and returns its plane: that of x and y without bodies.
+/// Adds the projections of bodies with faces to a drawing, and returns the plane of projection: that of x and y if
+/// there are no bodies.
 ///
 /// # Errors
-/// A body is not a prism across a plane that all bodies share.
+/// A body is not a prism perpendicular to one plane for all bodies.
 pub(super) fn add(drawing: &mut Drawing, mut meshes: Vec<Mesh>) -> Result<Plane, DrawingError> {
     meshes.retain(|mesh| !mesh.faces.is_empty());
     if meshes.is_empty() {
@@ -58,7 +60,7 @@ pub(super) fn add(drawing: &mut Drawing, mut meshes: Vec<Mesh>) -> Result<Plane,
     Ok(plane)
 }
 
-/// Adds each face of a flat mesh as an outline.
+/// Adds each face of a flat mesh to the drawing as an outline.
 fn add_faces(drawing: &mut Drawing, mesh: &Mesh, plane: Plane) -> Result<(), DrawingError> {
     for (number, face) in (1..).zip(&mesh.faces) {
         let corners = face.iter().map(|k| plane.project(mesh.corners[*k])).collect();
@@ -69,7 +71,8 @@ fn add_faces(drawing: &mut Drawing, mesh: &Mesh, plane: Plane) -> Result<(), Dra
     Ok(())
 }
 
-/// The plane in which all corners lie, if it is a plane of two axes; a horizontal one is seen from above.
+/// Returns the plane in which all corners lie, if it is parallel to two axes; a horizontal plane is seen from above.
+/// `None` if there is no such plane.
 fn flat(meshes: &[Mesh]) -> Option<Plane> {
     let corners = || meshes.iter().flat_map(|mesh| &mesh.corners);
     let extent = |along: Vector3<f64>| extent(corners(), along);
@@ -86,9 +89,11 @@ fn flat(meshes: &[Mesh]) -> Option<Plane> {
     })
 }
 
-/// The upright plane across which all bodies are prisms of one depth; the one seen along y if there are two.
+/// Returns the upright plane to which all bodies are perpendicular prisms of the same depth. If there are two such
+/// planes, returns the one that is seen along y.
 fn shared_plane(meshes: &[Mesh]) -> Result<Plane, DrawingError> {
-    /// The largest number of directions of sides of the first body that are tried. Chosen: stones have fewer.
+    /// The largest number of planes that are tried; they come from the faces of the first body. Chosen: stones have
+    /// fewer faces.
     const MOST: usize = 64;
     let mut planes: Vec<Plane> = Vec::new();
     for normal in meshes[0].normals().filter(|normal| normal.z.abs() <= TURNED) {
@@ -107,7 +112,7 @@ fn shared_plane(meshes: &[Mesh]) -> Result<Plane, DrawingError> {
         let wrong = meshes.iter().position(|mesh| !mesh.is_prism(plane.across));
         let uneven = wrong.map_or_else(|| uneven(meshes, plane), |_| None);
         let Some(at) = wrong.or(uneven) else { return Ok(plane) };
-        // The error of the plane that fits most bodies is shown.
+        // The error that is shown is that of the plane that fits most bodies.
         if most < Some((wrong.is_none(), at)) {
             most = Some((wrong.is_none(), at));
             let [from, to] = meshes[at].extent(plane.across);
@@ -121,7 +126,8 @@ fn shared_plane(meshes: &[Mesh]) -> Result<Plane, DrawingError> {
     Err(error)
 }
 
-/// The first body whose ends across the plane are not those of body 0.
+/// Returns the index of the first body whose ends perpendicular to the plane differ from those of body 0; `None` if
+/// there is no such body.
 fn uneven(meshes: &[Mesh], plane: Plane) -> Option<usize> {
     let [from, to] = meshes[0].extent(plane.across);
     meshes.iter().position(|mesh| {
@@ -144,7 +150,7 @@ impl Plane {
         across: Vector3::new(0.0, 0.0, 1.0),
     };
 
-    /// The upright plane with a normal; x points to the right if that is possible.
+    /// Returns the upright plane with this normal; its x axis points to the right if that is possible.
     fn across(normal: Vector3<f64>) -> Self {
         let right = Vector3::new(-normal.y, normal.x, 0.0).normalize();
         let is_back = if right.x.abs() > TURNED { right.x < 0.0 } else { right.y < 0.0 };
@@ -158,7 +164,7 @@ impl Plane {
 }
 
 impl Mesh {
-    /// Unit normals of the faces with an area.
+    /// Returns the unit normals of the faces whose area is not zero.
     fn normals(&self) -> impl Iterator<Item = Vector3<f64>> {
         self.faces.iter().filter_map(|face| self.normal(face))
     }
@@ -170,7 +176,8 @@ impl Mesh {
         sum.fold(Vector3::zeros(), |sum, it| sum + it).try_normalize(0.0)
     }
 
-    /// Whether all faces are parallel to the direction `across`, or lie at one of the two ends across it.
+    /// Whether each face is parallel to the direction `across`, or lies at one of the two ends of the body in this
+    /// direction.
     fn is_prism(&self, across: Vector3<f64>) -> bool {
         let [from, to] = self.extent(across);
         let is_at_end = |k: &usize| {
@@ -189,7 +196,8 @@ impl Mesh {
         extent(self.corners.iter(), along)
     }
 
-    /// The first corner at the place of each corner: some programs give every face separate corners.
+    /// Returns, for each corner, the index of the first corner at the same place: some programs give every face its own
+    /// corners.
     fn welded(&self) -> Vec<usize> {
         let mut first = BTreeMap::new();
         let key = |it: &Point3<f64>| [it.x, it.y, it.z].map(f64::to_bits);
@@ -197,7 +205,7 @@ impl Mesh {
         corners.map(|(k, corner)| *first.entry(key(corner)).or_insert(k)).collect()
     }
 
-    /// The outline of the faces at the end of a prism; `None` if they have no single outline.
+    /// Returns the outline of the faces at one end of a prism; `None` if these faces have more than one outline.
     fn section(&self, plane: Plane) -> Option<Vec<Point2<f64>>> {
         let caps = self.faces.iter().filter(|face| {
             self.normal(face).is_some_and(|normal| normal.dot(&plane.across) > 1.0 - TURNED)
@@ -207,7 +215,7 @@ impl Mesh {
         for face in caps {
             for (k, from) in face.iter().enumerate() {
                 let (from, to) = (same[*from], same[face[(k + 1) % face.len()]]);
-                // A side that two faces share is inside.
+                // A side that two faces share lies inside the outline.
                 if !sides.remove(&(to, from)) {
                     sides.insert((from, to));
                 }

@@ -1,4 +1,4 @@
-//! Wavefront OBJ: faces in a plane, or bodies that are prisms; lines.
+//! Wavefront OBJ: faces in one plane, or bodies that are prisms; and lines.
 
 use nalgebra::Point3;
 
@@ -7,22 +7,22 @@ use super::mesh::{self, Mesh};
 use super::shapes::{MOST_POINTS, MOST_SHAPES};
 use super::{Drawing, DrawingError, DrawingErrorKind, DrawnLine, Place};
 
-/// The material of faces without a material.
+/// The material of faces for which the file gives none.
 const MATERIAL: &str = "stone";
 
-/// A file that is read line by line.
+/// The reader of a file, line by line.
 #[derive(Default)]
 struct Reader {
     corners: Vec<Point3<f64>>,
-    /// Bodies, whose faces have numbers of corners of the whole file so far.
+    /// The bodies; their faces have indices into the corners of the whole file.
     bodies: Vec<Mesh>,
     lines: Vec<SpaceLine>,
     material: Option<String>,
 }
 
-/// A line in space, before there is a plane.
+/// A line in space, before it is projected into a plane.
 struct SpaceLine {
-    /// Numbers of corners.
+    /// Indices of the points among the corners of the file.
     points: Vec<usize>,
     layer: String,
     place: Place,
@@ -79,7 +79,7 @@ impl Reader {
                     push(&mut self.bodies, body, &place)?;
                 }
             }
-            // Normals, textures and smoothing do not matter; a file of another kind has no faces, which is an error
+            // Normals, textures and smoothing do not matter. A file of another kind has no faces, which is an error
             // later.
             _ => {}
         }
@@ -109,7 +109,8 @@ impl Reader {
         Ok(())
     }
 
-    /// The corners of a face or line: numbers from 1, or negative ones from the last backwards.
+    /// Returns the indices of the corners of a face or line. The numbers in the file count from 1, or, if negative,
+    /// backwards from the last corner.
     fn indices<'a>(
         &self,
         words: impl Iterator<Item = &'a str>,
@@ -128,7 +129,7 @@ impl Reader {
         words.map(index).collect()
     }
 
-    /// The body to which a face belongs.
+    /// Returns the body to which the next face belongs: the last body, or a new one if there is none.
     fn body(&mut self, number: usize) -> &mut Mesh {
         if self.bodies.is_empty() {
             let place = Place::new("OBJ", Some(number));
@@ -139,7 +140,7 @@ impl Reader {
     }
 }
 
-/// Adds a body or a line, unless there are too many.
+/// Adds a body or a line to a list; an error if there are too many.
 fn push<T>(list: &mut Vec<T>, item: T, place: &Place) -> Result<(), DrawingError> {
     if list.len() == MOST_SHAPES {
         let kind = DrawingErrorKind::TooMany { what: "bodies or lines", limit: MOST_SHAPES };
@@ -150,7 +151,7 @@ fn push<T>(list: &mut Vec<T>, item: T, place: &Place) -> Result<(), DrawingError
 }
 
 impl Mesh {
-    /// The body with only its own corners from those of the file.
+    /// Returns the body with only those corners of the file that its faces have.
     fn own(&self, corners: &[Point3<f64>]) -> Self {
         let mut numbers = std::collections::BTreeMap::new();
         let mut own = Self { faces: Vec::new(), ..self.clone() };

@@ -12,7 +12,7 @@ pub struct Place {
 }
 
 impl Place {
-    /// An entity, and its line in the file if it has one.
+    /// Creates a place from an entity and its line, if it has one.
     pub fn new(entity: impl Into<String>, line: Option<usize>) -> Self {
         Self { entity: entity.into(), line }
     }
@@ -29,10 +29,10 @@ impl fmt::Display for Place {
     }
 }
 
-/// The character, or a replacement if it controls a terminal.
+/// Returns a character, or a replacement if the character controls a terminal.
 pub(super) fn harmless(c: char) -> char {
     if c.is_control() { char::REPLACEMENT_CHARACTER } else { c }
 }
 
-/// The number of characters of a name that are shown. Chosen: one line of a terminal.
+/// The largest number of characters of a name that are shown. Chosen: one line of a terminal.
 const LONGEST_NAME: usize = 100;

@@ -1,6 +1,7 @@
-//! SVG: paths, polygons, polylines, lines, rectangles and circles, with the transforms around them.
+//! SVG: paths, polygons, polylines, lines, rectangles and circles, with the transforms of the groups around them.
 //!
-//! Layers are groups with a label of Inkscape, or else the nearest `id` of a group; y points down in the file.
+//! Layers are groups with an Inkscape label; without one, the nearest group with an `id`. The y axis points down in the
+//! file.
 
 mod path;
 
@@ -14,8 +15,8 @@ use super::error::shown;
 use super::shapes::MOST_SHAPES;
 use super::{Change, Drawing, DrawingError, DrawingErrorKind, DrawnLine, Outline, Place, Unit};
 
-/// The deepest nesting of groups. Chosen: as for blocks in blocks of other formats, with room for the groups of
-/// editors; a stack holds them.
+/// The deepest nesting of groups. Chosen: as for nested blocks in other formats, with room for the groups that editors
+/// add, and small enough for the stack.
 const DEEPEST: usize = 64;
 const INKSCAPE: &str = "http://www.inkscape.org/namespaces/inkscape";
 
@@ -37,7 +38,8 @@ pub(super) fn read(text: &str) -> Result<Drawing, DrawingError> {
     Ok(drawing)
 }
 
-/// The unit of the width, and its number in one unit of the coordinates; `None` for a width without a unit.
+/// Returns the unit of the drawing's width, and the number of these units in one unit of the coordinates; `None` and 1
+/// if the width has no unit.
 fn size_of_unit(root: Node) -> (Option<Unit>, f64) {
     let width = root.attribute("width").unwrap_or_default().trim();
     let symbol = width.trim_start_matches(|c: char| c.is_ascii_digit() || "+-.".contains(c));
@@ -53,19 +55,19 @@ fn size_of_unit(root: Node) -> (Option<Unit>, f64) {
 
 struct Reader<'a> {
     drawing: &'a mut Drawing,
-    /// The places of the line ends of the file.
+    /// Byte offsets of the line ends in the file.
     line_ends: Vec<usize>,
 }
 
-/// Properties of all contents of a group.
+/// Properties that a group gives to its contents.
 #[derive(Clone, Copy)]
 struct Frame<'a> {
     map: Matrix3<f64>,
     layer: &'a str,
     depth: usize,
-    /// Whether there is no `display: none` in the groups around.
+    /// Whether no group around has `display: none`.
     is_drawn: bool,
-    /// The nearest `visibility`.
+    /// Whether the nearest `visibility` makes the contents visible.
     is_visible: bool,
 }
 
@@ -155,7 +157,7 @@ fn has_own_coordinates(node: Node) -> bool {
     node.has_attribute("viewBox") || ["x", "y"].into_iter().any(is_moved)
 }
 
-/// The value of a property, from the style or else from an attribute of its name.
+/// Returns the value of a property: that of the style, else that of the attribute with its name.
 fn property<'a>(node: Node<'a, '_>, name: &str) -> Option<&'a str> {
     let of_style = node.attribute("style").unwrap_or_default().split(';').find_map(|it| {
         let (key, value) = it.split_once(':')?;
@@ -174,7 +176,7 @@ fn transform(node: Node, place: &Place) -> Result<Matrix3<f64>, DrawingError> {
     Ok(Matrix3::new(a, c, e, b, d, f, 0.0, 0.0, 1.0))
 }
 
-/// A number of an attribute, zero without the attribute; units of lengths are those of the drawing.
+/// Returns the number of an attribute, zero if there is no such attribute. Lengths must be in units of the drawing.
 fn number(node: Node, name: &str, place: &Place) -> Result<f64, DrawingError> {
     let text = node.attribute(name).unwrap_or("0").trim();
     text.parse().map_err(|_| DrawingErrorKind::Number { text: shown(text) }.at(place))

@@ -24,7 +24,7 @@ impl Unit {
     pub const ALL: [Self; 6] =
         [Self::Millimetre, Self::Centimetre, Self::Inch, Self::Foot, Self::Metre, Self::Kilometre];
 
-    /// Metres in one unit.
+    /// Returns the length of the unit in metres.
     pub fn metres(self) -> f64 {
         match self {
             Self::Millimetre => 1e-3,
@@ -36,7 +36,7 @@ impl Unit {
         }
     }
 
-    /// The symbol.
+    /// Returns the symbol of the unit.
     pub fn symbol(self) -> &'static str {
         match self {
             Self::Millimetre => "mm",
@@ -48,12 +48,12 @@ impl Unit {
         }
     }
 
-    /// The unit of a symbol.
+    /// Returns the unit with this symbol; `None` for an unknown symbol.
     pub fn of_symbol(symbol: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|unit| unit.symbol() == symbol)
     }
 
-    /// The unit of a number of `$INSUNITS` in a DXF file.
+    /// Returns the unit with this number in `$INSUNITS` of a DXF file; `None` for an unknown number.
     pub(super) fn of_dxf(number: i64) -> Option<Self> {
         match number {
             1 => Some(Self::Inch),

@@ -1,4 +1,4 @@
-//! The scene of blocks that meet.
+//! Builds a scene from blocks that meet.
 
 use std::collections::BTreeMap;
 
@@ -16,17 +16,17 @@ use masonry::scene::{Block, Joint, Material, Plane, Scene, SceneError, Support};
 use masonry::units::{ForceUnit, LengthUnit, Units};
 use masonry_drawing::{Change, Place};
 
-/// The material of mortar.
+/// The name of the material of mortar in the scene.
 const MORTAR: &str = "mortar";
-/// Young's modulus \[kN/m2\] and Poisson's ratio of mortar. Chosen: lime mortar; written into the scene as an assumption.
+/// Young's modulus \[kN/m2\] and Poisson's ratio of mortar. Chosen: lime mortar; the scene lists them as an assumption.
 const OF_MORTAR: (f64, f64) = (1e6, 0.2);
 /// The acceleration of gravity \[m/s2\].
 const GRAVITY: f64 = 9.81;
 
-/// The scene of a sheet, with the report of all changes.
+/// Builds the scene of a sheet, with the report of all changes.
 ///
 /// # Errors
-/// Defects of the scene as a model: blocks that meet nothing, supports that run through blocks.
+/// Mistakes of the scene as a model: blocks that touch nothing, supports that run through blocks.
 pub(crate) fn scene(
     mut sheet: Sheet,
     fitted: &Fitted,
@@ -93,7 +93,7 @@ fn classes(mut scene: Scene, fitted: &Fitted, options: &ImportOptions) -> Scene 
     scene.joint(CLASS, dry())
 }
 
-/// Blocks with names: the names of the file, or the material and a number.
+/// Returns the blocks with names: the names of the file, or the material and a number.
 fn blocks(sheet: &Sheet) -> Vec<Block> {
     let mut counts: BTreeMap<String, u32> = BTreeMap::new();
     let mut next = |name: &str| {
@@ -112,7 +112,7 @@ fn blocks(sheet: &Sheet) -> Vec<Block> {
     named.collect()
 }
 
-/// Gives joints below marks their class.
+/// Gives joints that lie on a mark the class of the mark.
 fn mark(scene: &mut Scene, model: &Model, sheet: &mut Sheet, options: &ImportOptions) {
     let mut is_used = vec![false; sheet.marks.len()];
     for joint in &model.joints {
@@ -120,7 +120,7 @@ fn mark(scene: &mut Scene, model: &Model, sheet: &mut Sheet, options: &ImportOpt
         let reach = sheet.tolerance + thickness;
         let is_below = |mark: &Piece| {
             let ends = [joint.from, joint.to];
-            // The shorter of the two lies on the other.
+            // The shorter of the two lines lies on the longer one.
             let lies =
                 |points: [Point2<f64>; 2], on| points.iter().all(|it| distance(*it, on) <= reach);
             lies(ends, mark.ends) || lies(mark.ends, ends)
@@ -142,7 +142,7 @@ fn mark(scene: &mut Scene, model: &Model, sheet: &mut Sheet, options: &ImportOpt
     sheet.changes.extend(idle.map(|(mark, _)| Change::new(what, &mark.place)));
 }
 
-/// The place of the part that an error of the scene names.
+/// Returns the place of the block or support to which an error of the scene refers.
 fn place<'a>(error: &SceneError, blocks: &'a [Place], supports: &'a [Piece]) -> Option<&'a Place> {
     let key = error.key();
     let (list, rest) = key.split_once('[')?;

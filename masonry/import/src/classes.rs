@@ -1,9 +1,9 @@
 //! Meanings of the names of layers.
 
-/// The material of blocks on unnamed layers.
+/// The material of blocks on layers without a name.
 const MATERIAL: &str = "stone";
 
-/// The kind of the contents of a layer.
+/// The kind of contents of a layer.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) enum Meaning {
     /// Blocks of a material.
@@ -12,13 +12,13 @@ pub(crate) enum Meaning {
     Supports(String),
     /// Lines along joints of a class.
     Joints(String),
-    /// Nothing for the scene.
+    /// Contents that are left out.
     Ignored,
 }
 
 impl Meaning {
-    /// The meaning of a layer: a name that begins with `support` or `joint` gives the kind of its contents, other names
-    /// are materials.
+    /// Returns the meaning of a layer: a name that begins with `support` or `joint` gives the kind of contents, other
+    /// names are materials.
     pub(crate) fn of(layer: &str, ignored: &[String]) -> Self {
         let is = |name: &str| layer.eq_ignore_ascii_case(name);
         // Layers with the name `defpoints` are not printed, and layers of results are written by `masonry draw`.
@@ -45,7 +45,7 @@ impl Meaning {
     }
 }
 
-/// A name of letters and digits, with `_` for other characters.
+/// Returns a name with `_` for all characters except letters and digits.
 fn plain(layer: &str) -> String {
     let kept = |c: char| if c.is_ascii_alphanumeric() || c == '-' { c } else { '_' };
     layer.trim().chars().map(kept).collect()

@@ -5,7 +5,7 @@ use std::fmt;
 use masonry::scene::SceneError;
 use masonry_drawing::{Place, Unit};
 
-/// The reason for which a drawing does not become a scene, with its places and a remedy.
+/// The reason for which a drawing does not become a scene, with its places in the drawing and a remedy.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ImportError {
     places: Vec<Place>,
@@ -13,17 +13,17 @@ pub struct ImportError {
 }
 
 impl ImportError {
-    /// The kind of the error.
+    /// Returns the kind of the error.
     pub fn kind(&self) -> &ImportErrorKind {
         &self.kind
     }
 
-    /// The place of the error in the drawing: one place, or those of two blocks.
+    /// Returns the places of the error in the drawing: one place, or those of two blocks.
     pub fn places(&self) -> &[Place] {
         &self.places
     }
 
-    /// The tolerance that did not suffice \[m\].
+    /// Returns the tolerance that did not suffice \[m\]; `None` for other errors.
     pub(crate) fn tolerance(&self) -> Option<f64> {
         match *self.kind {
             ImportErrorKind::Overlap { tolerance, .. }
@@ -32,7 +32,7 @@ impl ImportError {
         }
     }
 
-    /// The error with a tolerance that suffices as its remedy, if there is one.
+    /// Returns the error with a sufficient tolerance as its remedy, if there is one.
     pub(crate) fn with_remedy(mut self, sufficient: Option<f64>) -> Self {
         if let ImportErrorKind::Overlap { remedy, .. } | ImportErrorKind::NotHealed { remedy, .. } =
             &mut *self.kind
@@ -65,7 +65,7 @@ pub enum ImportErrorKind {
     /// A value of the options is out of range.
     #[error("{option} is {value}: give a positive number")]
     Option {
-        /// The option.
+        /// The name of the option.
         option: &'static str,
         /// The value of the option.
         value: f64,
@@ -83,7 +83,7 @@ pub enum ImportErrorKind {
         "no support is drawn, and no block rests with an edge on a line below all others: draw supports on a layer \"support\""
     )]
     NoFloor,
-    /// There are more items than can be treated.
+    /// The drawing has more items of a kind than the import allows.
     #[error("there are more than {limit} {what}: import parts of the drawing")]
     TooMany {
         /// The name of the items.
@@ -91,7 +91,7 @@ pub enum ImportErrorKind {
         /// The largest possible number.
         limit: usize,
     },
-    /// Outlines lie over each other by the dozen.
+    /// Outlines lie over each other by the dozen at one place.
     #[error(
         "dozens of outlines lie over each other here: draw each block once, or leave their layer out by --ignore"
     )]
@@ -101,26 +101,26 @@ pub enum ImportErrorKind {
         "the unit {number} of $INSUNITS is not known: give --unit, or --unit m and the metres in one unit as --scale"
     )]
     UnknownUnit {
-        /// The number of the unit.
+        /// The number of the unit in `$INSUNITS`.
         number: i64,
     },
-    /// Blocks have a size that no stone has.
+    /// The blocks have a size that stones do not have, so that the unit is probably wrong.
     #[error(
         "half of all blocks are {compared} than {size} m, with {unit} as the unit ({from}): {remedy}"
     )]
     Size {
         /// `larger` or `smaller`.
         compared: &'static str,
-        /// The median size \[m\].
+        /// The median size of the blocks \[m\].
         size: String,
-        /// The unit that was taken.
+        /// The unit in which the drawing was read.
         unit: Unit,
-        /// The origin of the unit.
+        /// The source of the unit, in words.
         from: &'static str,
         /// The remedy.
         remedy: String,
     },
-    /// The tolerance is too large for a block.
+    /// The tolerance is too large for an edge of a block.
     #[error(
         "its edge of {edge} m is shorter than four times the tolerance of {tolerance} m: give --tolerance {most} or less"
     )]
@@ -129,15 +129,15 @@ pub enum ImportErrorKind {
         edge: String,
         /// The tolerance \[m\].
         tolerance: String,
-        /// The largest tolerance for the edge \[m\].
+        /// The largest tolerance that this edge allows \[m\].
         most: String,
     },
-    /// A block has no width at a corner.
+    /// A block has no width at one of its corners.
     #[error("the block has no width at its corner at ({x}, {y}) m: leave the corner out")]
     NoWidth {
-        /// The place of the corner \[m\].
+        /// The x coordinate of the corner \[m\].
         x: String,
-        /// The place of the corner \[m\].
+        /// The y coordinate of the corner \[m\].
         y: String,
     },
     /// The edges of an outline cross or touch each other.
@@ -152,15 +152,15 @@ pub enum ImportErrorKind {
     OpenJoints {
         /// The number of open joints.
         count: usize,
-        /// The width of the first \[m\].
+        /// The width of the first open joint \[m\].
         width: String,
     },
-    /// A joint has another width than the others, so that no mortar fits all.
+    /// The width of a joint differs from that of the other joints, so that no thickness of mortar fits all joints.
     #[error(
         "the joint is {width} m wide and others are {usual} m: correct the drawing, or give --joints close"
     )]
     UnevenMortar {
-        /// The width \[m\].
+        /// The width of this joint \[m\].
         width: String,
         /// The width of most other joints \[m\].
         usual: String,
@@ -174,26 +174,26 @@ pub enum ImportErrorKind {
         depth: String,
         /// The tolerance \[m\].
         tolerance: f64,
-        /// The tolerance in digits.
+        /// The tolerance with few digits, as the message shows it.
         shown: String,
         /// The remedy.
         remedy: String,
     },
-    /// Corners that are near cannot all meet.
+    /// Corners that are nearer to each other than the tolerance cannot all meet.
     #[error(
         "not all corners nearer to each other than the tolerance of {shown} m can meet ({reason}): {remedy}"
     )]
     NotHealed {
         /// The tolerance \[m\].
         tolerance: f64,
-        /// The tolerance in digits.
+        /// The tolerance with few digits, as the message shows it.
         shown: String,
-        /// The reason.
+        /// The reason for which the corners cannot meet.
         reason: &'static str,
         /// The remedy.
         remedy: String,
     },
-    /// The error of the scene itself.
+    /// The scene itself has an error.
     #[error("{0}")]
     Scene(SceneError),
 }

@@ -1,6 +1,7 @@
-//! Blocks that are drawn by single lines: the smallest loops that the lines of a layer make.
+//! Blocks that are drawn by single lines: the smallest loops that the lines of a layer form.
 //!
-//! Lines may be drawn once for two blocks or once for each, may end on the middle of another, and may cross.
+//! A line may be drawn once for two blocks or once for each, may end on the middle of another line, and may cross other
+//! lines.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -11,14 +12,15 @@ use super::{ImportError, ImportErrorKind};
 use masonry::geometry::{self, cross};
 use masonry_drawing::{Change, DrawnLine, Outline, Place};
 
-/// The largest number of pieces of lines. Theory: four for each of the allowed blocks, and as many again for arcs.
+/// The largest number of pieces of lines. Theory: four pieces for each of the allowed blocks, and as many again for
+/// arcs.
 const MOST_PIECES: usize = 160_000;
 
-/// The largest number of points and lines abreast of a line, on average. Chosen: those of a bed joint through a wall of
-/// 20 000 stones.
+/// The largest average number of points, or of lines, whose extent along the longer axis overlaps that of a line.
+/// Chosen: as many as beside a bed joint through a wall of 20 000 stones.
 const MOST_ABREAST: usize = 1000;
 
-/// The outlines that lines form, layer by layer.
+/// Returns the outlines that lines form, layer by layer.
 pub(crate) fn of(
     lines: &[DrawnLine],
     tolerance: f64,
@@ -54,11 +56,11 @@ pub(crate) fn of(
     Ok(outlines)
 }
 
-/// Lines between points that are apart.
+/// Lines between points whose distances are larger than the tolerance.
 #[derive(Default)]
 struct Graph {
     points: Vec<Point2<f64>>,
-    /// Points by the cells of a grid whose width is the tolerance.
+    /// Indices of points by the cells of a square grid, whose width is the tolerance.
     cells: BTreeMap<[i64; 2], Vec<usize>>,
     pieces: Vec<([usize; 2], Place)>,
 }
@@ -71,9 +73,10 @@ impl Graph {
         }
     }
 
-    /// The point that is nearer than the tolerance, or a new one.
+    /// Returns the index of the point that is nearer than the tolerance, or of a new point.
     fn point(&mut self, at: Point2<f64>, tolerance: f64) -> usize {
-        // Cells far from the origin have no digits left; points are compared in any case.
+        // Coordinates far from the origin have too few digits for cells; the distances of points are compared in any
+        // case.
         #[allow(clippy::cast_possible_truncation, reason = "saturates")]
         let [x, y] = [at.x, at.y].map(|it| (it / tolerance).floor() as i64);
         let around = |x: i64| [x.saturating_sub(1), x, x.saturating_add(1)];
@@ -89,7 +92,7 @@ impl Graph {
         self.points.len() - 1
     }
 
-    /// The direction in which the points extend farther: fewer lines are abreast.
+    /// Returns the axis along which the points extend farther: fewer lines overlap along it.
     fn axis(&self) -> usize {
         let extent = |axis: usize| {
             let along = self.points.iter().map(|it| it[axis]);
@@ -102,10 +105,10 @@ impl Graph {
         usize::from(extent(1) > extent(0))
     }
 
-    /// Adds the points in which lines cross.
+    /// Adds the points at which lines cross.
     ///
     /// # Errors
-    /// Far more lines are abreast, or cross, than the lines of blocks do.
+    /// More lines overlap along the axis, or cross, than the lines of blocks can.
     fn cross(&mut self, tolerance: f64) -> Result<(), ImportError> {
         let axis = self.axis();
         let mut lines: Vec<([Point2<f64>; 2], &Place)> = Vec::new();
@@ -132,10 +135,10 @@ impl Graph {
         Ok(())
     }
 
-    /// The lines, divided at the points that lie on them, each once.
+    /// Divides the lines at the points that lie on them, and keeps each piece once.
     ///
     /// # Errors
-    /// A line has far more points beside it than lines of blocks have.
+    /// More points lie beside a line than the lines of blocks can have.
     fn net(self, tolerance: f64) -> Result<Net, ImportError> {
         let axis = self.axis();
         let place_of = |k: usize| self.points[k][axis];
@@ -164,7 +167,7 @@ impl Graph {
     }
 }
 
-/// The point in which two lines cross or touch; `None` for parallel lines.
+/// Returns the point at which two lines cross or touch; `None` if there is no such point, and for parallel lines.
 fn crossing([a, b]: [Point2<f64>; 2], [c, d]: [Point2<f64>; 2]) -> Option<Point2<f64>> {
     let (first, second) = (b - a, d - c);
     let turn = cross(first, second);
@@ -173,7 +176,7 @@ fn crossing([a, b]: [Point2<f64>; 2], [c, d]: [Point2<f64>; 2]) -> Option<Point2
     (is_inside(at) && is_inside(cross(c - a, first) / turn)).then(|| a + first * at)
 }
 
-/// Points, the neighbours of each, and the lines between them.
+/// A planar graph: points, the neighbours of each point, and the lines between neighbours with their places.
 struct Net {
     points: Vec<Point2<f64>>,
     around: Vec<BTreeSet<usize>>,
@@ -190,7 +193,7 @@ impl Net {
         Self { points, around, sides }
     }
 
-    /// Removes lines with free ends, again and again, and returns their places.
+    /// Removes lines with a free end until there are none, and returns the places of the removed lines.
     fn prune(&mut self) -> BTreeSet<Place> {
         let mut gone = BTreeSet::new();
         let mut free: Vec<usize> =
@@ -206,7 +209,7 @@ impl Net {
         gone
     }
 
-    /// The faces that lines go around counter-clockwise, each with the place of its first line.
+    /// Returns the faces around which lines go counter-clockwise, each with the place of its first line.
     fn faces(&self) -> Vec<(Vec<Point2<f64>>, Place)> {
         let turned: Vec<Vec<usize>> = (0..self.points.len()).map(|k| self.by_angle(k)).collect();
         let mut open: BTreeSet<[usize; 2]> =
@@ -217,7 +220,7 @@ impl Net {
             let mut side = first;
             loop {
                 let [from, at] = side;
-                // The sharpest turn to the left: the next line clockwise after the line back.
+                // The sharpest turn to the left: the next line clockwise from the line on which the point was reached.
                 let around = &turned[at];
                 let back = around.iter().position(|k| *k == from).unwrap_or(0);
                 side = [at, around[(back + around.len() - 1) % around.len()]];

@@ -1,4 +1,4 @@
-//! Blocks that meet exactly: joints closed or filled, corners moved onto others, and no overlap left.
+//! Makes blocks meet exactly: joints are closed or filled, corners are moved onto others, and no overlap remains.
 
 use nalgebra::Point2;
 
@@ -12,10 +12,10 @@ use masonry::model::heal::heal;
 use masonry::model::{Movement, PlacedBlock, PlacedSupport};
 use masonry_drawing::Change;
 
-/// Overlaps below this part of the smaller block are rounding errors, as in the checks of a model.
+/// Overlaps below this part of the smaller block count as rounding errors, as in the checks of a model.
 const TOUCHING: f64 = 1e-9;
 
-/// The changes that make blocks meet.
+/// The changes by which the blocks of a sheet were made to meet.
 pub(crate) struct Fitted {
     pub(crate) grown: Grown,
 }
@@ -24,7 +24,7 @@ impl Fitted {
     /// Makes the blocks of a sheet meet.
     ///
     /// # Errors
-    /// Blocks that cannot meet or still overlap.
+    /// Some blocks cannot meet, or still overlap.
     pub(crate) fn of(sheet: &mut Sheet, options: &ImportOptions) -> Result<Self, ImportError> {
         let grown = gaps::grow(sheet, options.joints)?;
         move_together(sheet)?;
@@ -35,7 +35,7 @@ impl Fitted {
     }
 }
 
-/// Moves corners onto corners and edges that are nearer than the tolerance.
+/// Moves corners onto the corners and edges that are nearer than the tolerance.
 fn move_together(sheet: &mut Sheet) -> Result<(), ImportError> {
     let mut blocks: Vec<PlacedBlock> = sheet.stones.iter().map(block).collect();
     let supports: Vec<PlacedSupport> = sheet
@@ -91,9 +91,9 @@ fn check_overlaps(sheet: &Sheet) -> Result<(), ImportError> {
     Ok(())
 }
 
-/// The depth to which two polygons with an overlap of this area reach into each other: across the edge over which the
-/// depth is least, if both are convex; else the depth of the deepest corner of one in the other, or the mean width of
-/// an overlap without corners.
+/// Returns the depth to which two polygons with an overlap of area `area` reach into each other. If both are convex:
+/// the least depth, perpendicular to an edge. Otherwise: the depth of the deepest corner of one in the other, or the
+/// mean width of the overlap if that is larger.
 fn depth(one: &[Point2<f64>], other: &[Point2<f64>], area: f64) -> f64 {
     let of_convex = |one: &[Point2<f64>], other: &[Point2<f64>]| {
         let across = |k: usize| {
@@ -114,13 +114,13 @@ fn depth(one: &[Point2<f64>], other: &[Point2<f64>], area: f64) -> f64 {
     deepest(one, other).max(deepest(other, one)).max(width)
 }
 
-/// Cuts digits without meaning, so that corners at one place are written alike.
+/// Removes meaningless digits of coordinates, so that corners at one place are written alike.
 fn round(sheet: &mut Sheet) {
-    /// Digits that are kept, relative to the size of the drawing. Theory: joints are found to 1e-9 of a block.
+    /// The last digit that is kept, divided by the size of the drawing. Theory: joints are found to 1e-9 of a block.
     const DIGITS: f64 = 1e-13;
     let corners = sheet.stones.iter().flat_map(|stone| &stone.corners);
     let largest = corners.map(|it| it.x.abs().max(it.y.abs())).fold(0.0, f64::max);
-    // Divisors that are powers of ten leave numbers with few digits.
+    // Division by a power of ten leaves numbers with few digits.
     let per_metre = 10.0_f64.powf(-(DIGITS * largest).log10().ceil()).round();
     if !(per_metre.is_finite() && per_metre >= 1.0) {
         return;
@@ -131,10 +131,11 @@ fn round(sheet: &mut Sheet) {
     }
 }
 
-/// A tolerance that suffices, with the digits of a message.
+/// Finds a tolerance for which `does` returns true, near a tolerance that did not suffice, with the digits that a
+/// message shows; `None` if no tried one suffices.
 pub(crate) fn sufficient(tolerance: f64, does: impl Fn(f64) -> bool) -> Option<f64> {
-    /// Factors of the tolerance that did not suffice, the nearest ones first. Chosen: a larger tolerance joins separate
-    /// corners, a smaller one leaves apart those that cannot be joined.
+    /// Factors by which the insufficient tolerance is multiplied, the nearest ones first. Chosen: a larger tolerance
+    /// joins separate corners, a smaller one leaves corners apart that cannot be joined.
     const FACTORS: [f64; 12] = [1.5, 2.0, 3.0, 4.0, 6.0, 8.0, 12.0, 0.5, 0.25, 0.1, 0.03, 0.01];
     let written = |factor: f64| metres(tolerance * factor).parse().ok();
     FACTORS.into_iter().filter_map(written).find(|tolerance| does(*tolerance))

@@ -9,12 +9,12 @@ use super::{ImportError, ImportErrorKind};
 use masonry::geometry::{self, cross};
 use masonry_drawing::Place;
 
-/// The length by which the floor extends beyond the blocks on each side, relative to its length. Chosen: to be seen in
+/// The length by which the floor extends beyond the blocks on each side, divided by its length. Chosen: visible in
 /// pictures.
 const BEYOND: f64 = 0.05;
 
-/// Adds a floor below the blocks, if no support is drawn: among the straight lines without a block below them, the line
-/// on which most blocks rest.
+/// Adds a floor below the blocks if no support is drawn: the straight line on which most blocks rest, among all lines
+/// without a block below them.
 ///
 /// # Errors
 /// No block has an edge on such a line.
@@ -24,7 +24,7 @@ pub(crate) fn add(sheet: &mut Sheet) -> Result<Option<String>, ImportError> {
     }
     let hull = lower_hull(shapes(&sheet.stones).into_iter().flatten().copied().collect());
     let lines = (0..hull.len()).filter_map(|k| flat_from(&hull[k..], sheet.tolerance));
-    // The longest of the lines on which the same blocks rest is taken, since it goes below all of them.
+    // Among lines on which the same blocks rest, the longest is taken, since it goes below all of them.
     let rank = |[from, to]: [Point2<f64>; 2]| (resting(sheet, [from, to]), (to - from).norm());
     let ranked = lines.map(|ends| (rank(ends), ends));
     let best = ranked.max_by(|(a, _), (b, _)| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)));
@@ -42,7 +42,7 @@ pub(crate) fn add(sheet: &mut Sheet) -> Result<Option<String>, ImportError> {
     )))
 }
 
-/// The lower side of the convex hull, from the left to the right.
+/// Returns the lower side of the convex hull of points, from left to right.
 fn lower_hull(mut points: Vec<Point2<f64>>) -> Vec<Point2<f64>> {
     points.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
     let mut hull: Vec<Point2<f64>> = Vec::new();
@@ -57,18 +57,18 @@ fn lower_hull(mut points: Vec<Point2<f64>>) -> Vec<Point2<f64>> {
     hull
 }
 
-/// The longest line from the first corner of a hull to another corner such that the corners between are nearer than the
-/// tolerance.
+/// Finds the longest line from the first corner of a hull to another corner for which the distances of all corners
+/// between are at most the tolerance. `None` if the line is steeper than 45 degrees.
 fn flat_from(hull: &[Point2<f64>], tolerance: f64) -> Option<[Point2<f64>; 2]> {
     let line = |end: usize| [hull[0], hull[end]];
     let is_flat =
         |end: &usize| hull[1..*end].iter().all(|it| distance(*it, line(*end)) <= tolerance);
     let longest = (1..hull.len()).take_while(is_flat).last().map(line);
-    // A side that is steeper than 45 degrees is a wall.
+    // A side of the hull that is steeper than 45 degrees is a wall, not a floor.
     longest.filter(|[from, to]| (to.x - from.x) > (to.y - from.y).abs())
 }
 
-/// The length of the edges that lie on a line, to the tolerance.
+/// Returns the total length of the edges that lie on a line within the tolerance.
 fn resting(sheet: &Sheet, [from, to]: [Point2<f64>; 2]) -> f64 {
     let along = to - from;
     let reach = sheet.tolerance * along.norm();

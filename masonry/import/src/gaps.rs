@@ -1,4 +1,5 @@
-//! Joints that are drawn open: blocks grow into them until they meet, and shrink again if mortar lies between them.
+//! Joints that are drawn open: the edges of blocks move outwards until blocks meet, and move back again if mortar lies
+//! between the blocks.
 
 use std::collections::BTreeMap;
 
@@ -12,42 +13,42 @@ use super::{ImportError, ImportErrorKind, Joints};
 use masonry::geometry;
 use masonry_drawing::Change;
 
-/// The widest gap between blocks that is a joint, relative to the shortest edge. Chosen: joints of 10 mm beside bricks
-/// of 52 mm have a fifth; wider gaps are openings.
+/// The widest gap between blocks that counts as a joint, divided by the shortest edge. Chosen: joints of 10 mm beside
+/// bricks of 52 mm have a fifth; wider gaps are openings.
 const WIDEST: f64 = 0.35;
 
-/// An edge of a stone.
+/// An edge of a stone: the index of the stone, and the index of the edge.
 type Edge = (usize, usize);
 
-/// A gap between an edge of a stone and another edge or a support.
+/// A gap between an edge of a stone and an edge of another stone, or a support.
 struct Gap {
     edges: [Option<Edge>; 2],
     support: Option<usize>,
-    /// The stones; the same stone twice at a support.
+    /// The two stones; twice the same stone at a support.
     stones: [usize; 2],
     width: f64,
     length: f64,
     is_bed: bool,
 }
 
-/// The edges that were moved outwards, and the widths of mortar.
+/// The edges that were moved outwards, and the thicknesses of mortar.
 #[derive(Debug, Default)]
 pub(crate) struct Grown {
     edges: Vec<(Edge, f64)>,
-    /// The thickness of mortar in bed joints \[m\].
+    /// The thickness of mortar in bed joints \[m\]; `None` without mortar.
     pub(crate) bed: Option<f64>,
-    /// The thickness of mortar in head joints \[m\].
+    /// The thickness of mortar in head joints \[m\]; `None` without mortar.
     pub(crate) head: Option<f64>,
     /// The widest gap that stays open \[m\].
     pub(crate) open: f64,
-    /// Supports below mortar, and whether their joint is a bed joint.
+    /// Indices of supports below mortar, each with whether the joint at the support is a bed joint.
     pub(crate) supports: BTreeMap<usize, bool>,
 }
 
-/// Moves edges along open joints outwards, so that blocks meet in the middle.
+/// Moves the edges along open joints outwards, so that blocks meet in the middle of the joints.
 ///
 /// # Errors
-/// Joints are open, and no option gives their meaning, or no mortar of one width fits.
+/// Joints are open and no option gives their meaning, or no single thickness of mortar fits them.
 pub(crate) fn grow(sheet: &mut Sheet, joints: Option<Joints>) -> Result<Grown, ImportError> {
     let gaps = gaps(sheet, sheet.tolerance)?;
     if matches!(joints, Some(Joints::Open | Joints::Mortar)) {
@@ -63,7 +64,7 @@ pub(crate) fn grow(sheet: &mut Sheet, joints: Option<Joints>) -> Result<Grown, I
         }
         Some(Joints::Open) => {
             let widest = gaps.iter().map(|gap| gap.width).fold(0.0, f64::max);
-            // Each corner moves by less than the tolerance.
+            // Each of two facing corners moves by less than the tolerance afterwards.
             grown.open = widest + 2.0 * sheet.tolerance;
             return Ok(grown);
         }
@@ -81,7 +82,7 @@ pub(crate) fn grow(sheet: &mut Sheet, joints: Option<Joints>) -> Result<Grown, I
     Ok(grown)
 }
 
-/// Makes room for the mortar again.
+/// Moves the edges back again if there is mortar, which needs the room.
 pub(crate) fn shrink(sheet: &mut Sheet, grown: &Grown) {
     if grown.bed.is_some() || grown.head.is_some() {
         move_edges(sheet, &grown.edges, -1.0);
@@ -97,10 +98,10 @@ fn note(sheet: &mut Sheet, gaps: &[Gap], joints: Option<Joints>) {
     }
 }
 
-/// Notes gaps of constant width below the tolerance: the tolerance closes them for every choice of joints.
+/// Notes gaps of constant width below the tolerance, which the tolerance closes for every choice of joints.
 fn note_narrow(sheet: &mut Sheet) -> Result<(), ImportError> {
-    /// Gaps below this part of the tolerance are rounding errors. Chosen: a gap of millimetres is reported, a gap of
-    /// micrometres is not.
+    /// Gaps below this part of the tolerance count as rounding errors. Chosen: a gap of millimetres is reported, a gap
+    /// of micrometres is not.
     const NARROWEST: f64 = 0.05;
     let tolerance = sheet.tolerance;
     let narrow = gaps(sheet, NARROWEST * tolerance)?;
@@ -115,7 +116,7 @@ fn note_narrow(sheet: &mut Sheet) -> Result<(), ImportError> {
     Ok(())
 }
 
-/// All gaps that are wider than the tolerance.
+/// Returns all gaps that are wider than the tolerance.
 fn gaps(sheet: &Sheet, tolerance: f64) -> Result<Vec<Gap>, ImportError> {
     let stones = &sheet.stones;
     let edges = stones.iter().flat_map(|stone| size::edges(&stone.corners));
@@ -150,7 +151,8 @@ fn gaps(sheet: &Sheet, tolerance: f64) -> Result<Vec<Gap>, ImportError> {
     Ok(gaps)
 }
 
-/// The gap between two edges, if its width is the same at both ends.
+/// Returns the gap between two edges; `None` unless the edges face each other, and the gap has the same width at both
+/// ends, is wider than the tolerance, and is longer than wide.
 fn between(edges: [[Point2<f64>; 2]; 2], tolerance: f64, reach: f64) -> Option<Gap> {
     let overlap = geometry::facing_overlap(edges[0], edges[1], tolerance, reach)?;
     let [low, high] = [overlap.gap[0].min(overlap.gap[1]), overlap.gap[0].max(overlap.gap[1])];
@@ -169,12 +171,16 @@ fn between(edges: [[Point2<f64>; 2]; 2], tolerance: f64, reach: f64) -> Option<G
     })
 }
 
-/// The thickness of mortar that fits gaps: their median width, if all others have it within the tolerance.
+/// Returns the thickness of mortar that fits all gaps: their median width, rounded; `None` without gaps.
+///
+/// # Errors
+/// The width of a gap differs from the median by more than twice the tolerance.
 fn mortar<'a>(
     gaps: impl Iterator<Item = &'a Gap>,
     sheet: &Sheet,
 ) -> Result<Option<f64>, ImportError> {
-    /// The step of thicknesses of mortar \[m\]: tenths of millimetres. Chosen: masons do not work more finely.
+    /// Thicknesses of mortar are multiples of this step \[m\]: tenths of millimetres. Chosen: masons do not work more
+    /// finely.
     const STEP: f64 = 1e-4;
     let gaps: Vec<&Gap> = gaps.collect();
     let Some(width) = median(gaps.iter().map(|gap| gap.width).collect()) else { return Ok(None) };
@@ -183,14 +189,14 @@ fn mortar<'a>(
         let places = gap.stones.map(|k| &sheet.stones[k].place);
         return Err(ImportErrorKind::UnevenMortar { width, usual }.at(&places));
     }
-    // The quotient is exact if the number of tenths is written with few digits.
+    // The quotient is the nearest number to the decimal number with few digits.
     let rounded = (width / STEP).round() / STEP.recip();
     let is_same = (rounded - width).abs() <= 0.5 * sheet.tolerance && rounded > 0.0;
     Ok(Some(if is_same { rounded } else { width }))
 }
 
-/// The distance by which each edge moves outwards: half of the mortar, or of the gap along most of the edge; all of it
-/// at a support.
+/// Returns the distance by which each edge moves outwards: half of the mortar thickness, or of the width of the gap
+/// along most of the edge if there is no mortar; at a support the whole thickness or width.
 fn shares(gaps: &[Gap], grown: &Grown) -> Vec<(Edge, f64)> {
     let mut of_edges: BTreeMap<Edge, (f64, f64)> = BTreeMap::new();
     for gap in gaps {
@@ -207,7 +213,7 @@ fn shares(gaps: &[Gap], grown: &Grown) -> Vec<(Edge, f64)> {
     of_edges.into_iter().map(|(edge, (_, share))| (edge, share)).collect()
 }
 
-/// Moves edges outwards by their shares times a factor; the edges of a stone follow each other.
+/// Moves edges outwards by their shares times a factor. The shares of the edges of one stone must follow each other.
 fn move_edges(sheet: &mut Sheet, shares: &[(Edge, f64)], factor: f64) {
     for of_stone in shares.chunk_by(|a, b| a.0.0 == b.0.0) {
         let stone = &mut sheet.stones[of_stone[0].0.0];
@@ -219,13 +225,13 @@ fn move_edges(sheet: &mut Sheet, shares: &[(Edge, f64)], factor: f64) {
     }
 }
 
-/// The polygon with each edge moved outwards.
+/// Returns the polygon whose edges are moved outwards by the distances `by`.
 fn offset(corners: &[Point2<f64>], by: &[f64]) -> Vec<Point2<f64>> {
     let count = corners.len();
     let corner = |k: usize| {
         let before = (k + count - 1) % count;
         let [m, n] = [before, k].map(|edge| geometry::outward_normal(corners, edge));
-        // The corner moves by d with d . m and d . n given.
+        // The displacement `d` of a corner has given components `d . m` and `d . n` along the normals of both edges.
         let determinant = geometry::cross(m, n);
         let (a, b) = (by[before], by[k]);
         corners[k] + nalgebra::Vector2::new(a * n.y - b * m.y, b * m.x - a * n.x) / determinant

@@ -1,4 +1,4 @@
-//! Scenes from drawings: outlines become blocks that meet exactly, lines become supports, and a report lists the
+//! Scenes from drawings: outlines become blocks that meet exactly, lines become supports, and a report lists all
 //! changes.
 //!
 //! ```
@@ -42,10 +42,10 @@ pub use self::options::{ImportOptions, Joints};
 use self::sheet::Sheet;
 use masonry_drawing::Drawing;
 
-/// Makes a scene of a drawing.
+/// Makes a scene from a drawing.
 ///
 /// # Errors
-/// A mistake that cannot be mended, with its place in the drawing and the remedy, such as a sufficient tolerance.
+/// A mistake that cannot be repaired, with its place in the drawing and a remedy, such as a sufficient tolerance.
 pub fn import(drawing: &Drawing, options: &ImportOptions) -> Result<Imported, ImportError> {
     let attempt = |tolerance| -> Result<Imported, ImportError> {
         let mut sheet = Sheet::of(drawing, options, tolerance)?;
@@ -58,7 +58,7 @@ pub fn import(drawing: &Drawing, options: &ImportOptions) -> Result<Imported, Im
     };
     attempt(options.tolerance).map_err(|error| match error.tolerance() {
         Some(tolerance) => {
-            // A tolerance that removes further blocks as slivers or duplicates is not a remedy.
+            // A tolerance with which more blocks are dropped as slivers or duplicates is not a remedy.
             let count =
                 Sheet::of(drawing, options, options.tolerance).map_or(0, |it| it.stones.len());
             let does = |it| attempt(Some(it)).is_ok_and(|it| it.scene.blocks.len() >= count);

@@ -14,12 +14,12 @@ use masonry_drawing::{Drawing, DrawingFormat, Place};
 /// Reads a scene whose `block_list` may be a drawing in any supported format.
 ///
 /// # Errors
-/// The errors of [`Scene::read`], and mistakes of the drawing, with the entity.
+/// The errors of [`Scene::read`], and mistakes of the drawing with the entity that has them.
 pub fn read_scene(path: &Path) -> Result<Scene, SceneError> {
     Scene::read_with(path, &drawn)
 }
 
-/// Reads a scene from text as [`read_scene`] does from a file of this path, which need not exist.
+/// Reads a scene from `text` as [`read_scene`] reads a file at `path`, which need not exist.
 ///
 /// # Errors
 /// As [`read_scene`].
@@ -27,14 +27,14 @@ pub fn scene_from_toml(text: &str, path: &Path) -> Result<Scene, SceneError> {
     Scene::from_toml_with(text, path, &drawn)
 }
 
-/// The blocks, supports and marked joints of a drawing, in the units of a scene.
+/// Returns the blocks, supports and marked joints of a drawing, in the units of a scene.
 fn drawn(path: &Path, bytes: &[u8], scene: &Scene) -> Result<Drawn, String> {
     let ending = path.extension().map_or_else(String::new, |it| it.to_string_lossy().into_owned());
     let format = DrawingFormat::of_ending(&ending)
         .ok_or("a drawing must be a .dxf, .svg, .obj or .json file: save it as one of these")?;
     let drawing = Drawing::read(bytes, format).map_err(|error| error.to_string())?;
     let imported = imported(&drawing, scene).map_err(|error| {
-        // The remedy of an overlap is an option of `import`.
+        // The remedy of an overlap is an option of `import`, which a scene does not have.
         let error = error.to_string();
         let error = error.trim_end_matches([':', ' ']);
         format!(
@@ -44,13 +44,13 @@ fn drawn(path: &Path, bytes: &[u8], scene: &Scene) -> Result<Drawn, String> {
     Ok(imported.into_drawn(scene.units.length_to_si()))
 }
 
-/// Imports a drawing with the tolerance, supports, and mortar or gaps of a scene.
+/// Imports a drawing with the tolerance, the supports, and the mortar or open joints of a scene.
 fn imported(drawing: &Drawing, scene: &Scene) -> Result<Imported, ImportError> {
     let metres = scene.units.length_to_si();
     let has_mortar = scene.joints.values().any(|joint| joint.mortar_thickness() > 0.0);
     let joints = if has_mortar { Some(Joints::Mortar) } else { None };
     let options = ImportOptions {
-        // A drawing without a unit has that of the scene.
+        // A drawing without a unit is in the unit of the scene.
         scale: if drawing.unit.or(unknown(drawing)).is_none() { metres } else { 1.0 },
         tolerance: scene.contact.tolerance.map(|it| it * metres),
         joints: joints.or((scene.contact.gap_limit > 0.0).then_some(Joints::Open)),
@@ -68,7 +68,7 @@ fn imported(drawing: &Drawing, scene: &Scene) -> Result<Imported, ImportError> {
     build::scene(sheet, &fitted, &options)
 }
 
-/// The unit of a drawing whose unit number is unknown: metres, as in `import`.
+/// Returns metres for a drawing whose unit number is unknown, as `import` does; `None` for other drawings.
 fn unknown(drawing: &Drawing) -> Option<masonry_drawing::Unit> {
     drawing.unknown_unit.map(|_| masonry_drawing::Unit::Metre)
 }

@@ -2,7 +2,7 @@
 
 use nalgebra::Point2;
 
-/// The box around some points, larger by `reach` to all sides.
+/// The axis-parallel box around points, enlarged by `reach` on all sides.
 #[derive(Debug, Clone, Copy)]
 struct Bounds {
     low: Point2<f64>,
@@ -20,14 +20,14 @@ impl Bounds {
     }
 }
 
-/// Pairs of shapes whose boxes, each grown by half the reach, meet, in increasing order; `Err` with a shape if there
-/// are far more pairs than shapes beside each other have.
+/// Finds the pairs of shapes whose boxes, each enlarged by half of `reach`, intersect; in increasing order. `Err` with
+/// the index of a shape if there are far more pairs than neighbouring shapes have.
 pub(crate) fn pairs(shapes: &[&[Point2<f64>]], reach: f64) -> Result<Vec<[usize; 2]>, usize> {
-    /// The largest number of pairs per shape. Chosen: bricks have six to eight neighbours, a floor slab has those of a
-    /// whole course.
+    /// The largest number of pairs, divided by the number of shapes. Chosen: bricks have six to eight neighbours, a
+    /// floor slab has a whole course of neighbours.
     const MOST: usize = 64;
     let boxes: Vec<Bounds> = shapes.iter().map(|it| Bounds::of(it, 0.5 * reach)).collect();
-    // Fewer shapes are abreast along the longer side.
+    // Fewer shapes overlap along the axis with the larger extent.
     let extent = |axis: usize| {
         let low = boxes.iter().map(|it| it.low[axis]).fold(f64::INFINITY, f64::min);
         boxes.iter().map(|it| it.high[axis]).fold(f64::NEG_INFINITY, f64::max) - low

@@ -2,37 +2,37 @@
 
 use masonry_drawing::Unit;
 
-/// The treatment of joints that are drawn open.
+/// The treatment of joints that are drawn open, with gaps between blocks.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Joints {
     /// Gaps of one width are filled with mortar.
     Mortar,
     /// Blocks grow until they meet.
     Close,
-    /// Gaps stay.
+    /// Gaps stay open.
     Open,
 }
 
 /// Options of the import of a drawing.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ImportOptions {
-    /// The title of the scene.
+    /// The title of the new scene.
     pub title: String,
-    /// The unit of the drawing, in place of that of the file.
+    /// The unit of the drawing, instead of the unit in the file; `None` uses that of the file.
     pub unit: Option<Unit>,
-    /// Factor of all lengths.
+    /// Factor by which all lengths of the drawing are multiplied.
     pub scale: f64,
     /// The distance up to which corners and edges are joined \[m\]; by default a part of the shortest edge.
     pub tolerance: Option<f64>,
-    /// Thickness out of the plane \[m\]; by default that of the bodies of the file, or one metre.
+    /// Thickness of the blocks out of the plane \[m\]; by default that of the bodies in the file, or one metre.
     pub thickness: Option<f64>,
-    /// The treatment of joints that are drawn open; `None` makes them an error.
+    /// The treatment of joints that are drawn open; without a value, such joints are an error.
     pub joints: Option<Joints>,
     /// Density of the blocks \[kg/m^3\].
     pub density: f64,
     /// Coefficient of friction of all joints.
     pub mu: f64,
-    /// Layers that are left out.
+    /// Names of layers that are left out.
     pub ignore: Vec<String>,
 }
 
@@ -45,7 +45,7 @@ impl Default for ImportOptions {
             tolerance: None,
             thickness: None,
             joints: None,
-            // Chosen: limestone, and the friction of sawn stone; both are written into the scene as assumptions.
+            // Chosen: limestone, and the friction of sawn stone; the scene lists both as assumptions.
             density: 2000.0,
             mu: 0.6,
             ignore: Vec::new(),

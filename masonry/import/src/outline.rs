@@ -1,25 +1,26 @@
-//! Single outlines: near corners become one, nearly straight ones vanish, and the direction is counter-clockwise.
+//! Cleans single outlines: near corners are joined, nearly straight corners are removed, and the direction becomes
+//! counter-clockwise.
 
 use nalgebra::Point2;
 
 use masonry::geometry::{self, PolygonError};
 use masonry_drawing::{Change, Place};
 
-/// Distances below this part of the tolerance are rounding errors. Chosen: far above those of coordinates, far below
-/// all changes that a report should show.
+/// Distances below this part of the tolerance count as rounding errors. Chosen: far above rounding errors of
+/// coordinates, far below all changes that a report should show.
 const EXACT: f64 = 1e-6;
 
 /// The result of cleaning an outline.
 pub(crate) enum Cleaned {
     /// A polygon whose edges and corners are larger than the tolerance.
     Polygon(Vec<Point2<f64>>),
-    /// Nothing: the outline is thinner than the tolerance.
+    /// No polygon: the outline is thinner than the tolerance.
     Sliver,
-    /// Edges that cross: the areas on both sides of the crossing cancel each other.
+    /// No polygon: edges cross, so that the areas on both sides of the crossing cancel each other.
     Crossing,
 }
 
-/// Cleans an outline, and notes the changes.
+/// Cleans an outline, and adds what was changed to `changes`.
 pub(crate) fn clean(
     outline: &[Point2<f64>],
     place: &Place,
@@ -30,7 +31,7 @@ pub(crate) fn clean(
     if let Some(by) = without_near(&mut corners, tolerance) {
         changes.push(Change::by("near corners became one", place, by));
     }
-    // Corners on straight edges, at which other blocks begin, do not count as changes.
+    // The removal of corners on straight edges, at which other blocks begin, does not count as a change.
     let straight = without_straight(&mut corners, tolerance);
     if let Some(by) = straight.filter(|by| *by > EXACT * tolerance) {
         changes.push(Change::by("nearly straight corners vanished", place, by));
@@ -43,20 +44,22 @@ pub(crate) fn clean(
         return if is_crossing { Cleaned::Crossing } else { Cleaned::Sliver };
     }
     if geometry::area(&corners) < 0.0 {
-        // The first corner stays the first.
+        // The first corner remains the first.
         corners[1..].reverse();
         changes.push(Change::new("clockwise outlines were turned", place));
     }
     Cleaned::Polygon(corners)
 }
 
-/// Twice the area divided by half the perimeter: the width of a long rectangle.
+/// Returns the width of an outline: the area divided by half the perimeter, which is nearly the width of a long
+/// rectangle.
 fn width(corners: &[Point2<f64>]) -> f64 {
     let perimeter: f64 = super::size::edges(corners).sum();
     2.0 * geometry::area(corners).abs() / perimeter
 }
 
-/// Removes corners that are nearer than the tolerance to the one before, and returns the largest such distance.
+/// Removes each corner that is nearer than the tolerance to the previous corner, and returns the largest such distance;
+/// `None` if no corner was removed.
 fn without_near(corners: &mut Vec<Point2<f64>>, tolerance: f64) -> Option<f64> {
     let mut largest: Option<f64> = None;
     let mut kept: Vec<Point2<f64>> = Vec::with_capacity(corners.len());
@@ -80,8 +83,8 @@ fn without_near(corners: &mut Vec<Point2<f64>>, tolerance: f64) -> Option<f64> {
     largest
 }
 
-/// Removes the straightest corner again and again, as long as all removed corners stay within the tolerance of the
-/// edges; returns the largest distance.
+/// Removes the straightest corner repeatedly, as long as all removed corners are within the tolerance of the remaining
+/// edges. Returns the largest distance between a removed corner and such an edge; `None` if no corner was removed.
 fn without_straight(corners: &mut Vec<Point2<f64>>, tolerance: f64) -> Option<f64> {
     let mut largest: Option<f64> = None;
     let mut ring = Ring::of(corners);
@@ -96,12 +99,13 @@ fn without_straight(corners: &mut Vec<Point2<f64>>, tolerance: f64) -> Option<f6
     largest
 }
 
-/// The remaining corners of an outline.
+/// The remaining corners of an outline from which corners are removed.
 struct Ring {
     corners: Vec<Point2<f64>>,
-    /// The corners that were removed after every corner.
+    /// For every remaining corner, the removed corners between it and the next one.
     out: Vec<Vec<Point2<f64>>>,
-    /// The distance of every corner, and of those removed beside it, from the edge that would replace it.
+    /// For every remaining corner, the distance between the edge that would replace it, and the farthest of the corner
+    /// itself and the removed corners beside it.
     offs: Vec<f64>,
 }
 
@@ -139,7 +143,7 @@ impl Ring {
     }
 }
 
-/// The distance of a point from a segment.
+/// Returns the distance between a point and a segment.
 pub(crate) fn distance(point: Point2<f64>, ends: [Point2<f64>; 2]) -> f64 {
     (point - geometry::nearest_on_segment(ends, point)).norm()
 }

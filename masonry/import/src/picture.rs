@@ -1,4 +1,4 @@
-//! The drawing under the blocks that it became, as SVG.
+//! A picture of the drawing under the blocks made from it, as SVG.
 
 use std::fmt::Write as _;
 
@@ -6,7 +6,7 @@ use nalgebra::Point2;
 
 use super::Imported;
 
-/// The longer side of the picture in pixels, and the margin around it.
+/// The longer side of the picture, and the margin around the drawing, in pixels.
 const SIDE: f64 = 1200.0;
 const MARGIN: f64 = 30.0;
 
@@ -18,7 +18,7 @@ struct Frame {
 }
 
 impl Imported {
-    /// A picture: the drawing in red, under the blocks of the scene and its supports.
+    /// Returns a picture as SVG: the drawing in red, under the blocks and supports of the scene.
     pub fn picture(&self) -> String {
         let blocks: Vec<Vec<Point2<f64>>> = self
             .scene

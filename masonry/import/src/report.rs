@@ -1,4 +1,4 @@
-//! The table of changes.
+//! The report of an import: a table of changes.
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -6,11 +6,12 @@ use std::fmt::Write as _;
 use super::Imported;
 use masonry_drawing::Change;
 
-/// Places that a row names; others are counted. Chosen: as many as fit a line.
+/// The largest number of places that a row of the table names; further places are counted. Chosen: as many as fit in a
+/// line.
 const NAMED: usize = 3;
 
 impl Imported {
-    /// The contents of the scene, the assumptions, and a table of all changes with their places.
+    /// Returns the report: the contents of the scene, the assumptions, and a table of all changes with their places.
     pub fn report(&self) -> String {
         let scene = &self.scene;
         let mut text = format!(
@@ -29,13 +30,13 @@ impl Imported {
         text
     }
 
-    /// The lines of the table of changes, without the spaces of a table.
+    /// Returns the lines of the table of changes, without padding.
     pub(crate) fn told(&self) -> Vec<String> {
         let line = |(what, row): (&str, Row)| format!("{} x {what}{}", row.count, row.places());
         self.rows().into_iter().map(line).collect()
     }
 
-    /// Rows of changes of one kind, in the order of the first change of each kind.
+    /// Returns the changes as rows by kind, in the order of the first change of each kind.
     fn rows(&self) -> Vec<(&str, Row<'_>)> {
         let mut rows: Vec<(&str, Row)> = Vec::new();
         let mut found: BTreeMap<&str, usize> = BTreeMap::new();
@@ -50,7 +51,7 @@ impl Imported {
     }
 }
 
-/// Changes of one kind.
+/// All changes of one kind.
 #[derive(Default)]
 struct Row<'a> {
     count: usize,
@@ -88,7 +89,7 @@ impl std::fmt::Display for Row<'_> {
     }
 }
 
-/// A length with three digits, the form of small lengths in a message.
+/// Writes a length with three digits, as messages show small lengths.
 pub(crate) fn metres(length: f64) -> String {
     if length == 0.0 {
         return "0".to_owned();
@@ -97,7 +98,7 @@ pub(crate) fn metres(length: f64) -> String {
     if !(0.0..=9.0).contains(&digits) {
         return format!("{length:.2e}");
     }
-    // Between 0 and 9.
+    // The number of decimals is between 0 and 9.
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "checked above")]
     let text = format!("{length:.*}", digits as usize);
     if text.contains('.') {

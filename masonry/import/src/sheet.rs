@@ -1,4 +1,4 @@
-//! A drawing in metres, sorted by the meaning of its layers, with each outline cleaned.
+//! A drawing in metres, sorted by the meaning of its layers, with cleaned outlines.
 
 use nalgebra::Point2;
 
@@ -10,43 +10,43 @@ use super::stones::{self, Piece, Stone};
 use super::{ImportError, ImportErrorKind, ImportOptions, faces};
 use masonry_drawing::{Change, Drawing, DrawnLine, Outline, Place, Unit};
 
-/// The default tolerance, relative to the shortest edge. Theory: joints of mortar are wider, since they have 10 mm
+/// The default tolerance, divided by the shortest edge. Theory: joints of mortar are wider, since they have 10 mm
 /// beside bricks of 65 mm; errors of corners that are rounded to millimetres are smaller for edges of 30 mm and more.
 const OF_SHORTEST: f64 = 0.05;
-/// Edges that are shorter than this part of the median edge count as faults. Chosen: half a brick beside a lintel has a
-/// tenth of its length.
+/// Edges shorter than this part of the median edge count as faults of the drawing. Chosen: half a brick beside a lintel
+/// has a tenth of the length of the lintel.
 const FAULTY: f64 = 0.05;
-/// The largest tolerance, relative to the shortest edge, as in the healing of scenes.
+/// The largest tolerance, divided by the shortest edge, as in the healing of scenes.
 const LARGEST: f64 = 0.25;
 /// The largest number of blocks. Chosen: ten times the number that is solved in a minute.
 const MOST_BLOCKS: usize = 20_000;
-/// The largest number of pieces of supports, and of lines along joints: each is compared with all blocks. Chosen: a
+/// The largest number of pieces of supports, and of lines along joints; each is compared with all blocks. Chosen: a
 /// surveyed ground line has some hundreds.
 const MOST_PIECES: usize = 2000;
 
-/// A drawing in metres.
+/// A drawing in metres, sorted by the meaning of its layers.
 pub(crate) struct Sheet {
     pub(crate) unit: Unit,
-    /// The distance up to which corners and edges are joined.
+    /// The distance up to which corners and edges are joined \[m\].
     pub(crate) tolerance: f64,
     pub(crate) thickness: Option<f64>,
     pub(crate) stones: Vec<Stone>,
     pub(crate) supports: Vec<Piece>,
-    /// Lines that give the joints below them a class.
+    /// Lines drawn along joints, which give these joints a class.
     pub(crate) marks: Vec<Piece>,
     pub(crate) changes: Vec<Change>,
-    /// All outlines and lines as they were drawn.
+    /// All outlines and lines before any change \[m\].
     pub(crate) drawn: Vec<Vec<Point2<f64>>>,
 }
 
-/// An outline before it is cleaned.
+/// The outline of a block before it is cleaned.
 struct Raw {
     outline: Outline,
     material: String,
 }
 
 impl Sheet {
-    /// The blocks, supports and marked joints of a drawing.
+    /// Reads the blocks, supports and marked joints of a drawing.
     ///
     /// # Errors
     /// The unit is not plausible, there are too many blocks, or edges of a block cross at every tolerance.
@@ -134,7 +134,7 @@ impl Sheet {
         }
     }
 
-    /// Makes stones and supports of the sorted outlines and lines.
+    /// Adds the stones and supports made from the sorted outlines and lines.
     fn lay(&mut self, mut sorted: Sorted) -> Result<(), ImportError> {
         let found = faces::of(&sorted.lines, self.tolerance, &mut self.changes)?;
         sorted.raw.extend(found.into_iter().map(|outline| {
@@ -179,7 +179,7 @@ impl Sheet {
         ImportErrorKind::NoBlocks { dropped }.at(&[])
     }
 
-    /// The remaining corners of an outline; `None` for a sliver.
+    /// Returns the corners of an outline that remain after cleaning; `None` for a sliver.
     fn cleaned(
         &mut self,
         corners: &[Point2<f64>],
@@ -195,7 +195,8 @@ impl Sheet {
         }
     }
 
-    /// Keeps the ends of edges apart: refuses a given tolerance that is too large, and reduces the default one.
+    /// Limits the tolerance so that it does not join the ends of an edge: reduces the default tolerance, and refuses a
+    /// given tolerance that is too large.
     fn limit_tolerance(&mut self, is_given: bool) -> Result<(), ImportError> {
         let shortest = |stone: &Stone| size::edges(&stone.corners).fold(f64::INFINITY, f64::min);
         let lengths = self.stones.iter().map(|stone| (shortest(stone), stone));
@@ -210,7 +211,7 @@ impl Sheet {
     }
 }
 
-/// Outlines and lines of blocks and supports, before they are cleaned.
+/// Outlines and lines of blocks and supports before they are cleaned.
 #[derive(Default)]
 struct Sorted {
     raw: Vec<Raw>,
@@ -219,7 +220,7 @@ struct Sorted {
 }
 
 impl Sorted {
-    /// The default tolerance: a part of the shortest edge that is not a fault; `None` without an edge.
+    /// Returns the default tolerance: a part of the shortest edge that is not a fault; `None` if there is no edge.
     fn tolerance(&self) -> Option<f64> {
         let of_outlines = self.raw.iter().flat_map(|raw| size::edges(&raw.outline.corners));
         let of_lines = self.lines.iter().flat_map(|line| line.points.windows(2));

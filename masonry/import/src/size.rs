@@ -1,4 +1,4 @@
-//! The unit of a drawing, and a check that the blocks have the size of stones in this unit.
+//! The unit of a drawing, and the check that blocks in this unit have the size of stones.
 
 use nalgebra::Point2;
 
@@ -13,11 +13,11 @@ use masonry_drawing::{Drawing, Unit};
 const SMALLEST: f64 = 3e-3;
 const LARGEST: f64 = 25.0;
 
-/// The unit of a drawing: that of the options, of the file, or the metre.
+/// Returns the unit of a drawing: that of the options, else that of the file, else the metre.
 ///
 /// # Errors
-/// The unit of the file is unknown, or the median block does not have the size of a stone in it; neither if the options
-/// give a unit.
+/// The unit of the file is unknown, or the median block does not have the size of a stone in it. There is no error if
+/// the options give a unit.
 pub(crate) fn unit(drawing: &Drawing, options: &ImportOptions) -> Result<Unit, ImportError> {
     if let (None, Some(number)) = (options.unit, drawing.unknown_unit) {
         return Err(ImportErrorKind::UnknownUnit { number }.at(&[]));
@@ -41,12 +41,12 @@ pub(crate) fn unit(drawing: &Drawing, options: &ImportOptions) -> Result<Unit, I
         format!("give {}, or --unit {unit} if that is right", others.join(" or "))
     };
     let compared = if metres_of(unit) > LARGEST { "larger" } else { "smaller" };
-    // The message compares by "larger than", so that rounding to three digits does not matter.
+    // The message states "larger than" or "smaller than", so that rounding to three digits does not matter.
     let size = metres(metres_of(unit));
     Err(ImportErrorKind::Size { compared, size, unit, from, remedy }.at(&[]))
 }
 
-/// The median size of outlines, or of lines if there are no outlines, in the unit of the drawing.
+/// Returns the median size of outlines, or of lines if there are no outlines, in the unit of the drawing.
 fn median_size(drawing: &Drawing) -> Option<f64> {
     let extent = |points: &[Point2<f64>]| {
         let first = points.first()?;
@@ -62,13 +62,13 @@ fn median_size(drawing: &Drawing) -> Option<f64> {
     median(sizes)
 }
 
-/// The median of some numbers.
+/// Returns the median of numbers; `None` if there are none.
 pub(crate) fn median(mut values: Vec<f64>) -> Option<f64> {
     values.sort_by(f64::total_cmp);
     values.get(values.len() / 2).copied()
 }
 
-/// The lengths of the edges of a polygon.
+/// Returns the lengths of the edges of a polygon.
 pub(crate) fn edges(corners: &[Point2<f64>]) -> impl Iterator<Item = f64> {
     (0..corners.len()).map(|k| {
         let [from, to] = geometry::edge(corners, k);

@@ -7,7 +7,7 @@ use super::{ImportError, ImportErrorKind};
 use masonry::geometry::{self, PolygonError};
 use masonry_drawing::{Change, Place};
 
-/// A block.
+/// A block of the drawing, in metres.
 #[derive(Debug, Clone)]
 pub(crate) struct Stone {
     pub(crate) name: Option<String>,
@@ -16,29 +16,29 @@ pub(crate) struct Stone {
     pub(crate) place: Place,
 }
 
-/// A piece of a line on a layer of supports or joints, or an edge of a fixed outline.
+/// A straight piece of a line on a layer of supports or joints, or an edge of an outline that is fixed.
 #[derive(Debug, Clone)]
 pub(crate) struct Piece {
     /// The name of the support, or the class of the joint.
     pub(crate) name: String,
     pub(crate) ends: [Point2<f64>; 2],
     pub(crate) place: Place,
-    /// Whether it is a support of a scene that names the drawing.
+    /// Whether the piece is a support of the scene that names the drawing.
     pub(crate) is_of_scene: bool,
 }
 
-/// The corners of all stones.
+/// Returns the corners of each stone.
 pub(crate) fn shapes(stones: &[Stone]) -> Vec<&[Point2<f64>]> {
     stones.iter().map(|stone| &stone.corners[..]).collect()
 }
 
-/// Pairs of stones whose boxes come nearer than `reach`.
+/// Finds the pairs of stones whose boxes are nearer to each other than `reach`.
 pub(crate) fn near_pairs(stones: &[Stone], reach: f64) -> Result<Vec<[usize; 2]>, ImportError> {
     let crowded = |k: usize| ImportErrorKind::Crowded.at(&[&stones[k].place]);
     near::pairs(&shapes(stones), reach).map_err(crowded)
 }
 
-/// Drops stones that are drawn again: the corners of each lie near corners of an earlier stone, and vice versa.
+/// Drops duplicate stones: each corner of the stone lies near a corner of an earlier stone, and vice versa.
 pub(crate) fn without_duplicates(
     stones: &mut Vec<Stone>,
     tolerance: f64,
@@ -67,7 +67,7 @@ fn covers(one: &[Point2<f64>], other: &[Point2<f64>], tolerance: f64) -> bool {
     other.iter().all(|corner| one.iter().any(|it| (it - corner).norm() <= tolerance))
 }
 
-/// Refuses blocks whose edges cross or touch; notes blocks that are not convex.
+/// Refuses blocks whose edges cross or touch each other, and notes blocks that are not convex.
 pub(crate) fn check_simple(stones: &[Stone], changes: &mut Vec<Change>) -> Result<(), ImportError> {
     for stone in stones {
         match geometry::check_simple(&stone.corners) {

@@ -1,4 +1,4 @@
-//! Supports that blocks touch.
+//! Supports that touch blocks.
 
 use nalgebra::Point2;
 
@@ -9,17 +9,17 @@ use masonry::geometry;
 use masonry::scene::Support;
 use masonry_drawing::Change;
 
-/// The class of the joints of supports.
+/// The joint class of all supports.
 pub(crate) const CLASS: &str = "support";
 
-/// Distances below this part of a block are rounding errors, as for the joints of a model.
+/// Distances below this part of the size of a block count as rounding errors, as for the joints of a model.
 const TOUCHING: f64 = 1e-9;
 
-/// Lengths below this part of the tolerance are rounding errors.
+/// Lengths below this part of the tolerance count as rounding errors.
 const EXACT: f64 = 1e-6;
 
-/// Cuts supports along parts that lie on others, within the tolerance, so that no block is held twice. Supports of a
-/// scene that names the drawing stay whole, and stay the last.
+/// Removes the parts of supports that lie on other supports within the tolerance, so that no block is held twice. The
+/// supports of a scene that names the drawing stay whole, and stay the last in the list.
 pub(crate) fn without_overlaps(sheet: &mut Sheet) {
     let (of_scene, drawn): (Vec<Piece>, Vec<Piece>) =
         std::mem::take(&mut sheet.supports).into_iter().partition(|piece| piece.is_of_scene);
@@ -40,7 +40,7 @@ pub(crate) fn without_overlaps(sheet: &mut Sheet) {
     sheet.supports = kept;
 }
 
-/// The parts of a segment that do not lie on another one.
+/// Returns the parts of a segment that do not lie on another segment.
 fn beside(
     ends: [Point2<f64>; 2],
     other: [Point2<f64>; 2],
@@ -74,7 +74,7 @@ fn beside(
     parts
 }
 
-/// Supports on which blocks rest, each with a unique name; the others are dropped.
+/// Returns the supports on which blocks rest, each with a unique name; drops the other supports.
 pub(crate) fn used(sheet: &mut Sheet, fitted: &Fitted) -> Vec<(Support, Piece)> {
     let mut used: Vec<(Support, Piece)> = Vec::new();
     let mut taken = std::collections::BTreeMap::new();
@@ -101,7 +101,7 @@ pub(crate) fn used(sheet: &mut Sheet, fitted: &Fitted) -> Vec<(Support, Piece)> 
     used
 }
 
-/// Whether a block lies on a support, or across a gap that stays open.
+/// Whether a block lies on a support directly, or across a gap of at most `gap` \[m\] that stays open.
 fn touches(sheet: &Sheet, piece: &Piece, gap: f64) -> bool {
     let [from, to] = piece.ends;
     sheet.stones.iter().any(|stone| {

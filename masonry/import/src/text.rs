@@ -1,4 +1,4 @@
-//! The scene as a commented file.
+//! The scene of an import as a commented file.
 
 use std::fmt::Write as _;
 
@@ -6,7 +6,7 @@ use super::Imported;
 use masonry::scene::{Block, Contact, Scene, SceneError, Support};
 
 impl Imported {
-    /// The scene as TOML text, with the report at the top and the place in the drawing beside each block.
+    /// Returns the scene as TOML text, with the report at the top, and beside each block its place in the drawing.
     ///
     /// # Errors
     /// The errors of [`Scene::to_toml`](masonry::Scene::to_toml).
@@ -30,7 +30,7 @@ impl Imported {
     }
 }
 
-/// The text of a scene without the tables that only repeat defaults.
+/// Returns the text of a scene without tables that only repeat default values.
 fn without_defaults(scene: &Scene) -> Result<String, SceneError> {
     let mut defaults = vec!["[solver]", "[output]"];
     defaults.extend((scene.contact == Contact::default()).then_some("[contact]"));

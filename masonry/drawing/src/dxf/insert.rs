@@ -1,4 +1,5 @@
-//! Entities in their places: those of the drawing, and those of blocks that are inserted, moved, turned and scaled.
+//! Entities at their places: those of the drawing itself, and those of blocks that are inserted, moved, turned and
+//! scaled.
 
 use std::collections::BTreeMap;
 
@@ -14,21 +15,21 @@ use crate::{Change, Drawing, DrawingError, DrawingErrorKind, DrawnLine, Outline,
 /// The deepest nesting of blocks. Chosen: drawings have three or four levels; a block that contains itself has no end.
 const DEEPEST: usize = 16;
 
-/// A drawing to which entities are added.
+/// A drawing to which entities are added, with the blocks that can be inserted and the layers that are hidden.
 pub(super) struct Expansion<'a> {
     pub(super) blocks: &'a BTreeMap<&'a str, Vec<Record<'a>>>,
     pub(super) hidden: &'a BTreeMap<String, Hidden>,
     pub(super) drawing: &'a mut Drawing,
 }
 
-/// The map of entities into the drawing, and the insertions around them.
+/// The map from coordinates of entities to the drawing, and the insertions around the entities.
 #[derive(Clone)]
 struct Frame<'a> {
     map: Matrix3<f64>,
-    /// The layer for entities on layer 0 of a block.
+    /// The layer that entities on layer 0 of a block get.
     layer: &'a str,
     depth: usize,
-    /// The text after the place of an entity.
+    /// Text that follows the place of an entity in messages: the blocks around it.
     inside: String,
 }
 
@@ -56,7 +57,7 @@ impl<'a> Expansion<'a> {
             let vertices = records[k + 1..].iter().take_while(is_vertex).count();
             let vertices = &records[k + 1..k + 1 + vertices];
             k += 1 + vertices.len();
-            // Entities of the paper space belong to a sheet, not to the model.
+            // Entities of the paper space belong to a printed sheet, not to the model.
             if record.flags(67) != 1 {
                 self.add_one(record, vertices, frame, entities)?;
             }
@@ -76,14 +77,14 @@ impl<'a> Expansion<'a> {
         let layer = frame.layer_of(record);
         let hidden = self.hidden.get(&layer.to_lowercase());
         let shape = match record.kind {
-            // Ends of lists and attributes of blocks have no shape.
+            // Ends of lists and attributes of blocks are not shapes.
             "SEQEND" | "ATTRIB" | "ATTDEF" | "VIEWPORT" => return Ok(()),
             _ if record.flags(60) == 1 => {
                 let what = "invisible entities were left out";
                 self.drawing.changes.push(Change::new(what, &frame.place(record)));
                 return Ok(());
             }
-            // The contents of an insertion on a layer that is off have layers of their own.
+            // The contents of a block that is inserted on a layer that is off have layers of their own.
             kind if hidden.is_some_and(|it| kind != "INSERT" || *it == Hidden::Frozen) => {
                 let how = hidden.map_or("off", |it| it.name());
                 let layer = shown(layer);
@@ -170,7 +171,8 @@ impl<'a> Frame<'a> {
     }
 }
 
-/// The map of an insertion for a block whose base is the origin; `cell` is the place in a grid of copies.
+/// Returns the map of an insertion of a block whose base point is the origin; `cell` is the offset of the copy in a
+/// grid of copies.
 fn placement(record: &Record, cell: Vector2<f64>) -> Result<Matrix3<f64>, DrawingError> {
     let scale = Vector2::new(record.number(41, 1.0)?, record.number(42, 1.0)?);
     let Point2 { coords: at, .. } = record.point(10)?;
@@ -182,7 +184,7 @@ fn placement(record: &Record, cell: Vector2<f64>) -> Result<Matrix3<f64>, Drawin
     Ok(if record.is_mirrored()? { mirror() * map } else { map })
 }
 
-/// The places of copies in rows and columns.
+/// Returns the offsets of copies in rows and columns.
 fn cells(record: &Record, place: &Place) -> Result<Vec<Vector2<f64>>, DrawingError> {
     let most = i64::try_from(MOST_SHAPES).unwrap_or(i64::MAX);
     let [columns, rows] = [70, 71].map(|code| record.flags(code).clamp(1, most));
@@ -195,7 +197,7 @@ fn cells(record: &Record, place: &Place) -> Result<Vec<Vector2<f64>>, DrawingErr
     Ok((0..rows).flat_map(|row| (0..columns).map(move |column| cell(row, column))).collect())
 }
 
-/// A mirror image: x changes its sign if entities are seen from behind.
+/// Returns a mirror image, in which x changes its sign: for entities that are seen from behind.
 fn mirror() -> Matrix3<f64> {
     Matrix3::new_nonuniform_scaling(&Vector2::new(-1.0, 1.0))
 }

@@ -5,13 +5,14 @@ use super::pairs::Record;
 /// The reason for which a layer is not shown.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Hidden {
-    /// Blocks that are inserted on the layer are not shown either.
+    /// The layer is frozen: blocks that are inserted on the layer are not shown either.
     Frozen,
     Off,
 }
 
 impl Hidden {
-    /// The reason in the entry of a layer in the tables: a flag, or a negative colour.
+    /// Returns the reason from the entry of a layer in the tables: a flag, or a negative colour. `None` if the layer is
+    /// shown.
     pub(super) fn of(layer: &Record) -> Option<Self> {
         const FROZEN: i64 = 1;
         let is_off = layer.flags(62) < 0;

@@ -11,11 +11,11 @@ use crate::{DrawingError, DrawingErrorKind, Place};
 pub(super) struct Pair<'a> {
     pub(super) code: i32,
     pub(super) value: &'a str,
-    /// The line of the value.
+    /// The line of the value in the file.
     pub(super) line: usize,
 }
 
-/// The pairs of an entity, a vertex, or the beginning of a section or block.
+/// The pairs of one entity or vertex, or of the beginning of a section or block.
 #[derive(Debug, Clone)]
 pub(super) struct Record<'a> {
     pub(super) kind: &'a str,
@@ -23,11 +23,11 @@ pub(super) struct Record<'a> {
     pub(super) pairs: Vec<Pair<'a>>,
 }
 
-/// The largest number of entities, vertices and entries of tables. Chosen: ten times the allowed shapes, in 100 MB of
-/// memory.
+/// The largest number of entities, vertices and entries of tables. Chosen: ten times the allowed shapes, which take 100
+/// MB of memory.
 const MOST_RECORDS: usize = 10 * MOST_SHAPES;
 
-/// All records of a file.
+/// Reads all records of a file.
 pub(super) fn records(text: &str) -> Result<Vec<Record<'_>>, DrawingError> {
     let mut records: Vec<Record> = Vec::new();
     let mut lines = (1..).zip(text.lines());
@@ -66,7 +66,7 @@ fn no_code(line: usize, text: &str, inside: Option<&Record>) -> DrawingError {
 }
 
 impl<'a> Record<'a> {
-    /// The entity with its handle.
+    /// Returns the entity with its handle, and its line.
     pub(super) fn place(&self) -> Place {
         let handle = self.text(5).map_or(String::new(), |handle| format!(" {}", shown(handle)));
         Place::new(format!("{}{handle}", shown(self.kind)), Some(self.line))
@@ -85,21 +85,21 @@ impl<'a> Record<'a> {
         pair.map_or(Ok(default), |pair| self.parsed(pair))
     }
 
-    /// Bits of flags; zero without them.
+    /// Returns the bits of the flags with this code; zero if there are none.
     pub(super) fn flags(&self, code: i32) -> i64 {
         self.text(code).and_then(|text| text.parse().ok()).unwrap_or(0)
     }
 
-    /// The point of the codes `code` and `code + 10`.
+    /// Returns the point whose coordinates have the codes `code` and `code + 10`.
     pub(super) fn point(&self, code: i32) -> Result<Point2<f64>, DrawingError> {
         Ok(Point2::new(self.number(code, 0.0)?, self.number(code + 10, 0.0)?))
     }
 
-    /// Whether the coordinates of the entity are those seen from behind.
+    /// Whether the coordinates of the entity are mirrored, since it is seen from behind.
     pub(super) fn is_mirrored(&self) -> Result<bool, DrawingError> {
         /// The flag of polylines in space.
         const IN_SPACE: i64 = 8;
-        // Lines and polylines in space have coordinates of the world, whatever their direction.
+        // Lines, and polylines in space, have world coordinates whatever their normal.
         let is_in_space = self.kind == "POLYLINE" && self.flags(70) & IN_SPACE != 0;
         let is_of_world = self.kind == "LINE" || is_in_space;
         Ok(!is_of_world && self.number(230, 1.0)? < 0.0)

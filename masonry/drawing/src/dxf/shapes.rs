@@ -6,15 +6,15 @@ use super::pairs::Record;
 use crate::DrawingError;
 use crate::curve::{Arc, Chords, bulged};
 
-/// Points in the order of an entity.
+/// The points of an entity, in their order.
 pub(super) struct Shape {
     pub(super) points: Vec<Point2<f64>>,
     pub(super) is_closed: bool,
-    /// The distance of chords from arcs.
+    /// The largest distance between an arc and its chords; zero without arcs.
     pub(super) off: f64,
 }
 
-/// A vertex, and the bulge of the side after it.
+/// A vertex, and the bulge of the side from it to the next vertex.
 type Vertex = (Point2<f64>, f64);
 
 pub(super) fn line(record: &Record) -> Result<Shape, DrawingError> {
@@ -41,7 +41,7 @@ pub(super) fn circle(record: &Record) -> Result<Shape, DrawingError> {
     Ok(Shape { points, is_closed: true, off })
 }
 
-/// A solid, whose third and fourth corners are exchanged.
+/// Returns the corners of a solid, whose third and fourth corners are exchanged in the file.
 pub(super) fn solid(record: &Record) -> Result<Shape, DrawingError> {
     let mut points = Vec::new();
     for code in [10, 11, 13, 12] {
@@ -65,9 +65,9 @@ pub(super) fn light_polyline(record: &Record) -> Result<Shape, DrawingError> {
     Ok(joined(&vertices, record.flags(70) & 1 != 0))
 }
 
-/// A polyline of the old kind, whose vertices are separate records.
+/// Returns the points of a polyline of the old kind, whose vertices are separate records.
 pub(super) fn polyline(record: &Record, vertices: &[Record]) -> Result<Shape, DrawingError> {
-    /// The flag of points in the frame of a spline, which do not lie on the spline.
+    /// The flag of control points of a spline, which do not lie on the spline.
     const FRAME: i64 = 16;
     let mut points: Vec<Vertex> = Vec::new();
     for vertex in vertices.iter().filter(|it| it.flags(70) & FRAME == 0) {

@@ -1,4 +1,4 @@
-//! Paths: their parts, with curves as chords.
+//! Paths: their parts as polylines, with chords in place of curves.
 
 use nalgebra::Point2;
 use svgtypes::{SimplePathSegment, SimplifyingPathParser};
@@ -7,11 +7,11 @@ use crate::curve::{Chords, cubic};
 use crate::shapes::MOST_CORNERS;
 use crate::{DrawingError, DrawingErrorKind, Place};
 
-/// Points of one part of a shape.
+/// The points of one part of a path.
 pub(super) struct Part {
     pub(super) points: Vec<Point2<f64>>,
     pub(super) is_closed: bool,
-    /// The distance of chords from curves.
+    /// The largest distance between a curve and its chords; zero without curves.
     pub(super) off: f64,
 }
 
