@@ -1,4 +1,4 @@
-//! `masonry completions`: scripts by which shells complete commands and options.
+//! `masonry completions`: scripts with which shells complete commands and options.
 
 use clap::Args;
 use clap_complete::Shell;
@@ -12,7 +12,7 @@ pub(super) struct CompletionsArgs {
     shell: Shell,
 }
 
-/// Prints the completion script for the command of this definition.
+/// Prints the completion script for the given command definition.
 pub(super) fn run(args: &CompletionsArgs, mut command: clap::Command) -> Result<u8, Failure> {
     let name = command.get_name().to_owned();
     let mut script = Vec::new();

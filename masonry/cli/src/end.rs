@@ -1,4 +1,4 @@
-//! The end of every command: its exit code, and its output.
+//! The end of every command: its output and its exit code.
 
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -23,7 +23,7 @@ pub(super) fn listing(files: &[PathBuf]) -> String {
     lines.join("\n") + "\n"
 }
 
-/// Refuses a file that would replace the scene, or its list of blocks.
+/// Refuses an output file that would replace the scene or its list of blocks.
 pub(super) fn keep_scene(scene: &Scene, file: &Path, option: &str) -> Result<(), Failure> {
     if scene.files().any(|of_scene| is_same(of_scene, file)) {
         let file = file.display();
@@ -35,7 +35,8 @@ pub(super) fn keep_scene(scene: &Scene, file: &Path, option: &str) -> Result<(),
 /// The words that mark a file as written by this program.
 pub(super) const MARK: &str = "written by masonry";
 
-/// Refuses a file that this program has not written, or whose mark a user has removed since.
+/// Refuses an output file that would replace a file which this program has not written, or from which a user has
+/// removed the mark since.
 pub(super) fn keep_foreign(file: &Path, option: &str) -> Result<(), Failure> {
     let is_own = |bytes: Vec<u8>| {
         bytes.is_empty() || bytes.windows(MARK.len()).any(|it| it == MARK.as_bytes())
@@ -52,7 +53,8 @@ pub(super) fn is_same(one: &Path, other: &Path) -> bool {
     one.canonicalize().is_ok_and(|one| other.canonicalize().is_ok_and(|other| one == other))
 }
 
-/// A message without characters that control a terminal: paths and names in a message may have them.
+/// Returns a message without characters that control a terminal; paths and names in a message may contain such
+/// characters.
 pub(super) fn without_controls(message: &str) -> String {
     let shown = |it: char| -> String {
         if it.is_control() && it != '\n' { it.escape_default().collect() } else { it.into() }
@@ -60,7 +62,7 @@ pub(super) fn without_controls(message: &str) -> String {
     message.chars().map(shown).collect()
 }
 
-/// Prints a text. A closed pipe does not count as a failure: the reader has closed it.
+/// Prints a text. A closed pipe does not count as an error, since the reader has closed it on purpose.
 pub(super) fn print(text: &str) -> Result<(), Failure> {
     match std::io::stdout().write_all(text.as_bytes()) {
         Err(error) if error.kind() == std::io::ErrorKind::BrokenPipe => Ok(()),

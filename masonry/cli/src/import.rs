@@ -1,4 +1,4 @@
-//! `masonry import`: a scene from a drawing.
+//! `masonry import`: makes a scene from a drawing.
 
 use std::path::{Path, PathBuf};
 
@@ -90,7 +90,7 @@ pub(super) fn run(args: &ImportArgs) -> Result<u8, Failure> {
             written.push(file.clone());
         }
     }
-    // The text of a printed scene has the report at its top, and nothing follows it.
+    // The text of a printed scene has the report at its top, so that the report is not printed again.
     let shown = if args.out.is_some() { imported.report() + &listing(&written) } else { text };
     print(&shown)?;
     Ok(SOLVED)

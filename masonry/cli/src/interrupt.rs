@@ -1,14 +1,14 @@
-//! Ctrl-C: the first one makes a run end with the results so far, the second one ends the program at once.
+//! Ctrl-C: the first one ends a run with the results so far, the second one ends the program at once.
 
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// The exit code for a program that Ctrl-C has ended, by the convention of shells.
+/// The exit code of a program that Ctrl-C has ended, by the convention of shells.
 const ENDED_BY_SIGNAL: i32 = 130;
 
 static ASKED: AtomicBool = AtomicBool::new(false);
 
-/// Makes Ctrl-C request the end of the run. Ctrl-C still ends the program on a system without such signals.
+/// Makes the first Ctrl-C request the end of the run. On a system without such signals, Ctrl-C still ends the program.
 pub(super) fn listen() {
     let _ = ctrlc::set_handler(|| {
         if ASKED.swap(true, Ordering::SeqCst) {
@@ -18,7 +18,7 @@ pub(super) fn listen() {
     });
 }
 
-/// `Continue` if the run should go on.
+/// Returns `Continue` until Ctrl-C requests the end of the run.
 pub(super) fn asked() -> ControlFlow<()> {
     if ASKED.load(Ordering::SeqCst) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
 }

@@ -1,4 +1,4 @@
-//! `masonry limit`.
+//! `masonry limit`: the load factor at which a structure fails.
 
 use std::ops::ControlFlow;
 use std::path::PathBuf;
@@ -101,7 +101,7 @@ pub(super) fn run(args: &LimitArgs) -> Result<u8, Failure> {
         Some(out) => output::write(limit, found.cases(), out.path()),
         None => Ok(Vec::new()),
     };
-    // The results are printed even if a file could not be written.
+    // The results are printed even if some file could not be written.
     let in_out = written.as_deref().unwrap_or_default();
     let mut files = in_out.to_vec();
     let page = || report::page::limit(limit, found.cases());
@@ -130,7 +130,7 @@ pub(super) fn run(args: &LimitArgs) -> Result<u8, Failure> {
     Ok(if found.is_solved() { SOLVED } else { NOT_SOLVED })
 }
 
-/// The limit load of a scene, in one direction or in both.
+/// Computes the limit load of a scene, in one direction or in both.
 fn search(scene: &Scene, args: &LimitArgs) -> Result<Search, Failure> {
     let progress = Progress::new();
     let mut given = limit_observed(scene, args.law.into(), &mut |at| follow(&progress, at))?;
@@ -144,7 +144,7 @@ fn search(scene: &Scene, args: &LimitArgs) -> Result<Search, Failure> {
         progress.clear();
         match opposite {
             Ok(opposite) => Found::Both(Box::new(Directions::of(given, opposite))),
-            // The bounds of the given direction are still reported.
+            // The bounds of the given direction are reported even if the other direction fails.
             Err(error) => {
                 failed = Some(format!("the opposite direction has no answer: {error}").into());
                 Found::Given(Box::new(given))
@@ -164,8 +164,8 @@ fn search(scene: &Scene, args: &LimitArgs) -> Result<Search, Failure> {
     Ok(Search { found, failed })
 }
 
-/// The limit loads of all combinations in which the group acts. Earthquakes act in both directions in any case, other
-/// loads with `--both`.
+/// Computes the limit loads of all combinations in which the group acts. Earthquakes act in both directions in any
+/// case, other loads only with `--both`.
 fn combined(scene: &Scene, args: &LimitArgs) -> Result<Search, Failure> {
     let group = growing(scene)?;
     let mut scenes = scene.combined();
@@ -203,7 +203,7 @@ fn combined(scene: &Scene, args: &LimitArgs) -> Result<Search, Failure> {
     }
 }
 
-/// The limit load of a train at the position that governs.
+/// Computes the limit load of a train at the governing position.
 fn crossing(scene: &Scene, args: &LimitArgs) -> Result<Search, Failure> {
     let progress = Progress::new();
     let crossing = train_observed(scene, args.law.into(), &mut |at| follow(&progress, at))?;
@@ -212,29 +212,29 @@ fn crossing(scene: &Scene, args: &LimitArgs) -> Result<Search, Failure> {
     Ok(Search { found: Found::Crossing(Box::new(crossing.limit), lines), failed: None })
 }
 
-/// The result of a search, and the error of a part that failed.
+/// The result of a search, and the error of a part of the search that failed.
 struct Search {
     found: Found,
     failed: Option<Failure>,
 }
 
-/// The result for a scene, a direction, all combinations, or a train.
+/// The limit load of a scene, of both directions, of all combinations, or of a train.
 enum Found {
     Given(Box<Limit>),
     Both(Box<Directions>),
     Combined(All),
-    /// A train at the position that governs.
+    /// The limit load at the governing position of a train, and the table of all positions.
     Crossing(Box<Limit>, Cases),
 }
 
-/// The limit loads of all combinations.
+/// The limit loads of all combinations, and their table.
 struct All {
     list: Vec<Combined<Limit>>,
     lines: Cases,
 }
 
 impl Found {
-    /// The limit that is shown in pictures.
+    /// Returns the limit load that is shown in pictures.
     fn limit(&self) -> &Limit {
         match self {
             Self::Given(limit) | Self::Crossing(limit, _) => limit,
@@ -267,7 +267,7 @@ impl Found {
     }
 }
 
-/// Shows the known bounds; ends the search after Ctrl-C.
+/// Shows the bounds that are known so far; ends the search after Ctrl-C.
 fn follow(progress: &Progress, at: Bracket) -> ControlFlow<()> {
     let known = [("stands at", at.stands), ("falls at", at.falls)];
     let known: Vec<String> = known

@@ -1,4 +1,4 @@
-//! `masonry live`: the page that solves a scene while it is changed.
+//! `masonry live`: the page that solves a scene while its text is changed.
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
@@ -31,7 +31,7 @@ pub(super) fn run(args: &LiveArgs) -> Result<u8, Failure> {
     server.run()
 }
 
-/// Opens an address in the browser of the user, if the system has one.
+/// Opens an address in the user's browser; `false` if the system has no browser.
 fn is_opened(address: &str) -> bool {
     let (program, before): (&str, &[&str]) = if cfg!(target_os = "windows") {
         ("rundll32", &["url.dll,FileProtocolHandler"])

@@ -148,7 +148,7 @@ fn draw(args: &DrawArgs) -> Result<u8, Failure> {
         files.push((out, format!("{picture}<!-- {MARK} -->\n")));
     }
     if let Some(out) = args.dxf.clone() {
-        // A comment of a drawing has the code 999.
+        // The code 999 begins a comment in DXF.
         files.push((out, format!("999\n{MARK}\n{}", dxf::drawing(&masonry::solve(&scene)?))));
     }
     for (out, text) in files {

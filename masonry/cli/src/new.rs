@@ -1,4 +1,4 @@
-//! `masonry new`: commented scenes to begin with.
+//! `masonry new`: commented scenes with which a user can begin.
 
 use std::io::Write;
 use std::path::PathBuf;
@@ -26,7 +26,7 @@ pub(super) fn run(args: &NewArgs) -> Result<u8, Failure> {
         print(text)?;
         return Ok(SOLVED);
     };
-    // A scene that somebody has worked on is not overwritten.
+    // An existing file is not overwritten, since a user may have worked on it.
     let file = std::fs::OpenOptions::new().write(true).create_new(true).open(out);
     file.and_then(|mut file| file.write_all(text.as_bytes()))
         .map_err(|error| format!("cannot write {}: {error}; choose another name", out.display()))?;
@@ -34,7 +34,7 @@ pub(super) fn run(args: &NewArgs) -> Result<u8, Failure> {
     Ok(SOLVED)
 }
 
-/// The kinds of scenes, with their meanings.
+/// Returns the kinds of scenes with their descriptions.
 fn kinds() -> PossibleValuesParser {
     PossibleValuesParser::new(BEGINNINGS.map(|it| PossibleValue::new(it.name).help(it.meaning)))
 }

@@ -1,5 +1,5 @@
-//! The directory that a run writes into: tried before the work, used by one run at a time, and cleared of the files of
-//! the last run of the same command.
+//! The output directory of a run: checked before the work begins, used by one run at a time, and cleared of the files
+//! of the last run of the same command.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs::{self, File, TryLockError};
@@ -9,30 +9,30 @@ use std::path::{Component, Path, PathBuf};
 use crate::end::{Failure, names};
 use masonry_report as report;
 
-/// The locked file, which lists the files that the last run of every command has written.
+/// The name of the locked file, which lists the files that the last run of every command has written.
 pub(super) const RECORD: &str = ".masonry.json";
 
-/// Names of files by the name of the command.
+/// Names of written files by the name of the command.
 type Record = BTreeMap<String, BTreeSet<String>>;
 
-/// A directory that no other run writes into.
+/// An output directory into which no other run writes at the same time.
 #[derive(Debug)]
 pub(super) struct OutDir {
     path: PathBuf,
     command: &'static str,
-    /// The locked file; the system unlocks it if a run is killed.
+    /// The locked file; the operating system unlocks it if the run is killed.
     file: File,
     record: Record,
-    /// The files that this run has written or continues from.
+    /// The names of files that this run has written, or from which it continues.
     claimed: BTreeSet<String>,
-    /// The directories and the record that this run has created, innermost first.
+    /// The directories and the record that this run has created, the innermost first.
     made: Vec<PathBuf>,
     is_used: bool,
 }
 
 impl OutDir {
-    /// Creates a directory if there is none, and locks it until the end of the run, which continues from the file
-    /// `from`, if any.
+    /// Creates the directory if it does not exist, and locks it until the end of the run. The run continues from the
+    /// file `from`, if one is given.
     pub(super) fn open(
         path: &Path,
         command: &'static str,
@@ -58,7 +58,7 @@ impl OutDir {
             .map_err(failed)?;
         match file.try_lock() {
             Ok(()) => {}
-            // Some network file systems have no locks.
+            // Some network file systems do not support locks.
             Err(TryLockError::Error(error)) if error.kind() == ErrorKind::Unsupported => {}
             Err(TryLockError::Error(error)) => return Err(failed(error).into()),
             Err(TryLockError::WouldBlock) => {
@@ -71,7 +71,7 @@ impl OutDir {
         }
         let mut text = String::new();
         file.read_to_string(&mut text).map_err(failed)?;
-        // A run that was killed while it wrote the record has left no record.
+        // A run that was killed while it wrote the record has left an incomplete record, which counts as empty.
         let record: Record = serde_json::from_str(&text).unwrap_or_default();
         let (path, claimed) = (path.to_owned(), BTreeSet::new());
         let opened = Self { path, command, file, record, claimed, made, is_used: false };
@@ -87,7 +87,7 @@ impl OutDir {
         .into())
     }
 
-    /// Existing files that no run has written, with the names of files that runs write.
+    /// Returns the existing files that have a name of an output file, but that no run has written.
     fn foreign(&self, from: Option<&str>) -> Vec<&'static str> {
         let is_own = |name: &str| {
             from == Some(name) || self.record.values().any(|names| names.contains(name))
@@ -100,7 +100,7 @@ impl OutDir {
         &self.path
     }
 
-    /// Records a file as written by this run, before it is written.
+    /// Records a file as written by this run, before the file is written.
     pub(super) fn claim(&mut self, name: &str) -> Result<(), Failure> {
         if !self.claimed.insert(name.to_owned()) {
             return Ok(());
@@ -110,8 +110,8 @@ impl OutDir {
         self.write(&record)
     }
 
-    /// Ends a run that has written these files: other files of the last run of the same command are removed, or stay if
-    /// `kept`. Lists them on standard error.
+    /// Ends a run that has written the files `written`, and lists them on standard error. Other files of the last run
+    /// of the same command are removed, or stay if `kept`.
     pub(super) fn finish(mut self, written: &[PathBuf], kept: bool) -> Result<(), Failure> {
         self.claimed.extend(names(written));
         let mut record = self.record.clone();
@@ -155,20 +155,20 @@ impl OutDir {
     }
 }
 
-/// Removes the created directories if a run ends before it has written anything.
+/// Removes the directories that the run has created if it ends before it has written anything.
 impl Drop for OutDir {
     fn drop(&mut self) {
         if self.is_used {
             return;
         }
         for path in &self.made {
-            // Other programs may have written into a directory by now.
+            // Other programs may have written into a directory in the meantime, so that errors are ignored.
             let _ = if path.is_dir() { fs::remove_dir(path) } else { fs::remove_file(path) };
         }
     }
 }
 
-/// Whether `name` is the name of a file in the directory itself.
+/// Whether `name` is the name of a file in the directory itself, without further directories.
 fn is_file_name(name: &str) -> bool {
     let mut parts = Path::new(name).components();
     matches!((parts.next(), parts.next()), (Some(Component::Normal(_)), None))

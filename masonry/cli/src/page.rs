@@ -1,4 +1,4 @@
-//! `--report`: the page of HTML.
+//! `--report`: the report as a page of HTML.
 
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
@@ -9,7 +9,8 @@ use masonry::files::write_atomically;
 use masonry::scene::Scene;
 use masonry_report as report;
 
-/// Checks before the work whether the page of a scene can be written, beside the files of a run into `out`.
+/// Checks before the work whether the page of a scene can be written to `path`, and does not replace a file that the
+/// run writes into `out`.
 pub(super) fn check(path: Option<&Path>, scene: &Scene, out: Option<&Path>) -> Result<(), Failure> {
     let Some(path) = path else { return Ok(()) };
     keep_scene(scene, path, "--report")?;
@@ -32,7 +33,7 @@ pub(super) fn check(path: Option<&Path>, scene: &Scene, out: Option<&Path>) -> R
     Err(format!("cannot write the page {}: {why}; choose another --report", path.display()).into())
 }
 
-/// Writes the page if `--report` is given, and adds it to the files that were written.
+/// Writes the page if `--report` is given, and adds its path to the written files.
 pub(super) fn write(
     path: Option<&Path>,
     page: impl FnOnce() -> String,

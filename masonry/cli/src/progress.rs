@@ -7,7 +7,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 use crate::interrupt;
 use masonry::analysis::solve::Event;
 
-/// A spinner with the present phase; hidden if standard error is not a terminal.
+/// A spinner that shows the current phase; hidden if standard error is not a terminal.
 pub(super) struct Progress(ProgressBar);
 
 impl Progress {

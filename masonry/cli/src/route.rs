@@ -1,14 +1,14 @@
-//! Routes as values of options.
+//! Routes as values of command-line options.
 
 use clap::ValueEnum;
 use clap::builder::PossibleValue;
 use masonry::scene::{Route, RouteSetting};
 
-/// The value of `--route`.
+/// The value of the option `--route`.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct RouteValue(pub(crate) RouteSetting);
 
-/// One of the values of `--routes`.
+/// One value in the list of the option `--routes`.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct OneRoute(pub(crate) Route);
 

@@ -1,4 +1,4 @@
-//! `masonry solve`.
+//! `masonry solve`: the equilibrium of a scene.
 
 use std::path::{Path, PathBuf};
 
@@ -21,7 +21,7 @@ use masonry_report::cases::Cases;
 use masonry_report::svg::ReferenceLines;
 use masonry_report::{self as report, ReportOptions, json, table};
 
-/// The state after the last step, in the directory of a load history.
+/// The name of the file with the state after the last solved step of a load history.
 const CHECKPOINT: &str = "checkpoint.json";
 
 #[derive(Debug, Args)]
@@ -69,7 +69,7 @@ pub(super) fn run(args: &SolveArgs) -> Result<u8, Failure> {
         Some(out) => report::write_all(&outcome, out.path(), &options),
         None => Ok(Vec::new()),
     };
-    // The results are printed even if a file could not be written.
+    // The results are printed even if some file could not be written.
     in_out.extend_from_slice(written.as_deref().unwrap_or_default());
     let mut files = in_out.clone();
     let (reference, lines) = (options.reference.as_ref(), lines.as_ref());
@@ -95,7 +95,7 @@ pub(super) fn run(args: &SolveArgs) -> Result<u8, Failure> {
     Ok(if outcome.judgement.verdict == Verdict::Stands { SOLVED } else { NOT_SOLVED })
 }
 
-/// Solves all combinations, until Ctrl-C; returns the result of the one that governs, and a line for each.
+/// Solves all combinations until Ctrl-C; returns the result of the governing combination, and the table of all.
 fn run_combinations(scene: &Scene, args: &SolveArgs) -> Result<(Ran, Option<Cases>), Failure> {
     if args.resume {
         return Err(CheckpointError::OneStep.into());
@@ -113,18 +113,18 @@ fn run_combinations(scene: &Scene, args: &SolveArgs) -> Result<(Ran, Option<Case
     let lines = Cases::of_outcomes(&list);
     let governs = lines.as_ref().map_or(0, Cases::governs);
     let outcome = list.swap_remove(governs).of;
-    // There is no step to continue from without stages, and no step has a picture.
+    // Scenes with combinations have no stages, so that there is no step to continue from, and no step has a picture.
     Ok((Ran { outcome, frames: Vec::new(), files: Vec::new(), end: Ok(()) }, lines))
 }
 
-/// The result of all steps.
+/// The result of a solve after all steps.
 struct Ran {
     outcome: Outcome,
     /// The steps that have pictures on the page of `--report`.
     frames: Vec<Frame>,
-    /// The checkpoint, if one was written.
+    /// The path of the checkpoint, if one was written.
     files: Vec<PathBuf>,
-    /// The error after a step that was solved.
+    /// The error that occurred after a step was solved, such as that of writing the checkpoint.
     end: Result<(), Failure>,
 }
 
@@ -177,7 +177,7 @@ fn run_steps(
     Ok(Ran { outcome: run.finish(), frames, files, end })
 }
 
-/// Prints the command that continues an interrupted run from its last step on standard error.
+/// Prints on standard error the command that continues an interrupted run from its last step.
 fn say_how_to_go_on(args: &SolveArgs, outcome: &Outcome) {
     let Some(history) = &outcome.history else { return };
     let (solved, steps) = (history.records.len(), history.steps);
@@ -205,7 +205,7 @@ fn say_how_to_go_on(args: &SolveArgs, outcome: &Outcome) {
     }
 }
 
-/// A path, quoted for shells.
+/// Returns a path, quoted for shells.
 fn quoted(path: &Path) -> String {
     let text = path.display().to_string();
     let is_plain = |c: char| c.is_alphanumeric() || "/._-+:,@".contains(c);

@@ -1,4 +1,4 @@
-//! `masonry study`.
+//! `masonry study`: error and cost of routes, tolerances and meshes.
 
 use std::path::PathBuf;
 use std::time::Duration;
@@ -46,7 +46,7 @@ pub(super) fn run(args: &StudyArgs) -> Result<u8, Failure> {
     let progress = Progress::new();
     let mut shown = None;
     let study = study(&scene, &settings, &mut |at| {
-        // Other texts would disturb the measurement of times.
+        // Progress is shown only once for each solve, since more output would disturb the measurement of times.
         if shown != Some(at) {
             progress.say(format!("mesh {}, {} to {:e}", at.mesh, at.route.name(), at.tolerance));
             shown = Some(at);
@@ -59,7 +59,7 @@ pub(super) fn run(args: &StudyArgs) -> Result<u8, Failure> {
         Some(out) => output::write(&study, out.path()),
         None => Ok(Vec::new()),
     };
-    // The results are printed even if a file could not be written.
+    // The results are printed even if some file could not be written.
     let files = written.as_deref().unwrap_or_default();
     if args.json {
         let names = names(files);

@@ -1,4 +1,4 @@
-//! Answers for Python.
+//! Answers of solvers for Python.
 
 use lcp::{Certificate, Info, Residuals, Solution};
 use numpy::PyArray1;
@@ -6,13 +6,13 @@ use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 use serde_json::json;
 
-/// The answer of a solver: arrays, and the rest as JSON on request.
+/// The answer of a solver: arrays, and the other results as JSON on request.
 #[pyclass(frozen)]
 pub(crate) struct Answer {
-    /// The name of the status.
+    /// The name of the status, such as `Solved`.
     #[pyo3(get)]
     status: String,
-    /// The arrays of the point, in the order of their names in the Python half.
+    /// The arrays of the solution, in the order in which the Python half names them.
     #[pyo3(get)]
     arrays: Vec<Py<PyArray1<f64>>>,
     residuals: Residuals,
@@ -22,7 +22,7 @@ pub(crate) struct Answer {
 }
 
 impl Answer {
-    /// The answer with the variables of its pairs.
+    /// Creates the answer whose arrays are the complementary variables `t` and `y` of the solution.
     pub(crate) fn of_pairs<P>(py: Python<'_>, mut solution: Solution<P>) -> Self {
         let pairs = [&mut solution.t, &mut solution.y].map(std::mem::take);
         Self::new(py, solution, pairs.into())
@@ -37,7 +37,7 @@ impl Answer {
 
 #[pymethods]
 impl Answer {
-    /// Residuals, certificate, cost and condition as JSON.
+    /// Returns residuals, certificate, cost and condition number as JSON.
     fn details(&self) -> PyResult<String> {
         let Self { residuals, certificate, info, condition, .. } = self;
         let details = json!({

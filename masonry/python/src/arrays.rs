@@ -1,4 +1,4 @@
-//! Matrices and vectors of numpy and scipy.
+//! Conversion of matrices and vectors of numpy and scipy.
 
 use faer::sparse::{SparseColMat, SymbolicSparseColMat};
 use faer::{Mat, MatRef};
@@ -7,7 +7,7 @@ use numpy::{PyReadonlyArray1, PyReadonlyArray2, PyUntypedArrayMethods};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
-/// Indices of a sparse matrix, in the widths that scipy has.
+/// Indices of a sparse matrix, in the two widths that scipy uses.
 #[derive(FromPyObject)]
 pub(crate) enum Indices<'py> {
     Short(PyReadonlyArray1<'py, i32>),
@@ -29,7 +29,7 @@ impl Indices<'_> {
         }
     }
 
-    /// The indices, each of which has to be at most `largest`.
+    /// Returns the indices; an error if one of them is negative or larger than `largest`.
     fn checked(&self, what: &str, largest: usize) -> PyResult<Vec<usize>> {
         let mut all = Vec::with_capacity(self.len());
         for value in self.iter() {
@@ -39,7 +39,7 @@ impl Indices<'_> {
     }
 }
 
-/// An index that is at most `largest`.
+/// Returns an index; an error if it is negative or larger than `largest`.
 fn checked(what: &str, value: i64, largest: usize) -> PyResult<usize> {
     let index = usize::try_from(value).ok().filter(|index| *index <= largest);
     index.ok_or_else(|| {
@@ -49,14 +49,14 @@ fn checked(what: &str, value: i64, largest: usize) -> PyResult<usize> {
     })
 }
 
-/// A matrix from Python.
+/// A matrix that Python passes.
 #[derive(FromPyObject)]
 pub(crate) enum GivenMatrix<'py> {
     Dense(PyReadonlyArray2<'py, f64>),
     Sparse(Compressed<'py>),
 }
 
-/// Compressed rows or columns.
+/// A sparse matrix of scipy in compressed rows or columns.
 #[derive(FromPyObject)]
 pub(crate) struct Compressed<'py> {
     #[pyo3(item)]
@@ -72,7 +72,7 @@ pub(crate) struct Compressed<'py> {
 }
 
 impl GivenMatrix<'_> {
-    /// The matrix, copied once.
+    /// Returns a copy of the matrix.
     pub(crate) fn matrix(&self) -> PyResult<Matrix> {
         match self {
             Self::Dense(array) => Ok(dense(array).into()),
@@ -109,7 +109,7 @@ impl Compressed<'_> {
         Ok(SparseColMat::new(pattern, values).into())
     }
 
-    /// The compressed columns of compressed rows: starts, rows and values.
+    /// Converts compressed rows into compressed columns; returns starts of columns, row indices and values.
     fn turned(
         &self,
         starts: &[usize],
@@ -157,7 +157,8 @@ fn dense(array: &PyReadonlyArray2<'_, f64>) -> Mat<f64> {
     }
 }
 
-/// The matrix of a row-major slice, copied band by band of rows, each entry written once.
+/// Returns the matrix of a row-major slice. Bands of rows are copied one after the other, and each entry is written
+/// once.
 fn from_rows(values: &[f64], rows: usize, columns: usize) -> Mat<f64> {
     let mut matrix = Mat::with_capacity(rows, columns);
     for first in (0..rows).step_by(BAND) {
@@ -166,13 +167,13 @@ fn from_rows(values: &[f64], rows: usize, columns: usize) -> Mat<f64> {
     matrix
 }
 
-/// The number of rows of a band. Theory: sixteen rows at a time use whole lines of the cache on both sides.
+/// The number of rows of a band. Theory: sixteen rows at a time use whole cache lines for reading and for writing.
 const BAND: usize = 16;
 
-/// A vector as Python gives it.
+/// A vector that Python passes.
 pub(crate) type GivenVector<'py> = PyReadonlyArray1<'py, f64>;
 
-/// A vector of numpy, copied.
+/// Returns a copy of a vector of numpy.
 pub(crate) fn vector(array: &GivenVector<'_>) -> Vec<f64> {
     array.as_array().to_vec()
 }

@@ -1,4 +1,4 @@
-//! Bodies in contact, whose states are kept from one solve to the next.
+//! Bodies in contact; the contact states are kept from one solve to the next.
 #![expect(clippy::needless_pass_by_value, reason = "functions own what they take from Python")]
 
 use std::sync::{Mutex, MutexGuard, PoisonError};
@@ -13,7 +13,7 @@ use crate::arrays::{GivenMatrix, GivenVector, vector};
 use crate::options::{Options, by_method};
 use crate::watch::{refused, solve};
 
-/// The data of all contact points.
+/// The data of all contact points that Python passes.
 #[derive(FromPyObject)]
 pub(crate) struct Points<'py> {
     #[pyo3(item)]
@@ -31,7 +31,7 @@ pub(crate) struct Points<'py> {
 }
 
 impl Points<'_> {
-    /// The problem of bodies with these points.
+    /// Creates the contact problem of bodies with stiffness `k`, loads `f`, and these contact points.
     fn of(&self, k: Matrix, f: Vec<f64>) -> PyResult<Contact2d> {
         let Self { c_n, c_t, gap, slip, mu, compliance } = self;
         let compliance = compliance.as_array().outer_iter().map(|row| [row[0], row[1]]).collect();
@@ -42,7 +42,7 @@ impl Points<'_> {
     }
 }
 
-/// A contact problem, and the states of its points in the last solution.
+/// A contact problem, and the contact states of its points in the last solution.
 #[pyclass(frozen)]
 pub(crate) struct Contact {
     held: Mutex<Held>,
@@ -50,12 +50,13 @@ pub(crate) struct Contact {
 
 struct Held {
     problem: Contact2d,
-    /// Statuses of the first points; points that were added since are open.
+    /// Contact statuses in the last solution; `None` before the first. Points that were added since have no status, and
+    /// count as open.
     statuses: Option<Vec<ContactStatus>>,
 }
 
 impl Held {
-    /// The problem under other loads, and a start from the known states.
+    /// Returns the problem with the loads `f`, and a start from the known statuses.
     fn under(&self, f: Vec<f64>) -> Result<(Contact2d, WarmStart), Error> {
         let problem = self.problem.with_loads(f)?;
         let start = self.statuses.as_ref().map_or(WarmStart::None, |known| {
@@ -68,7 +69,7 @@ impl Held {
 }
 
 impl Contact {
-    /// The problem and its states, locked. No solve runs under the lock, so that other threads do not wait for long.
+    /// Locks the problem and its statuses. No solve runs under the lock, so that other threads do not wait for long.
     fn held(&self) -> MutexGuard<'_, Held> {
         self.held.lock().unwrap_or_else(PoisonError::into_inner)
     }
@@ -82,7 +83,7 @@ impl Contact {
         Ok(Self { held: Mutex::new(Held { problem, statuses: None }) })
     }
 
-    /// Takes other points, which begin with those of before.
+    /// Replaces the contact points; the new points begin with the previous ones, in the same order.
     fn renew(&self, points: Points<'_>) -> PyResult<()> {
         let mut held = self.held();
         let Held { problem, .. } = &*held;
@@ -90,12 +91,12 @@ impl Contact {
         Ok(())
     }
 
-    /// Forgets the states.
+    /// Forgets the statuses of the last solution, so that the next solve starts without them.
     fn forget(&self) {
         self.held().statuses = None;
     }
 
-    /// Solves under these loads. The arrays are `u`, `t_n`, `t_t`, and the gaps and slips.
+    /// Solves the problem with the loads `f`. The arrays are `u`, `t_n`, `t_t`, and the gaps and slips.
     fn solve(&self, py: Python<'_>, f: GivenVector<'_>, options: Options) -> PyResult<Answer> {
         let posed = self.held().under(vector(&f));
         let (problem, start) = posed.map_err(|error| refused(&error))?;

@@ -1,4 +1,4 @@
-//! Scenes from drawings.
+//! Scenes made from drawings.
 
 use masonry_drawing::{Drawing, DrawingFormat, Unit};
 use masonry_import::{ImportOptions, Joints, import};
@@ -9,7 +9,7 @@ use crate::failure::{SceneError, wrong};
 use crate::scene::PyScene;
 use crate::watch::detached;
 
-/// Options of the import of a drawing; `None` is the default.
+/// Options of the import of a drawing; `None` stands for the default.
 #[derive(FromPyObject)]
 pub(crate) struct GivenImport {
     #[pyo3(item)]
@@ -65,7 +65,7 @@ fn unknown(option: &str, given: &str, known: &[&str]) -> PyErr {
     PyValueError::new_err(format!("{option} is {given:?}, but must be one of: {known}"))
 }
 
-/// A scene from a drawing.
+/// A scene made from a drawing.
 #[pyclass(frozen)]
 pub(crate) struct Imported {
     imported: masonry_import::Imported,
@@ -77,23 +77,23 @@ impl Imported {
         PyScene { scene: self.imported.scene.clone() }
     }
 
-    /// The changes, the parts left out, and the assumptions.
+    /// Returns the report: the changes, the parts left out, and the assumptions.
     fn report(&self) -> String {
         self.imported.report()
     }
 
-    /// The scene file, with the report and the places in the drawing as comments.
+    /// Returns the text of the scene file, with the report and the places in the drawing as comments.
     fn to_toml(&self) -> PyResult<String> {
         self.imported.to_toml().map_err(wrong)
     }
 
-    /// The drawing under the blocks, as SVG.
+    /// Returns the picture of the drawing under the blocks, as SVG.
     fn picture(&self) -> String {
         self.imported.picture()
     }
 }
 
-/// Makes a scene of the bytes of a drawing, in the format of a file with this name.
+/// Makes a scene from the bytes of a drawing, in the format of a file with the name `name`.
 #[pyfunction]
 pub(crate) fn import_drawing(
     py: Python<'_>,

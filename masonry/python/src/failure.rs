@@ -11,12 +11,12 @@ create_exception!(
     "A scene that is wrong, with the place and the remedy."
 );
 
-/// A mistake of the scene.
+/// Returns the exception for a mistake in the scene.
 pub(crate) fn wrong(error: impl std::fmt::Display) -> PyErr {
     SceneError::new_err(error.to_string())
 }
 
-/// A fault of the writer of results, which no data can cause.
+/// Returns the exception for an error in writing results, which no data can cause.
 pub(crate) fn failed(error: impl std::fmt::Display) -> PyErr {
     PyRuntimeError::new_err(error.to_string())
 }

@@ -1,4 +1,4 @@
-//! The forms of problems, each with the methods that treat it.
+//! Solves the forms of problems, each by the methods that treat the form.
 #![expect(clippy::needless_pass_by_value, reason = "functions own what they take from Python")]
 
 use lcp::{BoxedLcp, HorizontalLcp, Lcp, Method, MixedLcp, Qp, Solution, WarmStart};
@@ -9,7 +9,7 @@ use crate::arrays::{GivenMatrix, GivenVector, vector};
 use crate::options::{Options, by_method};
 use crate::watch::{refused, solve};
 
-/// Solves `w = M z + q`.
+/// Solves the linear complementarity problem `w = M z + q`, `w, z >= 0`, `w.z = 0`.
 #[pyfunction]
 pub(crate) fn solve_standard(
     py: Python<'_>,
@@ -25,7 +25,7 @@ pub(crate) fn solve_standard(
     Ok(Answer::of_pairs(py, solution))
 }
 
-/// Solves `A t + B y = c`.
+/// Solves the horizontal linear complementarity problem `A t + B y = c`, `t, y >= 0`, `t.y = 0`.
 #[pyfunction]
 pub(crate) fn solve_horizontal(
     py: Python<'_>,
@@ -43,7 +43,8 @@ pub(crate) fn solve_horizontal(
     Ok(Answer::of_pairs(py, solution))
 }
 
-/// Solves `w = M z + q` with free variables.
+/// Solves the mixed linear complementarity problem `w = M z + q`, in which `z` is free and `w` zero at the places where
+/// `free` is true; all other pairs satisfy `w, z >= 0`, `w z = 0`.
 #[pyfunction]
 pub(crate) fn solve_mixed(
     py: Python<'_>,
@@ -65,7 +66,8 @@ fn mixed(py: Python<'_>, problem: &MixedLcp, options: &Options) -> PyResult<Solu
     )
 }
 
-/// Solves `w = M z + q` between bounds.
+/// Solves the boxed linear complementarity problem `w = M z + q`, `lower <= z <= upper`, in which `w` may be positive
+/// only at the lower bound and negative only at the upper one.
 #[pyfunction]
 pub(crate) fn solve_boxed(
     py: Python<'_>,
@@ -85,8 +87,8 @@ pub(crate) fn solve_boxed(
     Ok(Answer::new(py, solution, vec![z, w]))
 }
 
-/// Minimises `x.P x / 2 + q.x` with `l <= A x <= u` and bounds of `x`. The arrays are `x`, the multipliers of rows and
-/// bounds, and the objective.
+/// Solves the quadratic program: minimises `x.P x / 2 + q.x` subject to `l <= A x <= u` and bounds of `x`. The arrays
+/// are `x`, the multipliers of rows and of bounds, and the objective.
 #[pyfunction]
 #[expect(clippy::too_many_arguments, reason = "the data of a program")]
 pub(crate) fn solve_program(

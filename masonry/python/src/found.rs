@@ -1,4 +1,4 @@
-//! Results of analyses: plans, limits, ranges, thicknesses, studies.
+//! Results of analyses for Python: plans, limit loads, ranges of reactions, least thicknesses, studies.
 
 use masonry::analysis::limit::{CrossingTrain, Directions};
 use masonry::analysis::study::Study;
@@ -9,7 +9,7 @@ use pyo3::prelude::*;
 
 use crate::failure::failed;
 
-/// The result of an analysis, as text, JSON and a page.
+/// The result of an analysis as text, as JSON and, if it has one, as a page.
 #[pyclass(frozen, get_all)]
 pub(crate) struct Found {
     text: String,
@@ -70,12 +70,12 @@ impl Studied {
         report::study::json(&self.study, &[]).map_err(failed)
     }
 
-    /// The records as CSV.
+    /// Returns the records of the study as CSV.
     fn records(&self) -> String {
         report::study::csv(&self.study)
     }
 
-    /// The residuals over the times as SVG; `None` if nothing was solved.
+    /// Draws the algebraic errors of the study against the times as SVG; `None` if no error is known.
     fn picture(&self) -> Option<String> {
         report::study::accuracy(&self.study)
     }

@@ -1,5 +1,5 @@
-//! The native half of the Python packages `lcp` and `masonry`: problems from arrays and scenes from keys, solves
-//! without the interpreter's lock, and answers as arrays. The interface for users is in `python/lcp` and
+//! The native half of the Python packages `lcp` and `masonry`. It takes problems as arrays and scenes as keys, solves
+//! them without the interpreter's lock, and returns answers as arrays. The interface for users is in `python/lcp` and
 //! `python/masonry`.
 
 mod answer;

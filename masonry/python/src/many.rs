@@ -1,4 +1,4 @@
-//! Many problems: on all cores, and one `q` after the other.
+//! Many problems: all at once on all cores, or one `q` after the other.
 #![expect(clippy::needless_pass_by_value, reason = "functions own what they take from Python")]
 
 use std::num::NonZero;
@@ -17,7 +17,7 @@ use crate::arrays::{GivenMatrix, GivenVector, vector};
 use crate::options::Options;
 use crate::watch::{PATIENCE, Watch, detached, refused};
 
-/// Many standard problems on all cores, in their order.
+/// Solves many standard problems on all cores; the answers are in the order of the problems.
 #[pyfunction]
 pub(crate) fn solve_many(
     py: Python<'_>,
@@ -36,8 +36,8 @@ pub(crate) fn solve_many(
     Ok(answers.into_iter().map(|answer| Answer::of_pairs(py, answer)).collect())
 }
 
-/// The solutions of all problems. Workers take one problem after the other, while this thread, which receives the
-/// signals of the process, checks for signals.
+/// Solves all problems. Worker threads take one problem after the other, while this thread, which receives the signals
+/// of the process, checks for signals.
 fn solved(solver: &Auto, problems: &[Lcp]) -> PyResult<Vec<Solution<Lcp>>> {
     let cores = thread::available_parallelism().map_or(1, NonZero::get);
     let (next, is_over) = (AtomicUsize::new(0), AtomicBool::new(false));
@@ -57,7 +57,7 @@ fn solved(solver: &Auto, problems: &[Lcp]) -> PyResult<Vec<Solution<Lcp>>> {
                     let number = next.fetch_add(1, Ordering::Relaxed);
                     let Some(problem) = problems.get(number) else { break };
                     let answer = solver.solve_observed(problem, &mut { observer });
-                    // The receiver is gone after an exception.
+                    // Sending fails if the receiver is gone after an exception.
                     let _ = sender.send((number, answer));
                 }
             };
@@ -86,7 +86,7 @@ fn solved(solver: &Auto, problems: &[Lcp]) -> PyResult<Vec<Solution<Lcp>>> {
 /// A standard problem that is solved for one `q` after the other.
 #[pyclass(frozen)]
 pub(crate) struct Sequence {
-    /// The sequence, locked: one thread solves at a time.
+    /// The sequence behind a lock, so that one thread solves at a time.
     sequence: Mutex<lcp::Sequence<usize>>,
 }
 

@@ -1,4 +1,4 @@
-//! Options of a caller, equal for all problems.
+//! Options of a solve, equal for all forms of problems.
 
 use std::time::Duration;
 
@@ -10,7 +10,7 @@ use lcp::{
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
-/// The options of a solve; `None` is the default of the method.
+/// The options of a solve; `None` stands for the default of the method.
 #[derive(FromPyObject)]
 pub(crate) struct Options {
     #[pyo3(item)]
@@ -25,7 +25,8 @@ pub(crate) struct Options {
     pub(crate) callback: Option<Py<PyAny>>,
 }
 
-/// Solves by the method of the options, which is one of the methods for the problem or one of those for all problems.
+/// Solves a problem by the method in the options: one of the listed methods of the problem, or one of the methods for
+/// all problems.
 macro_rules! by_method {
     ($py:expr, $options:expr, $start:expr, $problem:expr, $($method:ident => $solver:ident),*) => {{
         let callback = $options.callback.as_ref();
@@ -40,7 +41,7 @@ macro_rules! by_method {
 }
 pub(crate) use by_method;
 
-/// The error for a method that does not treat the form of a problem, with the methods that do.
+/// Returns the error for a method that does not treat the form of a problem; its message names the methods that do.
 pub(crate) fn untreated(method: Method, others: &[Method]) -> PyErr {
     let all = [Method::Auto, Method::Lemke, Method::Enumeration];
     let names: Vec<&str> = all.iter().chain(others).map(|method| method.name()).collect();
@@ -50,7 +51,7 @@ pub(crate) fn untreated(method: Method, others: &[Method]) -> PyErr {
     ))
 }
 
-/// The settings of a method that iterates, from its defaults and the options.
+/// Defines functions that create iterative methods, with settings from the options and the defaults of the method.
 macro_rules! iterative {
     ($name:ident, $method:ident, $settings:ident) => {
         pub(crate) fn $name(&self, start: WarmStart) -> PyResult<$method> {
@@ -102,7 +103,7 @@ impl Options {
     iterative!(program, QuadraticProgram, QuadraticProgramSettings);
     iterative!(sweeps, ProjectedGaussSeidel, ProjectedGaussSeidelSettings);
 
-    /// Refuses a number of iterations for a method without iterations.
+    /// Returns an error if the options limit the number of iterations, for a method without iterations.
     fn without_iterations(&self) -> PyResult<()> {
         match self.max_iterations {
             None => Ok(()),

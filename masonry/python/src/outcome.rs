@@ -1,4 +1,4 @@
-//! The result of a scene that was solved.
+//! The result of a solved scene for Python.
 #![expect(clippy::needless_pass_by_value, reason = "functions own what they take from Python")]
 
 use std::path::PathBuf;
@@ -10,7 +10,7 @@ use pyo3::prelude::*;
 
 use crate::failure::failed;
 
-/// The result of a scene.
+/// The result of a solved scene.
 #[pyclass(frozen)]
 pub(crate) struct Outcome {
     pub(crate) outcome: masonry::Outcome,
@@ -45,17 +45,18 @@ impl Outcome {
         page::solved(&self.outcome, &[], None, None)
     }
 
-    /// The contact points as CSV; `None` without a state.
+    /// Returns the contact points as CSV; `None` without a state.
     fn contacts(&self) -> Option<String> {
         self.outcome.state.as_ref().map(|state| csv::contacts(&self.outcome.model, state))
     }
 
-    /// The steps of the load history as CSV; `None` without a load history.
+    /// Returns the steps of the load history as CSV; `None` without a load history.
     fn history(&self) -> Option<String> {
         self.outcome.history.as_ref().map(|history| csv::history(&self.outcome.model, history))
     }
 
-    /// Block, place and displacement of every node, or corner of a rigid block.
+    /// Returns a row for every node, or corner of a rigid block: index of the block, x, y, and displacements in x and
+    /// y. `None` without a state.
     fn nodes(&self, py: Python<'_>) -> PyResult<Option<Py<PyArray2<f64>>>> {
         let masonry::Outcome { model, state, .. } = &self.outcome;
         let Some(state) = state else { return Ok(None) };
@@ -72,7 +73,8 @@ impl Outcome {
         Ok(Some(PyArray2::from_vec2(py, &rows)?.unbind()))
     }
 
-    /// Block, element, centre, stresses (normal, normal, shear), principal stresses and direction of every element.
+    /// Returns a row for every element: indices of block and element, x and y of the centre, two normal stresses and
+    /// the shear stress, two principal stresses, and their direction \[rad\]. `None` without stresses.
     fn stresses(&self, py: Python<'_>) -> PyResult<Option<Py<PyArray2<f64>>>> {
         let masonry::Outcome { model, state, .. } = &self.outcome;
         let Some(state) = state.as_ref().filter(|state| !state.stresses.is_empty()) else {
@@ -100,7 +102,7 @@ impl Outcome {
         Ok(Some(PyArray2::from_vec2(py, &rows)?.unbind()))
     }
 
-    /// Blocks as polygons, or elements as quadrilaterals, which share no points with other blocks.
+    /// Returns rigid blocks as polygons and elements as quadrilaterals; blocks share no points.
     fn mesh(&self, py: Python<'_>) -> PyResult<Mesh> {
         let masonry::Outcome { model, state, .. } = &self.outcome;
         let (unit, stress_unit) = (model.units.length_to_si(), model.units.stress_to_si());
@@ -143,7 +145,7 @@ impl Outcome {
         })
     }
 
-    /// Names and corners of all blocks.
+    /// Returns names and corners of all blocks.
     fn blocks(&self) -> Vec<(String, Vec<[f64; 2]>)> {
         let unit = self.outcome.model.units.length_to_si();
         let blocks = self.outcome.model.blocks.iter();
@@ -153,7 +155,7 @@ impl Outcome {
         blocks.map(|block| (block.name.clone(), corners(&block.corners))).collect()
     }
 
-    /// A picture as SVG; `None` if there is nothing to show.
+    /// Draws a picture as SVG; `None` if there is nothing to show.
     fn picture(&self, name: &str) -> PyResult<Option<String>> {
         let masonry::Outcome { model, state, history, mechanism, title, .. } = &self.outcome;
         let state = state.as_ref();
@@ -176,7 +178,7 @@ impl Outcome {
         })
     }
 
-    /// Writes all files into a directory, and returns their paths.
+    /// Writes all files of the result into a directory, and returns their paths.
     fn save(&self, directory: PathBuf) -> PyResult<Vec<PathBuf>> {
         masonry_report::write_all(
             &self.outcome,
@@ -187,7 +189,7 @@ impl Outcome {
     }
 }
 
-/// Points and cells of all blocks.
+/// Points and cells of all blocks, as rows from which arrays are made.
 #[derive(Default)]
 struct MeshRows {
     points: Vec<Vec<f64>>,
@@ -195,20 +197,20 @@ struct MeshRows {
     nodes: Vec<usize>,
     ends: Vec<usize>,
     blocks: Vec<usize>,
-    /// The first cell of every block.
+    /// The index of the first cell of every block.
     first_cells: Vec<usize>,
 }
 
-/// Points with their displacements, and cells with their blocks and stresses.
+/// The mesh of all blocks: points with their displacements, and cells with their blocks and stresses.
 #[pyclass(frozen, get_all)]
 pub(crate) struct Mesh {
     points: Py<PyArray2<f64>>,
     displacements: Py<PyArray2<f64>>,
-    /// The points of all cells, one after the other.
+    /// Indices of the points of all cells, one cell after the other.
     nodes: Py<PyArray1<usize>>,
     /// The end of each cell in `nodes`.
     ends: Py<PyArray1<usize>>,
     blocks: Py<PyArray1<usize>>,
-    /// Two normal stresses, the shear stress and two principal stresses of each cell.
+    /// A row for each cell: two normal stresses, the shear stress and two principal stresses; NaN in a rigid block.
     stresses: Py<PyArray2<f64>>,
 }

@@ -1,4 +1,4 @@
-//! Scenes of walls and arches, and their analyses.
+//! Scenes of walls and arches, and their analyses, for Python.
 #![expect(clippy::needless_pass_by_value, reason = "functions own what they take from Python")]
 
 use std::ops::ControlFlow;
@@ -38,7 +38,7 @@ impl PyScene {
         Ok(Self { scene: masonry_import::read_scene(&path).map_err(wrong)? })
     }
 
-    /// A scene from its keys as JSON.
+    /// Creates a scene from its keys as JSON.
     #[staticmethod]
     fn from_json(keys: &str) -> PyResult<Self> {
         let mut keys: Value = serde_json::from_str(keys).map_err(wrong)?;
@@ -54,7 +54,7 @@ impl PyScene {
         serde_json::to_string(&self.scene).map_err(failed)
     }
 
-    /// The plan of the scene, as text and JSON.
+    /// Returns the plan of the scene, as text and JSON.
     fn plan(&self) -> PyResult<Found> {
         let model = masonry::Model::from_scene(&self.scene).map_err(wrong)?;
         Found::plan(&Plan::of(&self.scene, &model))
@@ -65,8 +65,8 @@ impl PyScene {
         Ok(svg::scene(&self.scene.title, &model))
     }
 
-    /// Solves the scene; `callback` receives iterations, and `steps` the number of each step of a load history and the
-    /// number of all steps.
+    /// Solves the scene; `callback` receives iterations, and `steps` receives the number of each step of a load history
+    /// and the number of all steps.
     #[pyo3(signature = (callback = None, steps = None))]
     fn solve(
         &self,
@@ -88,7 +88,7 @@ impl PyScene {
         Ok(Outcome { outcome: outcome.map_err(wrong)? })
     }
 
-    /// The limit load of a group, by the laws with a name, in one direction or in both.
+    /// Computes the limit load of a group by the named laws of friction, in one direction or in both.
     #[pyo3(signature = (group, law, both, callback = None))]
     fn limit(
         &self,
@@ -121,13 +121,13 @@ impl PyScene {
         found.map_err(wrong)?
     }
 
-    /// A scene for every combination, with its name.
+    /// Returns a scene for every combination, with the name of the combination.
     fn combined(&self) -> Vec<(String, Self)> {
         let scenes = self.scene.combined().into_iter();
         scenes.map(|Combined { name, of }| (name, Self { scene: of })).collect()
     }
 
-    /// The limit load of the train of the scene at all of its positions.
+    /// Computes the limit load of the train of the scene at all of its positions.
     #[pyo3(signature = (law, callback = None))]
     fn train(&self, py: Python<'_>, law: &str, callback: Option<Py<PyAny>>) -> PyResult<Found> {
         let laws = laws(law)?;
@@ -174,7 +174,7 @@ impl PyScene {
         Found::thickness(&found.map_err(wrong)?)
     }
 
-    /// The cost of accuracy; `callback` receives the mesh, the route and the tolerance of the solve that runs.
+    /// Measures the cost of accuracy; `callback` receives the mesh, the route and the tolerance of the current solve.
     fn study(
         &self,
         py: Python<'_>,
@@ -197,7 +197,7 @@ impl PyScene {
     }
 }
 
-/// The laws with a name.
+/// Returns the laws of friction for `associative`, `path` or `both`.
 fn laws(law: &str) -> PyResult<Laws> {
     match law {
         "associative" => Ok(Laws::Associative),
@@ -209,7 +209,7 @@ fn laws(law: &str) -> PyResult<Laws> {
     }
 }
 
-/// The settings that a study varies; `None` is the default.
+/// The settings that a study varies; `None` stands for the default.
 #[derive(FromPyObject)]
 pub(crate) struct StudySettings {
     #[pyo3(item)]
@@ -250,7 +250,7 @@ impl StudySettings {
     }
 }
 
-/// TOML has no null: keys without a value are left out.
+/// Removes keys without a value, since TOML has no null.
 fn leave_out_nulls(value: &mut Value) {
     match value {
         Value::Object(members) => {

@@ -1,4 +1,4 @@
-//! Solves that release the interpreter's lock, and that a callback and Ctrl-C may end.
+//! Solves that release the interpreter's lock, and that a callback or Ctrl-C can end.
 
 use std::ops::ControlFlow;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -9,10 +9,12 @@ use pyo3::call::PyCallArgs;
 use pyo3::exceptions::{PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
 
-/// The longest time that signals wait. Chosen: a person does not notice it, and the lock is hardly taken.
+/// The longest time for which a signal waits until it is handled. Chosen: a person does not notice it, and the lock is
+/// hardly taken.
 pub(crate) const PATIENCE: Duration = Duration::from_millis(50);
 
-/// An observer that ends the work if a callback or a signal of the process requires it. The lock is released meanwhile.
+/// An observer that ends the work if a callback or a signal of the process demands it. The interpreter's lock is
+/// released during the work.
 pub(crate) struct Watch<'a> {
     callback: Option<&'a Py<PyAny>>,
     looked: Instant,
@@ -48,7 +50,7 @@ impl<'a> Watch<'a> {
         self.ask((at.iteration, at.residual))
     }
 
-    /// Whether the callback ends the work, by returning a true value.
+    /// Calls the callback, and returns whether it ends the work by returning a true value.
     fn asked(&self, py: Python<'_>, told: impl for<'py> PyCallArgs<'py>) -> PyResult<bool> {
         py.check_signals()?;
         match self.callback {
@@ -57,14 +59,14 @@ impl<'a> Watch<'a> {
         }
     }
 
-    /// The exception that has ended the work, if one has.
+    /// Returns the exception that has ended the work as an error; `Ok` if there is none.
     pub(crate) fn finish(self) -> PyResult<()> {
         self.raised.map_or(Ok(()), Err)
     }
 }
 
-/// The result of work with the lock released. A panic is a fault of the library, and becomes an exception that Python
-/// can handle.
+/// Does work with the interpreter's lock released. A panic is a fault of the library, and becomes an exception that
+/// Python can handle.
 pub(crate) fn detached<T: Send>(py: Python<'_>, work: impl FnOnce() -> T + Send) -> PyResult<T> {
     py.detach(|| catch_unwind(AssertUnwindSafe(work)).ok()).ok_or_else(|| {
         PyRuntimeError::new_err(
@@ -73,7 +75,7 @@ pub(crate) fn detached<T: Send>(py: Python<'_>, work: impl FnOnce() -> T + Send)
     })
 }
 
-/// The solution of a problem.
+/// Solves a problem, with the interpreter's lock released.
 pub(crate) fn solve<P: Sync>(
     py: Python<'_>,
     solver: &(impl Solver<P> + Sync),
@@ -89,7 +91,7 @@ where
     solution.map_err(|error| refused(&error))
 }
 
-/// An exception for bad input.
+/// Returns the exception for bad input.
 pub(crate) fn refused(error: &Error) -> PyErr {
     PyValueError::new_err(error.to_string())
 }
