@@ -185,7 +185,7 @@ impl Cases {
     /// * the `object` of the governing case, under the given `key`.
     ///
     /// # Errors
-    /// None that this data can cause; the signature is that of the serialiser.
+    /// No error occurs for this data; the `Result` is that of the serialiser.
     pub fn json(&self, key: &str, object: &str) -> Result<String, serde_json::Error> {
         let rows = self.rows.objects().into_iter().map(Value::Object).collect();
         let mut members = members! { "governs": &self.name };

@@ -95,7 +95,7 @@ impl InUnits {
     }
 }
 
-/// Writes a stress \[Pa\] for readers, in Pa, kPa, MPa or GPa, with its unit after a non-breaking space.
+/// Writes a stress \[Pa\] for readers, in `Pa`, `kPa`, `MPa` or `GPa`, with its unit after a non-breaking space.
 pub(super) fn stress_text(pascals: f64) -> String {
     let prefixes = [(1e9, "G"), (1e6, "M"), (1e3, "k")];
     // A value that rounds to a thousand of one unit is written in the next larger unit.

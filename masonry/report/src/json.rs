@@ -20,7 +20,7 @@ use masonry::model::Model;
 /// [`SolveInfo`](masonry::analysis::outcome::SolveInfo). Numbers that are not finite become null.
 ///
 /// # Errors
-/// None that this data can cause; the signature is that of the serialiser.
+/// No error occurs for this data; the `Result` is that of the serialiser.
 pub fn result(outcome: &Outcome, files: &[String]) -> Result<String, serde_json::Error> {
     let (model, solve, judgement) = (&outcome.model, &outcome.solve, &outcome.judgement);
     let (units, state) = (InUnits(model.units), outcome.state.as_ref());

@@ -23,7 +23,7 @@ use masonry::model::Model;
 /// the positions of a train; and `limit.json`, which lists the pictures and has a line for each case.
 ///
 /// # Errors
-/// [`OutputError`] for a directory that cannot be made, and for files that cannot be written.
+/// [`OutputError`] if the directory cannot be created, or files cannot be written.
 pub fn write(
     limit: &Limit,
     cases: Option<&Cases>,

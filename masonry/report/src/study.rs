@@ -20,7 +20,7 @@ use masonry::analysis::study::Study;
 /// `accuracy.svg` if an error is known, and `study.json`, which lists all files.
 ///
 /// # Errors
-/// [`OutputError`] for a directory that cannot be made, and for files that cannot be written.
+/// [`OutputError`] if the directory cannot be created, or files cannot be written.
 pub fn write(study: &Study, dir: &Path) -> Result<Vec<PathBuf>, OutputError> {
     let mut files = vec![("study.csv", csv(study).into_bytes())];
     files.extend(accuracy(study).map(|text| ("accuracy.svg", text.into_bytes())));

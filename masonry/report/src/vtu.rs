@@ -171,7 +171,7 @@ impl Appended {
     }
 }
 
-/// VTK counts in signed integers; no scene comes near their limit.
+/// Converts an index into a signed integer, which VTK requires; no scene comes near the limit of this type.
 fn signed(index: usize) -> i64 {
     i64::try_from(index).unwrap_or(i64::MAX)
 }

@@ -30,19 +30,8 @@ type Written = Result<Value, serde_json::Error>;
 ///
 /// Unknown values are null; `associative` or `path` is null if that law of friction was not chosen.
 ///
-/// `associative` has the `answer`, the `load_factor` that forces carry, the `bound` above which it is proved that none
-/// do, the `gap` between them, whether the answer is `proved`, the `reactions` under the load factor, and the
-/// `mechanism`: rates of the corners of every block, the largest component one. If a single block or a tenth of them at
-/// most move in the mechanism, `rest` has the `load_factor` and the `bound` of the other blocks while the moving ones
-/// are held. `path` has the `load_factor` up to which blocks rest, the factor at which the structure `falls`, whether
-/// the limit is `decided`, the `last_stable` state, the `mechanism` after it, the `events` on the way and the `curve`.
-/// `seismic` has the check of a group of accelerations: the `law` of factor and mechanism, `alpha_0`, the `weight` that
-/// moves, `mass` M* in kg, `fraction` e*, `FC`, `a_0` in m/s^2, the least `a_0_least` of all mechanisms of the limit,
-/// the data of the site, the `demand` and whether it is `satisfied`: null if this mechanism satisfies it, but not every
-/// mechanism. Unknown values are null, and so are laws of friction that were not chosen. `units` names the units.
-///
 /// # Errors
-/// None that this data can cause; the signature is that of the serialiser.
+/// No error occurs for this data; the `Result` is that of the serialiser.
 pub fn json(limit: &Limit, files: &[String]) -> Result<String, serde_json::Error> {
     report(limit, files)?.file()
 }

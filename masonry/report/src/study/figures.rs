@@ -6,8 +6,7 @@ use crate::format::Quantity::{Energy, Force, Length, Pure};
 use crate::format::{InUnits, significant};
 use masonry::analysis::study::{Mesh, Record, Study};
 
-/// Returns a table with a row for each combination of mesh, route and tolerance; the text report has its own columns of
-/// tolerances and times.
+/// Returns a table with a row for each record of a study; the text report has its own columns of tolerances and times.
 pub(super) fn records<'a>(study: &Study, list: impl Iterator<Item = &'a Record>) -> Table {
     let took = |it: &&Record| it.seconds.map_or("-".to_owned(), |it| significant(it, 3));
     Columns::<&Record>::new()

@@ -10,7 +10,7 @@ use masonry::analysis::study::{Mesh, Study, Values};
 /// dimensionless, and the values of meshes are in the units of the scene, which `units` names.
 ///
 /// # Errors
-/// None that this data can cause; the signature is that of the serialiser.
+/// No error occurs for this data; the `Result` is that of the serialiser.
 pub fn json(study: &Study, files: &[&str]) -> Result<String, serde_json::Error> {
     let units = study.units;
     let meshes: Vec<Mesh> =
