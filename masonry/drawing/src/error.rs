@@ -40,7 +40,7 @@ pub enum DrawingErrorKind {
     /// The file is larger than any drawing should be.
     #[error("the file is larger than {limit} MB: save only the layers with the blocks")]
     LargeFile {
-        /// The limit \[MB\].
+        /// The largest allowed size of a file \[MB\].
         limit: usize,
     },
     /// The file is not text.
@@ -75,13 +75,13 @@ pub enum DrawingErrorKind {
     TooMany {
         /// The name of the items.
         what: &'static str,
-        /// The largest possible number.
+        /// The largest allowed number of these items.
         limit: usize,
     },
     /// References of blocks are nested without end, or too deeply.
     #[error("block references are nested more than {depth} deep: explode them")]
     Nested {
-        /// The largest allowed depth.
+        /// The largest allowed depth of nested insertions.
         depth: usize,
     },
     /// A block is inserted that is not in the file.

@@ -62,7 +62,7 @@ pub struct DrawnLine {
 /// A change of a part of a drawing, or a part that was left out.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Change {
-    /// The change in words.
+    /// A description of the change.
     pub what: String,
     /// The place of the part in the file.
     pub place: Place,

@@ -6,11 +6,11 @@ const MATERIAL: &str = "stone";
 /// The kind of contents of a layer.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) enum Meaning {
-    /// Blocks of a material.
+    /// Blocks of a material, which the string names.
     Blocks(String),
-    /// Supports with a name.
+    /// Supports whose name is the string.
     Supports(String),
-    /// Lines along joints of a class.
+    /// Lines along joints whose class is the string.
     Joints(String),
     /// Contents that are left out.
     Ignored,

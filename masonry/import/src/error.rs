@@ -88,7 +88,7 @@ pub enum ImportErrorKind {
     TooMany {
         /// The name of the items.
         what: &'static str,
-        /// The largest possible number.
+        /// The largest allowed number of these items.
         limit: usize,
     },
     /// Outlines lie over each other by the dozen at one place.
@@ -109,7 +109,7 @@ pub enum ImportErrorKind {
         "half of all blocks are {compared} than {size} m, with {unit} as the unit ({from}): {remedy}"
     )]
     Size {
-        /// `larger` or `smaller`.
+        /// The comparison with the size in the message: `larger` or `smaller`.
         compared: &'static str,
         /// The median size of the blocks \[m\].
         size: String,
@@ -117,7 +117,7 @@ pub enum ImportErrorKind {
         unit: Unit,
         /// The source of the unit, in words.
         from: &'static str,
-        /// The remedy.
+        /// The remedy, in words of the message.
         remedy: String,
     },
     /// The tolerance is too large for an edge of a block.
@@ -127,7 +127,7 @@ pub enum ImportErrorKind {
     ShortEdge {
         /// The length of the edge \[m\].
         edge: String,
-        /// The tolerance \[m\].
+        /// The tolerance that is too large \[m\].
         tolerance: String,
         /// The largest tolerance that this edge allows \[m\].
         most: String,
@@ -172,11 +172,11 @@ pub enum ImportErrorKind {
     Overlap {
         /// The depth of the overlap \[m\].
         depth: String,
-        /// The tolerance \[m\].
+        /// The tolerance that the overlap exceeds \[m\].
         tolerance: f64,
         /// The tolerance with few digits, as the message shows it.
         shown: String,
-        /// The remedy.
+        /// The remedy, in words of the message.
         remedy: String,
     },
     /// Corners that are nearer to each other than the tolerance cannot all meet.
@@ -184,13 +184,13 @@ pub enum ImportErrorKind {
         "not all corners nearer to each other than the tolerance of {shown} m can meet ({reason}): {remedy}"
     )]
     NotHealed {
-        /// The tolerance \[m\].
+        /// The tolerance below which corners are to meet \[m\].
         tolerance: f64,
         /// The tolerance with few digits, as the message shows it.
         shown: String,
         /// The reason for which the corners cannot meet.
         reason: &'static str,
-        /// The remedy.
+        /// The remedy, in words of the message.
         remedy: String,
     },
     /// The scene itself has an error.

@@ -38,7 +38,7 @@ impl Yield {
 /// A joint of a mechanism that yields.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct YieldingJoint {
-    /// The joint.
+    /// The joint that yields.
     pub joint: JointId,
     /// The behaviour of the joint.
     pub does: Yield,
@@ -51,8 +51,8 @@ pub struct YieldingJoint {
     pub opens: f64,
     /// The largest rate of sliding, relative to the fastest joint.
     pub slides: f64,
-    /// Whether the joint dilates by associated flow: it slides, and opens by `mu` times the slip rate, so that forces
-    /// on the friction cone do no work.
+    /// Whether the joint dilates by associated flow: it slides, and opens by `mu` times the slip rate, so that no force
+    /// inside the friction cone does positive work.
     pub dilates: bool,
     /// The number of the joint in pictures and tables, from one; `None` if the sides come apart, since pictures do not
     /// mark such joints.

@@ -19,7 +19,7 @@ const BESIDE: f64 = 1e-6;
 /// The resultant of the contact forces of a joint.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct JointForce {
-    /// The joint.
+    /// The joint in which the force acts.
     pub joint: JointId,
     /// The place at which the line of the resultant crosses the joint \[m\].
     pub at: Point2<f64>,
@@ -113,7 +113,7 @@ pub fn paths<'a>(
 /// The reaction of a support: its line of action and its force.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SupportForce {
-    /// The support.
+    /// The support that has the reaction.
     pub support: SupportId,
     /// A point of the line of action of the reaction \[m\].
     pub at: Point2<f64>,
@@ -142,11 +142,11 @@ pub fn reactions(model: &Model, forces: &[JointForce]) -> Vec<SupportForce> {
 /// The opening and the slip of a joint.
 #[derive(Debug, Clone, PartialEq)]
 pub struct JointOpening {
-    /// The joint.
+    /// The joint that is open or has slid.
     pub joint: JointId,
     /// Distance along the joint from its start, and opening at that distance \[m\], for every contact point.
     pub widths: Vec<[f64; 2]>,
-    /// The largest opening \[m\].
+    /// The largest opening of the joint \[m\].
     pub widest: f64,
     /// The largest slip of closed contact points, as an absolute value \[m\].
     pub slip: f64,

@@ -15,7 +15,7 @@ use masonry::model::{Body, Cause, EdgeLoad, LoadCase, Model, PlacedBlock, Placed
 /// The displacement component of largest absolute value, with its sign and place.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LargestDisplacement {
-    /// The component \[m\], signed.
+    /// The displacement component with its sign \[m\].
     pub value: f64,
     /// Direction of the component: `x` or `y`.
     pub component: char,
@@ -39,7 +39,7 @@ pub struct ExtremeStress {
 /// The resultant of forces: their sum, and their moment about the origin, in SI units.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Resultant {
-    /// Force \[N\].
+    /// The sum of the forces \[N\].
     pub force: Vector2<f64>,
     /// Moment about the origin, counter-clockwise \[N m\].
     pub moment: f64,
@@ -155,7 +155,7 @@ fn resultant(model: &Model, counts: impl Fn(Cause) -> bool) -> Resultant {
 /// The loads that share a group name.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LoadGroup<'a> {
-    /// Name of the group.
+    /// Name of the load group.
     pub name: &'a str,
     /// The loads of the group, in the order of the scene, each with its resultant.
     pub loads: Vec<(&'a LoadCase, Resultant)>,
@@ -202,7 +202,7 @@ pub fn total_reaction(outcome: &Outcome) -> Resultant {
 /// Supports that hold a block at the same place, and the resultant of their reactions.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CornerSum {
-    /// Names of the supports.
+    /// Names of the supports that hold the block.
     pub supports: Vec<String>,
     /// The resultant of the reactions of these supports.
     pub sum: Resultant,

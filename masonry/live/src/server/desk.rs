@@ -36,7 +36,7 @@ pub enum DeskError {
     /// The last part of the path is not a file name in UTF-8.
     #[error("{} is not a name of a scene file: give one such as wall.toml", path.display())]
     NoName {
-        /// The path.
+        /// The path without a usable file name.
         path: PathBuf,
     },
     /// The name contains directories, or does not have the ending of a scene file.
@@ -48,13 +48,13 @@ pub enum DeskError {
     /// The file exists, but is not one of the page's own files.
     #[error("{} is not a file of this page: save under the name of a new file", path.display())]
     Foreign {
-        /// The file.
+        /// The path of the existing file.
         path: PathBuf,
     },
     /// The text of the file is too long.
     #[error("{} has {bytes} bytes, and the page treats at most {LONGEST_TEXT}: solve it with `masonry solve`", path.display())]
     TooLong {
-        /// The file.
+        /// The path of the file with the long text.
         path: PathBuf,
         /// The size of the text \[bytes\].
         bytes: u64,
@@ -62,13 +62,13 @@ pub enum DeskError {
     /// Another program has changed the file since the page read it.
     #[error("{} has changed on the disk: load it, or keep the text of the page and save again", path.display())]
     Changed {
-        /// The file.
+        /// The path of the changed file.
         path: PathBuf,
     },
     /// The operating system refuses to read or write the file.
     #[error("cannot read or write {}: {source}; give another file", path.display())]
     System {
-        /// The file.
+        /// The path of the file that cannot be read or written.
         path: PathBuf,
         /// The error of the operating system.
         source: io::Error,

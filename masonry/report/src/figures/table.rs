@@ -9,7 +9,7 @@ pub(crate) enum Digits {
     /// Equally many decimals in this column and in neighbouring columns of the same quantity, so that the largest
     /// number has this many significant digits.
     Aligned(usize),
-    /// This many significant digits.
+    /// A fixed number of significant digits for every number.
     Significant(usize),
     /// Two digits and a power of ten.
     Power,
@@ -20,7 +20,7 @@ pub(crate) enum Digits {
 pub(crate) struct Column {
     /// The name in JSON and CSV.
     pub(crate) key: String,
-    /// The name for readers.
+    /// The name of the column for readers.
     pub(crate) name: String,
     pub(crate) quantity: Quantity,
     pub(crate) digits: Digits,

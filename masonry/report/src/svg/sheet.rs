@@ -72,7 +72,7 @@ impl Sides {
 /// The map from metres to pixels.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Frame {
-    /// Pixels per metre.
+    /// The number of pixels per metre.
     pub(super) scale: f64,
     low: Point2<f64>,
     origin: Pixel,
@@ -90,13 +90,13 @@ impl Frame {
 pub struct Shown<'a> {
     /// The title of the picture.
     pub title: &'a str,
-    /// The structure.
+    /// The structure that is drawn.
     pub model: &'a Model,
     /// The state of the structure that is drawn.
     pub state: &'a State,
 }
 
-/// A picture under construction.
+/// A picture that is being drawn.
 #[derive(Debug)]
 pub(super) struct Sheet {
     pub(super) frame: Frame,
