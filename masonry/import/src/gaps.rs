@@ -179,8 +179,8 @@ fn mortar<'a>(
     gaps: impl Iterator<Item = &'a Gap>,
     sheet: &Sheet,
 ) -> Result<Option<f64>, ImportError> {
-    /// Thicknesses of mortar are multiples of this step \[m\]: tenths of millimetres. Chosen: masons do not work more
-    /// finely.
+    /// Thicknesses of mortar are rounded to multiples of this step \[m\], tenths of millimetres, if that changes them
+    /// by at most half the tolerance. Chosen: masons do not work more finely.
     const STEP: f64 = 1e-4;
     let gaps: Vec<&Gap> = gaps.collect();
     let Some(width) = median(gaps.iter().map(|gap| gap.width).collect()) else { return Ok(None) };

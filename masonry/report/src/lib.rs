@@ -182,8 +182,8 @@ fn titled(outcome: &Outcome) -> String {
     }
 }
 
-/// Writes files into a directory, which is created: each file whole or not at all, even if others fail; and last the
-/// file that lists the written files, itself among them.
+/// Writes files into a directory, which is created if it does not exist. Each file is written whole or not at all, even
+/// if other files fail. The last file lists all written files, including itself.
 fn write_files(
     dir: &Path,
     files: Vec<(&str, Vec<u8>)>,

@@ -119,8 +119,8 @@ fn residuals(it: &lcp::Residuals) -> String {
     ])
 }
 
-/// Returns the memory of the first route, and of the route that needs most if it is run, in words. The unit is 10^6
-/// bytes, for which the smallest scenes have small numbers.
+/// Returns the memory of the first route, and that of the route that needs the most if it is run, as text in units of
+/// 10^6 bytes.
 fn memory(routes: &[PlannedRoute]) -> String {
     let megabytes =
         |it: &PlannedRoute| format!("{} MB", significant(it.memory_bytes as f64 / 1e6, 2));
