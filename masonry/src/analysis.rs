@@ -1,4 +1,5 @@
-//! Analyses of a scene: one solution, a load history step by step, a limit load, a study of the cost of accuracy.
+//! Analyses of a scene: a single solution, a load history step by step, a limit load, and a study of the cost of
+//! accuracy.
 
 pub mod checkpoint;
 mod clock;

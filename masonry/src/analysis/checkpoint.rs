@@ -1,4 +1,4 @@
-//! The state after a step, as a file from which a run can continue.
+//! Checkpoints: the state after a step of a load history, as a file from which a run can continue.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -15,54 +15,54 @@ use crate::model::Model;
 use crate::recover;
 use crate::scene::{Output, Scene, SceneError, SolverSettings};
 
-/// The version of the format.
+/// The version of the format of checkpoint files.
 const VERSION: u32 = 5;
-/// The text between the data and their checksum.
+/// The text between the data of a checkpoint file and their checksum.
 const SEAL: &str = ",\"checksum\":\"";
 
-/// The reasons for which a checkpoint cannot be used.
+/// The reasons for which a checkpoint cannot be read, written or continued.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum CheckpointError {
-    /// The file cannot be read.
+    /// The checkpoint file cannot be read.
     #[error("cannot read the checkpoint {}: {source}; solve from the first step", path.display())]
     Read {
-        /// The file.
+        /// Path of the file.
         path: PathBuf,
-        /// The message of the system.
+        /// The error of the operating system.
         source: std::io::Error,
     },
-    /// The file cannot be written.
+    /// The checkpoint file cannot be written.
     #[error("cannot write the checkpoint {}: {source}; choose another directory", path.display())]
     Write {
-        /// The file.
+        /// Path of the file.
         path: PathBuf,
-        /// The message of the system.
+        /// The error of the operating system.
         source: std::io::Error,
     },
-    /// The text is not a checkpoint.
+    /// The text of the file is not a checkpoint.
     #[error(
         "{}, line {}, column {}: this is not a checkpoint: {source}; solve from the first step",
         path.display(), source.line(), source.column()
     )]
     Syntax {
-        /// The file.
+        /// Path of the file.
         path: PathBuf,
-        /// The message of the reader.
+        /// The error of the JSON reader.
         source: serde_json::Error,
     },
-    /// The file is not as it was written.
+    /// The checksum does not match: the file was changed after it was written.
     #[error("the checkpoint {} is damaged: solve from the first step", path.display())]
     Damaged {
-        /// The file.
+        /// Path of the file.
         path: PathBuf,
     },
-    /// The file was written by another version of this program.
+    /// The file has another version of the format than this program reads.
     #[error(
         "the checkpoint has format {found}, and this program reads {VERSION}: solve from the first step"
     )]
     Version {
-        /// The version of the file.
+        /// The version of the format in the file.
         found: u32,
     },
     /// The checkpoint belongs to another scene.
@@ -71,7 +71,7 @@ pub enum CheckpointError {
          the output may change; solve from the first step"
     )]
     OtherScene,
-    /// The checkpoint belongs to other steps.
+    /// The scene has a stage that is done in the checkpoint, with other steps.
     #[error(
         "the checkpoint has another step {step} of stage \"{stage}\" than the scene: stages that are \
          done must stay as they were; solve from the first step"
@@ -82,15 +82,15 @@ pub enum CheckpointError {
         /// Number of the step in the stage, from 1.
         step: usize,
     },
-    /// The scene has one step only.
+    /// The scene has one step only, so that a checkpoint is of no use.
     #[error("the scene has one step, so a checkpoint is of no use: solve without one")]
     OneStep,
-    /// A number is not finite, or forces and displacements are not those of an equilibrium.
+    /// A number in the checkpoint is not finite, or its forces and displacements are not those of an equilibrium.
     #[error(
         "the state in the checkpoint is not an equilibrium of the scene: solve from the first step"
     )]
     NoEquilibrium,
-    /// A list has a wrong length.
+    /// A list in the checkpoint has another length than the scene needs.
     #[error(
         "the checkpoint has {found} {what} and the scene has {wanted}: solve from the first step"
     )]
@@ -104,14 +104,14 @@ pub enum CheckpointError {
     },
 }
 
-/// The data for the next step, and all previous records.
+/// A checkpoint: the data from which the next step of a load history starts, and the records of all steps before.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Checkpoint {
     version: u32,
-    /// The scene without stages, solver and output.
+    /// The scene as text (TOML), without stages, solver and output: it must be the same when a run continues.
     pub(crate) origin: String,
-    /// The results of the steps.
+    /// The results of the steps that were solved.
     pub records: Vec<StepRecord>,
     /// The record of the last solve, without times, so that the file does not depend on the machine.
     pub(crate) solve: SolveInfo,
@@ -125,7 +125,7 @@ pub struct Checkpoint {
     basis: Option<String>,
 }
 
-/// The version alone.
+/// The version of the format of a checkpoint file, read before all other data.
 #[derive(Deserialize)]
 struct Version {
     version: u32,
@@ -159,10 +159,11 @@ impl Checkpoint {
         }
     }
 
-    /// The slip of every contact point at the state from which the slips of the last step are measured.
+    /// Returns the slip \[m\] of every contact point at the state from which the slips of the last step are measured.
     ///
     /// # Errors
-    /// [`CheckpointError::Size`] or [`CheckpointError::NoEquilibrium`].
+    /// [`CheckpointError::Size`] if the number of slips is not that of `model`; [`CheckpointError::NoEquilibrium`] if a
+    /// slip is not finite.
     pub(crate) fn slips(&self, model: &Model) -> Result<Vec<f64>, CheckpointError> {
         same("slips", self.slips.len(), model.contacts.len())?;
         if self.slips.iter().all(|slip| slip.is_finite()) {
@@ -171,13 +172,15 @@ impl Checkpoint {
         Err(CheckpointError::NoEquilibrium)
     }
 
-    /// The basis from which the pivots of the next step start, if it is one of a problem of this order.
+    /// Returns the basis from which the pivots of the next step start; `None` if there is no basis, or if it does not
+    /// have this order.
     pub(crate) fn basis(&self, order: usize) -> Option<Start> {
         let sides = self.basis.as_ref().filter(|sides| sides.len() == order)?;
         Some(Start::last(sides.chars().map(|it| it == 't').collect()))
     }
 
-    /// The part of a scene that must not change between a checkpoint and a run that continues from it, as text.
+    /// Returns the part of a scene, as text, that must not change between a checkpoint and a run that continues from
+    /// it.
     pub(crate) fn origin_of(scene: &Scene) -> Result<String, SceneError> {
         let mut origin = scene.clone();
         origin.stages = Vec::new();
@@ -186,16 +189,16 @@ impl Checkpoint {
         origin.to_toml()
     }
 
-    /// Reads a file that [`write`](Self::write) has written; numbers come back to the last digit.
+    /// Reads a checkpoint file that [`write`](Self::write) has written; numbers are restored to the last digit.
     ///
     /// # Errors
-    /// [`CheckpointError`] with the path, and with line and column if the text is wrong.
+    /// [`CheckpointError`] with the path, and with line and column if the text is not valid.
     pub fn read(path: &Path) -> Result<Self, CheckpointError> {
         let path_buf = || path.to_owned();
         let text = fs::read_to_string(path)
             .map_err(|source| CheckpointError::Read { path: path_buf(), source })?;
         let syntax = |source| CheckpointError::Syntax { path: path_buf(), source };
-        // The rest of a file of another version is not known.
+        // Only the version is read first, since files of another version may have other fields.
         let Version { version } = serde_json::from_str(&text).map_err(syntax)?;
         if version != VERSION {
             return Err(CheckpointError::Version { found: version });
@@ -206,10 +209,10 @@ impl Checkpoint {
         serde_json::from_str(&format!("{data}}}")).map_err(syntax)
     }
 
-    /// Writes a file, whole or not at all.
+    /// Writes a checkpoint file, either completely or not at all.
     ///
     /// # Errors
-    /// [`CheckpointError::Write`].
+    /// [`CheckpointError::Write`] if the file cannot be written.
     pub fn write(&self, path: &Path) -> Result<(), CheckpointError> {
         let failed = |source| CheckpointError::Write { path: path.to_owned(), source };
         let text = serde_json::to_string(self).map_err(|error| failed(error.into()))?;
@@ -217,7 +220,7 @@ impl Checkpoint {
         write_atomically(path, sealed(data).as_bytes()).map_err(failed)
     }
 
-    /// The state after the last step, for the model that it belongs to.
+    /// Returns the state after the last step, for the model under the actions of this step.
     pub(crate) fn state(
         &self,
         model: &Model,
@@ -246,7 +249,8 @@ impl Checkpoint {
     }
 }
 
-/// The object without its closing brace, followed by its checksum (FNV-1a, 64 bits).
+/// Returns a JSON object that is given without its closing brace, completed by the checksum of its text (FNV-1a, 64
+/// bits).
 fn sealed(data: &str) -> String {
     let checksum = data.bytes().fold(0xcbf2_9ce4_8422_2325, |hash: u64, byte| {
         (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3)

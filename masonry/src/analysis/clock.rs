@@ -1,4 +1,4 @@
-//! The times of the phases of an analysis.
+//! Wall-clock times of the phases of an analysis.
 
 use std::ops::ControlFlow;
 use web_time::Instant;
@@ -18,7 +18,7 @@ impl Clock {
         observer: &mut dyn FnMut(Event) -> ControlFlow<()>,
         work: impl FnOnce() -> T,
     ) -> T {
-        // Only the solver takes long enough to be cancelled.
+        // The answer of the observer is ignored: only the solver takes long enough to be cancelled.
         let _ = observer(Event::Phase(phase));
         let began = Instant::now();
         let result = work();
@@ -28,7 +28,7 @@ impl Clock {
 
     pub(super) fn add(&mut self, phase: &str, began: Instant) {
         let seconds = began.elapsed().as_secs_f64();
-        // Several routes solve and recover.
+        // A phase may run several times, for several routes: its times are added.
         match self.times.iter_mut().find(|time| time.phase == phase) {
             Some(time) => time.seconds += seconds,
             None => self.times.push(PhaseTime { phase: phase.to_owned(), seconds }),

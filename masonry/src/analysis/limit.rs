@@ -1,4 +1,4 @@
-//! Limit analysis: the factor of a group of loads at which a structure fails.
+//! Limit analysis: the factor of a group of loads at which a structure fails (limit-load factor).
 //!
 //! Loads outside the group act in full, and the stages of the scene are ignored. There are two laws of friction. Blocks
 //! are rigid under associated flow, which changes no limit load, and gaps count as closed; the answer is proved, and is
@@ -10,7 +10,7 @@
 //! use masonry::scene::{Block, Joint, Load, Material, Scene, Support};
 //! use masonry::units::Units;
 //!
-//! // It tips over at a fifth of gravity, its breadth over its height.
+//! // The block tips over at a fifth of gravity, its breadth divided by its height.
 //! let scene = Scene::new("A block that is pushed", Units::SI)
 //!     .thickness(1.0)
 //!     .gravity([0.0, -10.0])
@@ -63,15 +63,15 @@ use crate::scene::{Load, Route, Scene};
 use crate::system::{self, System};
 use watch::Watch;
 
-/// Factors below this part of the factor at which the growing loads are as large as the others count as zero. Chosen:
-/// between the gap of associated flow and a factor that matters.
+/// Load factors count as zero below this part of the scale of load factors (the factor at which the growing loads are
+/// as large as the others). Chosen: between the gap of the bounds of associated flow and a factor that matters.
 const NOTHING: f64 = 1e-6;
 
-/// The laws of friction of a limit load.
+/// The laws of friction by which a limit load is computed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Laws {
-    /// Joints that open by `mu` times their slip: one linear program, with a proof.
+    /// Associated flow, in which joints open by `mu` times their slip: one linear program, with a proof.
     Associative,
     /// Coulomb's friction, in which joints slide without opening: a path of states at rest.
     Path,
@@ -80,7 +80,7 @@ pub enum Laws {
     Both,
 }
 
-/// The limit load of a scene.
+/// The result of a limit analysis.
 #[derive(Debug, Clone)]
 #[non_exhaustive]
 pub struct Limit {
@@ -96,20 +96,20 @@ pub struct Limit {
     pub path: Option<Path>,
     /// The seismic check, if accelerations grow and the limit and its mechanism are known.
     pub seismic: Option<SeismicCheck>,
-    /// Whether the weight grows and forces within friction are proved to carry no part of the weight.
+    /// Whether the weight is the growing load and is proved not to be carried at all by forces within friction.
     pub falls_by_weight: bool,
     /// The answer in the words of an engineer.
     pub sentence: String,
     /// Warnings that limit the meaning of the answer.
     pub warnings: Vec<String>,
-    /// Whether the observer has ended the search, so that less is known than could be.
+    /// Whether the observer ended the search early, so that less is known than could be.
     pub is_interrupted: bool,
-    /// Time of every phase.
+    /// Wall-clock time of every phase of the analysis.
     pub times: Vec<PhaseTime>,
 }
 
 impl Limit {
-    /// Whether the factor of every chosen law is known, and the structure stands under some of them.
+    /// Whether the limit-load factor by every chosen law is known, and the structure stands under some load factor.
     pub fn is_solved(&self) -> bool {
         let is_known = |it: &Associative| matches!(it.answer, Answer::Fails | Answer::Unlimited);
         let by_path = |path: &Path| path.decided && path.load_factor.is_some();
@@ -119,7 +119,8 @@ impl Limit {
             && !self.falls_by_weight
     }
 
-    /// The factor that is carried: by Coulomb's friction if the path was followed, else by forces within friction.
+    /// Returns the load factor \[-\] that the structure carries: by Coulomb's friction if the path was followed, else
+    /// by forces within friction. The factor is infinite if there is no limit, and zero if none is known.
     pub fn carried(&self) -> f64 {
         let by_path = self.path.as_ref().map(|it| it.load_factor);
         let by_flow = self.associative.as_ref().map(|it| match it.answer {
@@ -129,7 +130,8 @@ impl Limit {
         by_path.or(by_flow).flatten().unwrap_or(0.0)
     }
 
-    /// The least factor that is known not to be carried, by the law of [`carried`](Self::carried).
+    /// Returns the least load factor \[-\] that is known not to be carried, by the same law as
+    /// [`carried`](Self::carried); infinite if none is known.
     pub fn not_carried(&self) -> f64 {
         let by_path = self.path.as_ref().map(|it| it.falls);
         let by_flow = self.associative.as_ref().map(|it| it.bound);
@@ -137,7 +139,7 @@ impl Limit {
     }
 }
 
-/// The limit load of the group that the scene names, or of its only group, by both laws.
+/// Computes the limit load of the group that the scene names, or of its only group, by both laws of friction.
 ///
 /// # Errors
 /// [`LimitError`] when the scene is wrong or has no such group.
@@ -145,7 +147,7 @@ pub fn limit(scene: &Scene) -> Result<Limit, LimitError> {
     limit_by(scene, Laws::Both)
 }
 
-/// The limit load by the chosen laws.
+/// Computes the limit load by the chosen laws of friction.
 ///
 /// # Errors
 /// As [`limit`].
@@ -153,7 +155,7 @@ pub fn limit_by(scene: &Scene, laws: Laws) -> Result<Limit, LimitError> {
     limit_observed(scene, laws, &mut |_| ControlFlow::Continue(()))
 }
 
-/// The limit load, with an observer that may end the search by `Break`.
+/// Computes the limit load by the chosen laws of friction, with an observer that may end the search by `Break`.
 ///
 /// # Errors
 /// As [`limit`].
@@ -168,7 +170,7 @@ pub fn limit_observed<'a>(
     scene.check_single()?;
     let group = growing(scene)?;
     let given = Model::from_scene(scene)?;
-    // Both laws solve sparse problems, whatever the route of the scene.
+    // Both laws solve sparse problems, whatever route the scene names.
     Plan::of(&scene.clone().route(Route::Interior), &given).fits()?;
     let model = rigid(given.clone());
     let loads: Vec<bool> = scene.loads.iter().map(|load| load.is_called(&group)).collect();
@@ -180,7 +182,7 @@ pub fn limit_observed<'a>(
     }
     clock.add("model", began);
     let began = Instant::now();
-    // The bound of associated flow ends the path.
+    // The path ends at the bound of associated flow.
     let associative = associative::of(&structure, &growth, &mut watch)?;
     clock.add("associative", began);
     let mut path = None;
@@ -223,10 +225,11 @@ pub fn limit_observed<'a>(
     })
 }
 
-/// The growing group: the group that the scene names, else its only group, else its only group with a factor.
+/// Returns the name of the growing group: the group that the scene names, else its only group, else its only group with
+/// a factor.
 ///
 /// # Errors
-/// [`LimitError`] when the scene is wrong, or has several such groups.
+/// [`LimitError`] if the scene is wrong, has no load that can grow, or has several groups of which none is named.
 pub fn growing(scene: &Scene) -> Result<String, LimitError> {
     scene.check()?;
     if let Some(group) = &scene.limit.group {
@@ -251,14 +254,15 @@ pub fn growing(scene: &Scene) -> Result<String, LimitError> {
 #[derive(Clone, Copy)]
 struct LoadedStructure<'a> {
     model: &'a Model,
-    /// Whether each load grows.
+    /// Whether each load of the scene grows.
     grows: &'a [bool],
-    /// Whether the weight of the blocks grows too.
+    /// Whether the weight of the blocks grows, besides the loads.
     weight: bool,
 }
 
 impl LoadedStructure<'_> {
-    /// The structure with all loads that stay times `stays` and all loads that grow times `grows`, gravity included.
+    /// Builds the model with all loads that stay multiplied by `stays`, and all loads that grow by `grows`, including
+    /// gravity.
     fn under(&self, stays: f64, grows: f64) -> Model {
         let actions = Actions {
             gravity: if self.weight { grows } else { stays },
@@ -268,7 +272,7 @@ impl LoadedStructure<'_> {
         self.model.under(&actions, &[])
     }
 
-    /// The resultants of the loads that grow, `N^T f` of all blocks \[N\].
+    /// Computes the resultants of the growing loads for a load factor of one, `N^T f` of all blocks \[N\].
     fn growth(&self) -> Vec<f64> {
         let model = self.under(0.0, 1.0);
         model.blocks.iter().flat_map(|block| system::resultant(&model, block)).collect()
@@ -310,7 +314,7 @@ fn warnings(model: &Model, laws: Laws) -> Vec<String> {
     list
 }
 
-/// The least part of its length that the points of a joint span, over all joints.
+/// Returns the smallest fraction \[-\] of the length of a joint that the contact points of this joint span.
 fn reached(model: &Model) -> f64 {
     let mut reached = vec![[f64::INFINITY, f64::NEG_INFINITY]; model.joints.len()];
     for point in &model.contacts {
@@ -320,7 +324,7 @@ fn reached(model: &Model) -> f64 {
         let [low, high] = &mut reached[point.joint.index()];
         (*low, *high) = (low.min(at), high.max(at));
     }
-    // Joints that are too far apart have no points.
+    // A joint whose faces are too far apart has no contact points.
     let parts = reached.into_iter().map(|[low, high]| high - low).filter(|part| *part >= 0.0);
     parts.fold(f64::INFINITY, f64::min)
 }

@@ -12,10 +12,10 @@ use crate::model::Model;
 use crate::plan::Plan;
 use crate::verify::checks::Checks;
 
-/// Everything known about a scene after an attempt to solve it.
+/// The result of an attempt to solve a scene.
 ///
-/// `state` and `checks` are `None` if no solution was found; all else is kept. If a step of the load history could not
-/// be solved, `state` and `checks` are those of the previous step, and `solve` has the reason.
+/// `state` and `checks` are `None` if no solution was found. If a step of the load history could not be solved, `state`
+/// and `checks` are those of the previous step, and `solve` has the reason.
 #[derive(Debug, Clone)]
 #[non_exhaustive]
 pub struct Outcome {
@@ -23,24 +23,25 @@ pub struct Outcome {
     pub title: String,
     /// The model that was solved.
     pub model: Model,
-    /// The effects and routes that were built, with reasons.
+    /// The effects and routes that were built, each with its reason.
     pub plan: Plan,
     /// The record of the solution of the complementarity problem.
     pub solve: SolveInfo,
-    /// The mechanical state, when solved.
+    /// The mechanical state; `None` if no solution was found.
     pub state: Option<State>,
-    /// Balances and the friction cone, recomputed from the state.
+    /// The balance of all blocks and the friction cones of all contacts, recomputed from the state.
     pub checks: Option<Checks>,
-    /// The reaction of every support, when solved.
+    /// The reaction of every support; empty if no solution was found.
     pub reactions: Vec<Reaction>,
-    /// The steps of the load history, if the solution depends on the load path.
+    /// The steps of the load history; `None` for a scene of one step.
     pub history: Option<History>,
-    /// The collapse mechanism, if there is no solution and a mechanism was found along a secondary ray, on soft
-    /// springs or by a proof: displacement rates of the corners of every block, scaled to a largest component of one.
+    /// The displacement rates of the corners of every block in the collapse mechanism, scaled to a largest component of
+    /// one. `None` if there is a solution, or if no mechanism was found along a secondary ray, on soft springs or by a
+    /// proof.
     pub mechanism: Option<Vec<Vec<Vector2<f64>>>>,
-    /// Whether the wall stands.
+    /// The verdict on the structure, with the evidence.
     pub judgement: Judgement,
-    /// Time of every phase.
+    /// Wall-clock time of every phase of the analysis.
     pub times: Vec<PhaseTime>,
 }
 
@@ -55,12 +56,12 @@ impl Outcome {
 #[derive(Debug, Clone)]
 #[non_exhaustive]
 pub struct Frame {
-    /// The step.
+    /// The step of the load history.
     pub step: HistoryStep,
-    /// The position of the step among all, from zero.
+    /// The index of the step among all steps of the scene, from zero.
     pub position: usize,
     /// The model under the actions of the step.
     pub model: Model,
-    /// The state.
+    /// The mechanical state after the step.
     pub state: State,
 }

@@ -1,4 +1,4 @@
-//! The limit load of associated flow: a linear program, and the two sides of its answer.
+//! The limit load of associated flow: a linear program, which gives a lower and an upper bound.
 
 use nalgebra::Vector2;
 use serde::Serialize;
@@ -13,16 +13,16 @@ use crate::model::Model;
 use crate::recover;
 use crate::verify::moving::moving;
 
-/// The outcome for a structure under a growing group of loads.
+/// The outcome of a limit analysis of a structure under a growing group of loads.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize)]
 pub enum Answer {
-    /// There is a largest factor.
+    /// The structure fails at a largest load factor.
     #[serde(rename = "fails")]
     Fails,
-    /// Forces within friction carry any factor.
+    /// Forces within friction balance the loads at every load factor.
     #[serde(rename = "does not fail")]
     Unlimited,
-    /// No forces within friction balance the loads without the group.
+    /// The structure falls without the group: no forces within friction balance the other loads.
     #[serde(rename = "falls without the group")]
     Falls,
     /// Neither a limit load nor a proof of another answer was found.
@@ -34,34 +34,36 @@ pub enum Answer {
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct Associative {
-    /// The outcome.
+    /// The outcome of the analysis by associated flow.
     pub answer: Answer,
-    /// The largest factor \[-\] for which forces were found that balance the loads.
+    /// The largest load factor \[-\] for which forces were found that balance the loads; `None` if there is no such
+    /// factor.
     pub load_factor: Option<f64>,
-    /// The smallest factor \[-\] at which it is proved that no forces balance the loads.
+    /// The smallest load factor \[-\] at which it is proved that no forces balance the loads; `None` if none is known.
     pub bound: Option<f64>,
-    /// Whether forces and a motion, recomputed from the geometry, prove the answer with a small gap between their
-    /// factors.
+    /// Whether the answer is proved by forces and a motion, recomputed from the geometry, whose load factors are almost
+    /// equal.
     pub proved: bool,
     /// The forces under [`load_factor`](Self::load_factor), point by point; gaps and slips are zero.
     pub forces: Option<Vec<PointState>>,
-    /// The reactions to these forces.
+    /// The reactions of the supports to these forces.
     pub reactions: Vec<Reaction>,
-    /// The factor \[-\] at which the growing loads are as large as the others, or the largest factor if that is larger.
+    /// The scale of load factors \[-\]: the factor at which the growing loads are as large as the others, or
+    /// [`load_factor`](Self::load_factor) if that is larger.
     pub(super) size: f64,
     /// The motion that proves the bound: displacement rates of the corners of every block, the largest component one.
     pub mechanism: Option<Vec<Vec<Vector2<f64>>>>,
-    /// The factors of the other blocks while the blocks of the mechanism are held, if only one block or at most a tenth
-    /// of all blocks move in the mechanism, and the group acts on others.
+    /// The load factors of the rest of the structure while the blocks of the mechanism are held. `None` if the
+    /// mechanism moves several blocks and more than a tenth of all, or if the group does not act on the rest.
     pub rest: Option<Rest>,
 }
 
-/// The factors \[-\] of a structure in which some blocks are held.
+/// The load factors \[-\] of a structure in which some blocks are held.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Rest {
-    /// The largest factor for which forces were found that balance the loads on the other blocks.
+    /// The largest load factor for which forces were found that balance the loads on the other blocks.
     pub load_factor: Option<f64>,
-    /// The smallest factor at which a motion proves that no forces balance the loads on the other blocks.
+    /// The smallest load factor at which a motion proves that no forces balance the loads on the other blocks.
     pub bound: Option<f64>,
 }
 
@@ -80,7 +82,7 @@ impl Associative {
         }
     }
 
-    /// Whether it is proved that no part of the group is carried, except for rounding errors.
+    /// Whether it is proved that the structure carries no part of the group, up to rounding errors.
     pub fn carries_nothing(&self) -> bool {
         self.proved && self.bound.is_some_and(|bound| bound <= NOTHING * self.size)
     }
@@ -107,7 +109,7 @@ pub(super) fn of(
     let growing = Growing { at: &at, system: &system, growth, held: &[] };
     let bounds = growing.largest(&mut watch.steps())?;
     if bounds.above.is_none() {
-        // Forces that carry the group alone, without any strength, can be added any number of times.
+        // If some forces carry the group alone without any strength, any multiple of these forces can be added.
         let mut alone = structure.under(0.0, 1.0);
         alone.remove_strength();
         let system = crate::system::System::without_factors(&alone)?;
@@ -125,7 +127,7 @@ pub(super) fn of(
     let found = Associative::new(answer, proved).with_forces(&model, forces);
     let mechanism = proof.map(|proof| proof.rates);
     let held = mechanism.as_ref().map(|rates| moving(rates));
-    // Blocks on which the group does not act carry any factor of it.
+    // The rest of the structure carries any load factor if the group does not act on it.
     let is_pushed = |held: &Vec<bool>| {
         let on_rest = growth.chunks(3).zip(held).filter(|(_, held)| !**held);
         on_rest.flat_map(|(growth, _)| growth).any(|force| force.abs() > 0.0)
@@ -141,7 +143,8 @@ pub(super) fn of(
     Ok(Associative { load_factor, bound, size, mechanism, rest, ..found })
 }
 
-/// A mechanism is partial if one block moves alone, or at most this share of all blocks. Chosen: a larger share is a collapse.
+/// The largest share of all blocks that move in a partial mechanism, unless only one block moves. Chosen: a larger
+/// share is a collapse.
 const SMALL_PART: f64 = 0.1;
 
 fn is_small_part(moving: &[bool]) -> bool {

@@ -5,33 +5,33 @@ use serde::Serialize;
 use super::{Laws, Limit, LimitError, LimitObserver, limit_observed};
 use crate::scene::Scene;
 
-/// The direction under which the structure fails first.
+/// The direction of the growing load under which the structure fails first.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Governs {
-    /// The direction of the scene.
+    /// The direction that the load has in the scene.
     Given,
-    /// The opposite direction.
+    /// The direction opposite to that of the load in the scene.
     Opposite,
-    /// Both directions carry the same, as far as their limits are known.
+    /// Neither direction: both limit loads are equal, as far as they are known.
     Both,
-    /// The limit of one of the directions was not decided.
+    /// Not known: the limit load of one direction was not decided.
     Unknown,
 }
 
-/// The limit loads of both directions.
+/// The limit loads in both directions of the growing load.
 #[derive(Debug, Clone)]
 pub struct Directions {
-    /// The load in the direction that it has in the scene.
+    /// The limit load in the direction that the growing load has in the scene.
     pub given: Limit,
-    /// The load in the opposite direction.
+    /// The limit load in the direction opposite to that of the growing load in the scene.
     pub opposite: Limit,
-    /// The direction that carries less.
+    /// The direction with the smaller limit load.
     pub governs: Governs,
 }
 
 impl Directions {
-    /// The limit load of the direction opposite to that of the scene.
+    /// Computes the limit load in the direction opposite to that of the growing load in the scene.
     ///
     /// # Errors
     /// As [`limit`](super::limit()).
@@ -49,7 +49,8 @@ impl Directions {
         Ok(opposite)
     }
 
-    /// The limit loads of both directions, with a warning if the one that does not govern has a worse seismic check.
+    /// Compares the limit loads of both directions, and adds a warning if the direction that does not govern has a
+    /// worse seismic check.
     pub fn of(mut given: Limit, mut opposite: Limit) -> Self {
         let governs = if !(given.is_solved() && opposite.is_solved()) {
             Governs::Unknown
@@ -68,7 +69,7 @@ impl Directions {
         Self { given, opposite, governs }
     }
 
-    /// The limit of the direction that governs, or of the direction of the scene if none does.
+    /// Returns the limit load of the direction that governs, or of the direction of the scene if none does.
     pub fn governing(&self) -> &Limit {
         if self.governs == Governs::Opposite { &self.opposite } else { &self.given }
     }

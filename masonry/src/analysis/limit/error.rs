@@ -14,13 +14,13 @@ pub enum LimitError {
     /// More memory would be needed than the machine has.
     #[error(transparent)]
     TooLarge(#[from] TooLarge),
-    /// A block cannot be assembled.
+    /// The equations of a block cannot be assembled.
     #[error(transparent)]
     System(#[from] SystemError),
-    /// The data overflow.
+    /// The solver refused the data because numbers overflow.
     #[error("the program was refused: {0}")]
     Solver(#[from] lcp::Error),
-    /// There is no load that can grow.
+    /// The scene has no load that can grow.
     #[error("the scene has no loads of which a factor could grow: add [[loads]], or `gravity`")]
     NoLoads,
     /// The scene has several groups, and none was named.
@@ -42,7 +42,7 @@ pub enum LimitError {
         /// The names of the arches in the scene.
         known: Known,
     },
-    /// The joints of the arch are given.
+    /// The joints of the arch are given one by one, so that it has no thickness that could change.
     #[error(
         "the joints of arch \"{name}\" are given, so that it has no `thickness`: choose another `shape`"
     )]
@@ -58,7 +58,7 @@ pub enum LimitError {
         "no axle of the train stands on \"{over}\" at any of its positions: correct `from`, `to` or `over` of [limit.train]"
     )]
     NoAxle {
-        /// The name of the bridge, `over`.
+        /// Name of the bridge, the entry `over` of `[limit.train]`.
         over: String,
     },
     /// The blocks have no weight that could grow.
@@ -66,12 +66,12 @@ pub enum LimitError {
         "the blocks have no weight of which a factor could grow: give their materials a `density`, or name a group of loads"
     )]
     NoWeight,
-    /// The loads of the group are zero.
+    /// All loads of the growing group are zero.
     #[error(
         "the loads of \"{group}\" are zero, so that no factor changes anything: give them a value, or name another group"
     )]
     NoForce {
-        /// Name of the group.
+        /// Name of the growing group.
         group: String,
     },
 }

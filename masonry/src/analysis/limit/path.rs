@@ -1,4 +1,5 @@
-//! The limit load of Coulomb's friction along a path: the factor grows step by step, and the blocks rest or flow.
+//! The limit load of Coulomb's friction along a path: the load factor grows step by step, and in each step the blocks
+//! rest or flow.
 
 mod events;
 mod steps;
@@ -19,20 +20,22 @@ use crate::recover;
 use crate::scene::SolverSettings;
 use crate::system::{System, mass};
 
-/// Steps up to the bound of associated flow. Measured on the walls of Ferris and Tin-Loi, whose published limits are met to
-/// 2e-3.
+/// Number of steps from zero to the bound of associated flow. Measured on the walls of Ferris and Tin-Loi, whose
+/// published limits are met to 2e-3.
 const STEPS: f64 = 16.0;
-/// The search ends at this relative difference between the factors at which blocks rest and at which they flow.
+/// Relative difference, between the load factors at which blocks rest and at which they flow, at which the search ends.
 const NEAR: f64 = 5e-5;
-/// The difference at which the search ends if blocks take long to fall, and to which events are located. Chosen: three
-/// digits.
+/// Relative difference of load factors at which the search ends if blocks take long to fall, and to which events are
+/// located. Chosen: three digits.
 const NEAR_ENOUGH: f64 = 1e-3;
-/// Steps of the solver in a long fall. Measured: walls of a few blocks fall within 100, walls of a hundred within some
-/// hundred.
+/// Number of steps of the solver above which a fall counts as long. Measured: walls of a few blocks fall within 100,
+/// walls of a hundred within some hundred.
 const LONG: usize = 200;
-/// Relative difference up to which these factors count as one number. Chosen: far below the change by another path.
+/// Relative difference up to which the load factors of rest and of flow count as one number. Chosen: far below the
+/// change by another path.
 const ONE_NUMBER: f64 = 5e-3;
-/// Steps of a structure that never falls; each is twice as long as the one before. Chosen.
+/// Number of steps, each twice as long as the one before, after which a structure counts as one that never falls.
+/// Chosen.
 const DOUBLED: usize = 10;
 
 /// The limit load of Coulomb's friction, in which joints do not open when they slide.
@@ -47,26 +50,26 @@ pub struct Path {
     pub load_factor: Option<f64>,
     /// The smallest factor \[-\] at which the blocks flow, or for which it is proved that no forces balance the loads.
     pub falls: Option<f64>,
-    /// Whether the two factors are close to each other, or the structure stands at every factor that was tried.
-    /// Otherwise neither rest nor flow was found between them.
+    /// Whether the limit is decided: both factors are close to each other, or the structure stands at every factor that
+    /// was tried. Otherwise there are factors between them at which neither rest nor flow was found.
     pub decided: bool,
-    /// The structure under [`load_factor`](Self::load_factor), with the springs.
+    /// The structure under [`load_factor`](Self::load_factor), including the stiffness of its dry joints.
     pub model: Model,
-    /// The last state at rest, point by point; slips are those of its step.
+    /// The contact points in the last state at rest; slips are those of its step.
     pub contacts: Option<Vec<PointState>>,
-    /// The reactions of the last state at rest.
+    /// The reactions of the supports in the last state at rest.
     pub reactions: Vec<Reaction>,
-    /// The motion of the blocks above `load_factor`: displacement rates of their corners, scaled to a largest component
-    /// of one.
+    /// The motion of the blocks under a factor above `load_factor`: displacement rates of the corners of every block,
+    /// scaled to a largest component of one.
     pub mechanism: Option<Vec<Vec<Vector2<f64>>>>,
     /// Joints that opened or slid for the first time along the path.
     pub events: Vec<JointEvent>,
-    /// The states at rest, by growing factor.
+    /// The states at rest along the path, by growing load factor.
     pub curve: Vec<Stand>,
 }
 
 impl Path {
-    /// The outcome.
+    /// Returns the outcome of the analysis along the path.
     pub fn answer(&self) -> Answer {
         match (self.decided, self.load_factor, self.falls) {
             (false, ..) => Answer::Undecided,
@@ -76,7 +79,7 @@ impl Path {
         }
     }
 
-    /// A warning that limits the meaning of the answer.
+    /// Returns a warning that limits the meaning of the answer.
     pub(super) fn warning(&self) -> String {
         let way = "Other paths may end at other factors because of friction.";
         let sentences = [self.model.of_dry_joints(), mass::of_unit_density(&self.model)];
@@ -84,19 +87,19 @@ impl Path {
     }
 }
 
-/// A state at rest on the path.
+/// A state of rest on the path.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Stand {
     /// The load factor \[-\].
     pub load_factor: f64,
-    /// The largest displacement \[m\] since the factor was zero; the displacement of rigid blocks comes from the
-    /// springs and has no meaning by itself.
+    /// The largest displacement \[m\] since the load factor was zero. Rigid blocks move only by the springs of their
+    /// joints, so that their displacements have no meaning by themselves.
     pub displacement: f64,
     /// The numbers of open, sticking and sliding contact points, in this order.
     pub contacts: [usize; 3],
 }
 
-/// Follows the path; `model` has blocks as they are, elastic or rigid.
+/// Follows the path for the blocks of `structure` as they are, elastic or rigid.
 pub(super) fn of(
     structure: &LoadedStructure<'_>,
     associative: &Associative,
@@ -115,7 +118,7 @@ pub(super) fn of(
     let loads = with_growth.problem.loads().iter().zip(sparse.problem.loads());
     let growth: Vec<f64> = loads.map(|(grown, stays)| grown - stays).collect();
     let mass = mass::lumped(&stays, &system);
-    // The tolerance of scenes that set none.
+    // The default tolerance, whatever the scene has.
     let SolverSettings { tolerance, .. } = SolverSettings::default();
     let steps = Steps {
         sparse: &sparse,
@@ -140,7 +143,7 @@ pub(super) fn of(
     climb.run()?;
     let Climb { steps, watch, rests, falls, motion, .. } = climb;
     let flows = motion.and_then(|motion| recover::flow(&stays, &system, &sparse, &motion));
-    // Nothing stops the motion of associated flow at the bound.
+    // The mechanism of associated flow is used if its bound ended the path.
     let is_bound = falls.is_some() && falls == associative.bound;
     let proved = associative.mechanism.as_ref().filter(|_| is_bound);
     let mechanism = flows.or_else(|| proved.cloned());
@@ -168,7 +171,8 @@ pub(super) fn of(
     })
 }
 
-/// Whether the factor that falls is hardly larger than the one that stands, or there is no factor that falls.
+/// Whether the least factor at which the structure falls is hardly larger than the largest at which it stands, or it
+/// falls at no factor.
 fn is_near(falls: Option<f64>, stands: Option<f64>, size: f64) -> bool {
     match (falls, stands) {
         (Some(falls), Some(stands)) => falls - stands <= (ONE_NUMBER * falls).max(NOTHING * size),
@@ -177,17 +181,18 @@ fn is_near(falls: Option<f64>, stands: Option<f64>, size: f64) -> bool {
     }
 }
 
-/// The search along growing factors.
+/// The search for the limit along growing load factors.
 struct Climb<'a, 'b> {
     steps: Steps<'a>,
     watch: &'a mut Watch<'b>,
-    /// The factor at which the growing loads are as large as the others.
+    /// The load factor at which the growing loads are as large as the others.
     size: f64,
     rests: Vec<(f64, AtRest)>,
-    /// The least factor at which no rest was found, and the least at which it is known that there is no rest.
+    /// The least load factor at which no rest was found (`end`), and the least at which it is known that there is no
+    /// rest (`falls`).
     end: Option<f64>,
     falls: Option<f64>,
-    /// The relative difference that the two factors may have.
+    /// The search ends when the last factor at rest and the least factor without rest differ by at most this fraction.
     near: f64,
     motion: Option<Vec<f64>>,
 }
@@ -199,7 +204,7 @@ impl Climb<'_, '_> {
             return Ok(());
         }
         let mut step = self.end.map_or(1.0, |end| end / STEPS);
-        // The search also ends for a structure that is at rest under no factor.
+        // The smallest step: the search must end for a structure that is at rest under no positive factor.
         let least = (NEAR * NEAR * self.end.unwrap_or(1.0)).max(NOTHING * self.size);
         let mut doubled = 0;
         loop {
@@ -226,7 +231,7 @@ impl Climb<'_, '_> {
         }
     }
 
-    /// Whether the blocks rest at a factor.
+    /// Tries a load factor, and returns whether the blocks rest under it.
     fn tried(&mut self, factor: f64) -> Result<bool, LimitError> {
         if self.watch.ask().is_break() {
             return Ok(false);

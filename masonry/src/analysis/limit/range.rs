@@ -15,8 +15,8 @@ use crate::model::{Body, Model};
 use crate::scene::Scene;
 use crate::system::System;
 
-/// The least and the largest reactions of all supports over all forces within friction that balance the loads, each for
-/// itself: the thrust of an arch, for instance, when its supports spread and when they close.
+/// The least and the largest reactions of every support over all forces within friction that balance the loads, each
+/// support for itself. Examples are the least and the largest thrust of an arch, as its supports spread or close.
 #[derive(Debug, Clone)]
 #[non_exhaustive]
 pub struct Range {
@@ -26,7 +26,7 @@ pub struct Range {
     pub model: Model,
     /// The extremes of every support, in the order of the scene; `None` if it is proved that no forces balance the loads.
     pub supports: Option<Vec<Extremes>>,
-    /// Whether the observer has ended the search.
+    /// Whether the observer ended the search early.
     pub is_interrupted: bool,
     /// The answer in the words of an engineer.
     pub sentence: String,
@@ -43,7 +43,7 @@ pub struct Extremes {
     pub fy: [Extreme; 2],
 }
 
-/// The ranges of all reactions of a scene under its loads in full.
+/// Computes the ranges of all reactions of a scene under its loads in full.
 ///
 /// # Errors
 /// [`LimitError`] when the scene is wrong.
@@ -51,8 +51,8 @@ pub fn ranges(scene: &Scene) -> Result<Range, LimitError> {
     ranges_observed(scene, &mut |_| ControlFlow::Continue(()))
 }
 
-/// The ranges, with an observer of all iterations that may end the search by `Break`: extremes that were not found by then are
-/// [`Extreme::Open`], or values with a bound further away.
+/// Computes the ranges of all reactions, with an observer of all iterations that may end the search by `Break`.
+/// Extremes that were not found by then are [`Extreme::Open`], or values with a bound further away.
 ///
 /// ```
 /// use std::ops::ControlFlow;
@@ -87,7 +87,7 @@ pub fn ranges_observed(scene: &Scene, observer: &mut Observer<'_>) -> Result<Ran
             if is_interrupted.get() {
                 return Ok([Extreme::Open; 2]);
             }
-            // The unknowns of the system are larger than the forces by the tensile strength.
+            // The unknowns of the system are forces plus the tensile strengths of the contacts.
             let (rows, beyond) = component(&model, &system, k, along);
             let opposite: Vec<f64> = rows.iter().map(|row| -row).collect();
             let least = negated(extreme(&system, &opposite, on)?);
@@ -105,8 +105,8 @@ pub fn ranges_observed(scene: &Scene, observer: &mut Observer<'_>) -> Result<Ran
     Ok(Range { title, model, supports: Some(supports), is_interrupted, sentence })
 }
 
-/// The component of the reaction of a support as a linear function of the forces of all rows, and its value for the tensile
-/// strengths.
+/// Returns a component of the reaction of a support as a linear function of the forces of all rows: the coefficients,
+/// and the value of the function for the tensile strengths.
 fn component(
     model: &Model,
     system: &System,

@@ -7,13 +7,13 @@
 //! M* = (sum P d)^2 / (g sum P d^2),   e* = g M* / sum P,   a_0* = alpha_0 g / (e* FC)  >=  a_g S / q,
 //! ```
 //!
-//! `alpha_0` is the component of the acceleration across gravity at the limit, over gravity; `d` is along this
-//! component. Sums are over the weights of the blocks that [move](crate::verify::moving), each in its centroid, and
-//! over loads with a mass on these blocks, each in its place. A weight at rest has no part in the mechanism, and would
-//! only make `e*` smaller.
+//! `alpha_0` is the component of the acceleration perpendicular to gravity at the limit, divided by gravity; `d` is
+//! along this component. Sums are over the weights of the blocks that [move](crate::verify::moving), each at its
+//! centroid, and over loads with a mass on these blocks, each at its place. A weight that does not move has no part in
+//! the mechanism, and would only make `e*` smaller.
 //!
-//! Several mechanisms may belong to one limit: any bed joint may slide if all slide alike. No `e*` is above one, so
-//! that `a_0* >= alpha_0 g / FC` for all mechanisms.
+//! Several mechanisms may belong to one limit: any bed joint may slide if all slide at the same factor. No `e*` is
+//! above one, so that `a_0* >= alpha_0 g / FC` for all mechanisms.
 
 use nalgebra::{Point2, Vector2};
 
@@ -30,11 +30,11 @@ use crate::verify::moving::moving;
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct SeismicCheck {
-    /// Whether factor and mechanism are those of the path with Coulomb's law, and not those of associated flow.
+    /// Whether load factor and mechanism are those of the path with Coulomb's law, instead of those of associated flow.
     pub is_of_path: bool,
-    /// The component of the acceleration across gravity at the limit, over gravity, `alpha_0` \[-\].
+    /// The component of the acceleration perpendicular to gravity at the limit, divided by gravity: `alpha_0` \[-\].
     pub multiplier: f64,
-    /// The sum of the weights that move, `sum P` \[N\].
+    /// The sum of the weights that move in the mechanism, `sum P` \[N\].
     pub weight: f64,
     /// The participating mass `M*` \[kg\].
     pub mass: f64,
@@ -42,19 +42,19 @@ pub struct SeismicCheck {
     pub fraction: f64,
     /// The spectral acceleration that activates the mechanism, `a_0*` \[m/s^2\].
     pub capacity: f64,
-    /// The least `a_0*` of all mechanisms of the same limit, that of `e* = 1` \[m/s^2\].
+    /// The least `a_0*` \[m/s^2\] that any mechanism of the same limit can have: the value for `e* = 1`.
     pub least_capacity: f64,
-    /// The spectral acceleration of the site, `a_g S / q` \[m/s^2\], if the scene has its data.
+    /// The spectral acceleration of the site, `a_g S / q` \[m/s^2\]; `None` if the scene does not have its data.
     pub demand: Option<f64>,
-    /// Gravity \[m/s^2\].
+    /// The acceleration of gravity \[m/s^2\].
     pub gravity: f64,
-    /// The data of the scene, or their defaults.
+    /// The data `[limit.seismic]` of the scene, or their defaults.
     pub data: Seismic,
 }
 
 impl SeismicCheck {
-    /// `true` if all mechanisms of the limit meet the demand, `false` if the mechanism that was found does not. `None`
-    /// if that mechanism meets the demand and others may not, and without a demand.
+    /// Returns `true` if all mechanisms of the limit meet the demand, and `false` if the mechanism that was found does
+    /// not. Returns `None` if that mechanism meets the demand but others may not, or if there is no demand.
     pub fn is_satisfied(&self) -> Option<bool> {
         let demand = self.demand?;
         if self.least_capacity >= demand {
@@ -68,8 +68,8 @@ impl SeismicCheck {
 }
 
 impl Limit {
-    /// Whether the seismic check of this limit is worse than that of another: by its answer, or, if the answers are
-    /// equal, by `a_0*` up to the factor that is not carried.
+    /// Whether the seismic check of this limit load is worse than that of `other`. The results of the checks are
+    /// compared first; if they are equal, the accelerations `a_0*`, up to the factor that is not carried.
     pub fn has_worse_check(&self, other: &Self) -> bool {
         let rank = |it: &SeismicCheck| match it.is_satisfied() {
             Some(false) => 0,
@@ -86,7 +86,8 @@ impl Limit {
         }
     }
 
-    /// Warns if another direction or combination has a worse seismic check than this limit, which governs.
+    /// Adds a warning if another direction or combination, `other`, has a worse seismic check than this limit load,
+    /// which governs.
     pub fn compare_check(&mut self, name: &str, other: &Self) {
         if other.has_worse_check(self) {
             self.warnings.push(format!(
@@ -96,7 +97,7 @@ impl Limit {
     }
 }
 
-/// The check by the law that [carries](super::Limit::carried), or the reason why there is no check.
+/// Computes the check by the law of [`carried`](super::Limit::carried), or returns the reason why there is no check.
 pub(super) fn of(
     scene: &Scene,
     structure: &LoadedStructure<'_>,
@@ -166,7 +167,7 @@ const UNDECIDED: &str = "the limit is undecided";
 const FALLS: &str = "the structure falls without the growing loads";
 const UNLIMITED: &str = "there is no limit";
 
-/// A factor and the rates of its mechanism.
+/// A load factor, and the displacement rates of the corners of every block in its mechanism.
 type Found<'a> = (f64, &'a [Vec<Vector2<f64>>]);
 
 fn of_path(path: &Path) -> Result<Found<'_>, &'static str> {
@@ -193,7 +194,7 @@ fn is_of_accelerations(scene: &Scene, grows: &[bool]) -> bool {
         && growing.all(|(load, _)| matches!(load.kind(), Some(LoadKind::Acceleration(_))))
 }
 
-/// The weights \[N\] on a block and their places: its own, and those of loads with a mass.
+/// Lists the weights \[N\] on a block with their places: the weight of the block, and those of loads with a mass.
 fn weights_on(model: &Model, block: &PlacedBlock) -> Vec<(Point2<f64>, f64)> {
     let down = model.gravity.normalize();
     let part = |cause: Cause| match cause {

@@ -3,7 +3,7 @@
 use super::{Answer, Associative, Path};
 use crate::rounding::{BoundSide, outwards};
 
-/// The sentence of the answers of both laws, or of one.
+/// Writes the sentence with the limit load by both laws of friction, or by one.
 pub(super) fn of(group: &str, associative: Option<&Associative>, path: Option<&Path>) -> String {
     match (associative, path) {
         (Some(associative), None) => of_associative(group, associative),
@@ -13,7 +13,7 @@ pub(super) fn of(group: &str, associative: Option<&Associative>, path: Option<&P
     }
 }
 
-/// The sentence on the bounds of a search that was interrupted.
+/// Writes the sentence with the bounds of the limit load if the search was interrupted.
 pub(super) fn of_interrupted(
     group: &str,
     associative: Option<&Associative>,
@@ -116,17 +116,17 @@ fn of_associative(group: &str, found: &Associative) -> String {
     }
 }
 
-/// A load factor that is carried, rounded down.
+/// Writes a load factor that is carried, rounded down.
 fn at_least(it: f64) -> String {
     outwards(it, BoundSide::Below, factor)
 }
 
-/// A load factor that is not carried, rounded up.
+/// Writes a load factor that is not carried, rounded up.
 fn at_most(it: f64) -> String {
     outwards(it, BoundSide::Above, factor)
 }
 
-/// A load factor with four decimals, if four are enough.
+/// Writes a load factor with four decimals, if four are enough.
 fn factor(it: f64) -> String {
     match it.abs() {
         0.0 => "0".to_owned(),

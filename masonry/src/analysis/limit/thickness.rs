@@ -1,4 +1,4 @@
-//! The least thickness of an arch.
+//! The least thickness at which an arch stands.
 
 use std::ops::ControlFlow;
 
@@ -15,13 +15,15 @@ use crate::rounding::{BoundSide, outwards};
 use crate::scene::{Known, Scene, SceneError};
 use crate::system::System;
 
-/// The search ends at this relative difference between the thicknesses on both sides of the least one.
+/// Relative difference, between a thickness at which the arch falls and one at which it stands, at which the search
+/// ends.
 const NEAR: f64 = 1e-6;
-/// The number of times that a thickness is doubled or halved to find one that falls and one that stands.
+/// The number of times that the thickness is doubled or halved to find one at which the arch falls and one at which it
+/// stands.
 const DOUBLED: u32 = 10;
 
-/// The least thickness at which an arch stands, between one that falls and one that stands; the span and the rise of
-/// its intrados and all other parts of the scene stay.
+/// The least thickness at which an arch stands, between a thickness at which it falls and one at which it stands. The
+/// span and the rise of its intrados and all other parts of the scene do not change.
 #[derive(Debug, Clone)]
 #[non_exhaustive]
 pub struct Thickness {
@@ -31,34 +33,36 @@ pub struct Thickness {
     pub arch: String,
     /// The thickness \[m\] in the scene.
     pub given: f64,
-    /// The largest thickness \[m\] at which it is proved that the structure falls.
+    /// The largest thickness \[m\] at which it is proved that the structure falls; `None` if no such thickness was
+    /// found.
     pub falls: Option<f64>,
-    /// The smallest thickness \[m\] at which forces were found that balance the loads.
+    /// The smallest thickness \[m\] at which forces were found that balance the loads; `None` if no such thickness was
+    /// found.
     pub stands: Option<f64>,
     /// Whether `falls` and `stands` are so near to each other that they are one number.
     pub proved: bool,
-    /// Whether the observer has ended the search.
+    /// Whether the observer ended the search early.
     pub is_interrupted: bool,
-    /// The structure that stands, or the structure of the scene if none stands.
+    /// The structure with the thickness `stands`, or with the thickness in the scene if there is none.
     pub model: Model,
-    /// The forces of the structure that stands, point by point; gaps and slips are zero.
+    /// The forces at all contact points for the thickness `stands`; gaps and slips are zero.
     pub forces: Option<Vec<PointState>>,
-    /// The mechanism at `falls`: rates of the corners of every block.
+    /// The mechanism for the thickness `falls`: displacement rates of the corners of every block.
     pub mechanism: Option<Vec<Vec<Vector2<f64>>>>,
     /// The answer in the words of an engineer.
     pub sentence: String,
 }
 
-/// The least thickness of an arch under the loads of the scene in full.
+/// Computes the least thickness of an arch under the loads of the scene in full.
 ///
 /// # Errors
-/// [`LimitError`] when the scene is wrong, or has no such arch. A thickness at which the scene is wrong ends the
-/// search.
+/// [`LimitError`] when the scene is wrong, or has no such arch. If the scene does not admit a thickness that the search
+/// tries later, the search ends there without an error.
 pub fn least_thickness(scene: &Scene, arch: &str) -> Result<Thickness, LimitError> {
     least_thickness_observed(scene, arch, &mut |_| ControlFlow::Continue(()))
 }
 
-/// The least thickness, with an observer that may end the search by `Break`.
+/// Computes the least thickness of an arch, with an observer that may end the search by `Break`.
 ///
 /// # Errors
 /// As [`least_thickness`].
@@ -84,14 +88,14 @@ pub fn least_thickness_observed<'a>(
     search.finish(arch, given)
 }
 
-/// A search between two thicknesses, in units of the scene.
+/// The search by bisection between two thicknesses, in units of the scene.
 struct Bisection<'a> {
     scene: Scene,
     place: usize,
     watch: Watch<'a>,
     falls: Option<(f64, Vec<Vec<Vector2<f64>>>)>,
     stands: Option<(f64, Model, Vec<PointState>)>,
-    /// The thickness that does not fit into the rest of the scene, and the error.
+    /// The thickness that does not fit into the rest of the scene, if there is one, and the error of the scene.
     unfit: Option<(f64, SceneError)>,
 }
 
@@ -118,13 +122,14 @@ impl Bisection<'_> {
         Ok(())
     }
 
-    /// Tries a thickness; whether the arch was found to stand or to fall.
+    /// Tries a thickness, and returns whether it was decided that the arch stands or falls.
     fn tried(&mut self, thickness: f64) -> Result<bool, LimitError> {
         if self.watch.ask().is_break() {
             return Ok(false);
         }
         self.scene.arches[self.place].thickness = Some(thickness);
-        // An arch that no longer fits into the rest of the scene, such as below a load, ends the search.
+        // If the arch no longer fits into the rest of the scene, because it ends below a load for example, the search
+        // ends.
         let model = match Model::from_scene(&self.scene) {
             Err(error) if self.falls.is_some() || self.stands.is_some() => {
                 self.unfit = Some((thickness, error));

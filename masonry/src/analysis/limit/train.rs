@@ -1,26 +1,26 @@
-//! A train that crosses a bridge: the limit load at every position, and at the worst of them.
+//! A train that crosses a bridge: the limit load at every position, and at the worst position.
 
 use std::ops::ControlFlow;
 
 use super::{Answer, Laws, Limit, LimitError, LimitObserver, Path, limit_observed};
 use crate::scene::Scene;
 
-/// The warning if the path was followed at the worst position only.
+/// The warning if the path was followed only at the worst position.
 const OF_ONE_POSITION: &str = "The position is the one at which associated flow carries least; Coulomb's friction may \
                                carry less at another. `--law path` follows the load at every position, which takes \
                                longer.";
 
-/// The limit load of a train at one position, by the law of [`CrossingTrain::by_path`].
+/// The limit load of a train at one position, by the law of friction of [`CrossingTrain::by_path`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct TrainPosition {
-    /// The position \[m\].
+    /// The position of the train \[m\].
     pub at: f64,
     /// The outcome; `None` if no axle stands on the bridge.
     pub answer: Option<Answer>,
-    /// The largest factor \[-\] that is carried; `None` if none is known.
+    /// The largest load factor \[-\] that is carried; `None` if none is known.
     pub load_factor: Option<f64>,
-    /// The smallest factor \[-\] that is known not to be carried.
+    /// The smallest load factor \[-\] that is known not to be carried; `None` if none is known.
     pub bound: Option<f64>,
 }
 
@@ -40,22 +40,23 @@ impl TrainPosition {
     }
 }
 
-/// A train that crosses a bridge.
+/// The limit loads of a train that crosses a bridge.
 #[derive(Debug, Clone)]
 #[non_exhaustive]
 pub struct CrossingTrain {
-    /// The positions in their order, up to the last one that was reached.
+    /// The positions of the train in their order, up to the last one that was computed.
     pub positions: Vec<TrainPosition>,
     /// Whether the limits of all positions are those of Coulomb's friction along paths, and not of associated flow.
     pub by_path: bool,
-    /// The position with the smallest factor; if there is no limit, the first with an axle on the bridge.
+    /// The index of the worst position, with the smallest load factor; if there is no limit, the first position with an
+    /// axle on the bridge.
     pub critical: usize,
-    /// The limit load there, by the chosen laws.
+    /// The limit load at the worst position, by the chosen laws of friction.
     pub limit: Limit,
 }
 
-/// The limit loads of the train of the scene by associated flow, and by both laws at the position with the least of
-/// these loads.
+/// Computes the limit loads of the train of the scene: by associated flow at all positions, and by both laws of
+/// friction at the position with the smallest of these loads.
 ///
 /// ```
 /// use masonry::analysis::limit::train;
@@ -82,10 +83,10 @@ pub fn train(scene: &Scene) -> Result<CrossingTrain, LimitError> {
     train_observed(scene, Laws::Both, &mut |_| ControlFlow::Continue(()))
 }
 
-/// The limit loads of the train with an observer that may end the search by `Break`.
+/// Computes the limit loads of the train of the scene, with an observer that may end the search by `Break`.
 ///
-/// All positions are computed along paths if this law alone is chosen, and else by associated flow, which is far
-/// quicker. [`Laws::Both`] follows a path at the worst position only, and adds a warning.
+/// All positions are computed along paths if [`Laws::Path`] is chosen, and otherwise by associated flow, which is far
+/// quicker. [`Laws::Both`] follows a path only at the worst position, and adds a warning.
 ///
 /// # Errors
 /// [`LimitError`] when the scene is wrong, has no train, or has a train that is never on the bridge.
@@ -105,7 +106,7 @@ pub fn train_observed(
         let limit = match limit_observed(&scene.with_train(train, place), of_all, &mut |it| {
             observer(it)
         }) {
-            // No axle is on the bridge.
+            // No axle stands on the bridge.
             Err(LimitError::NoForce { .. }) => {
                 positions.push(TrainPosition { at, answer: None, load_factor: None, bound: None });
                 continue;

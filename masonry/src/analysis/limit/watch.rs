@@ -1,10 +1,10 @@
-//! The observer of a search for a limit, who may end the search.
+//! The observer of a search for a limit, which may end the search.
 
 use std::ops::ControlFlow;
 
 use lcp::Iteration;
 
-/// The bounds of a limit during its search.
+/// The bounds of a limit that are known during its search.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Bracket {
     /// The largest load factor \[-\], or the smallest thickness \[m\], that was found to stand.
@@ -13,10 +13,10 @@ pub struct Bracket {
     pub falls: Option<f64>,
 }
 
-/// A function that is called with the bounds many times during the search; `Break` ends the search.
+/// A function that is called many times during the search with the bounds that are known; `Break` ends the search.
 pub type LimitObserver<'a> = dyn FnMut(Bracket) -> ControlFlow<()> + 'a;
 
-/// An observer, the bounds for it, and whether it has ended the search.
+/// An observer, the bounds that it is called with, and whether it has ended the search.
 pub(super) struct Watch<'a> {
     observer: &'a mut LimitObserver<'a>,
     pub(super) known: Bracket,
@@ -28,13 +28,13 @@ impl<'a> Watch<'a> {
         Self { observer, known: Bracket::default(), is_ended: false }
     }
 
-    /// Calls the observer, unless it has ended the search.
+    /// Calls the observer, unless it has ended the search before; returns `Break` if the search has ended.
     pub(super) fn ask(&mut self) -> ControlFlow<()> {
         self.is_ended = self.is_ended || (self.observer)(self.known).is_break();
         if self.is_ended { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     }
 
-    /// Calls the observer at the steps of a solver.
+    /// Returns a function that calls the observer at every step of a solver.
     pub(super) fn steps(&mut self) -> impl FnMut(&Iteration) -> ControlFlow<()> {
         |_| self.ask()
     }

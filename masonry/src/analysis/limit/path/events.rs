@@ -1,4 +1,4 @@
-//! Events along the path: joints that open and slide.
+//! Events along the path: joints that open and slide as the load factor grows.
 
 use serde::Serialize;
 
@@ -13,15 +13,15 @@ use crate::model::Model;
 use crate::rounding::largest;
 use crate::system::System;
 
-/// Gaps below this part of the largest displacement count as closed, and forces within this part of the largest force
-/// from the bound of friction count as at the bound. Chosen: far above the errors of states, far below values that
-/// matter.
+/// Gaps below this part of the largest displacement count as closed, and forces whose distance from the bound of
+/// friction is below this part of the largest force count as at the bound. Chosen: far above the errors of states, far
+/// below values that matter.
 const ZERO: f64 = 1e-7;
-/// The number of steps between states times the number of contact points. Chosen: all events of some dozen blocks are
-/// located, and the first events of hundreds, in a part of the time of the path.
+/// Number of additional steps that locate events, multiplied by the number of contact points. Chosen: all events of
+/// some dozen blocks are located, and the first events of hundreds of blocks, in a part of the time of the path.
 const STEPS_BY_POINTS: usize = 5000;
 
-/// A change of a joint.
+/// A change of the state of a joint.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum JointChange {
@@ -34,18 +34,19 @@ pub enum JointChange {
 }
 
 impl JointChange {
-    /// Whether a joint does more than before. A joint that was open and closes at one end has no hinge there.
+    /// Whether a joint opens or slides more than before. A joint that was open and closes at one end is not a new
+    /// hinge.
     fn is_after(self, before: Option<Self>) -> bool {
         before != Some(self) && (self, before) != (Self::Hinges, Some(Self::Opens))
     }
 }
 
-/// The first time that a joint opens or slides.
+/// An event: a joint opens or slides for the first time.
 #[derive(Debug, Clone, PartialEq)]
 pub struct JointEvent {
-    /// The joint.
+    /// The joint that changes its state.
     pub joint: JointId,
-    /// The change.
+    /// The change of its state.
     pub change: JointChange,
     /// The load factor \[-\] of the last state at rest before the change.
     pub after: f64,
@@ -53,18 +54,18 @@ pub struct JointEvent {
     pub before: f64,
 }
 
-/// The events on the way, and the states between them.
+/// The search for events along the path, with additional states between those of the path.
 pub(super) struct EventSearch<'a> {
     pub(super) model: &'a Model,
     pub(super) system: &'a System,
     pub(super) steps: &'a Steps<'a>,
-    /// Difference of the load factors \[-\] of two states to which an event is located.
+    /// Largest difference between the load factors \[-\] of the states before and after an event.
     pub(super) near: f64,
 }
 
 impl EventSearch<'_> {
-    /// Follows the states, and adds others between two of them if joints open or slide there, as long as the search is
-    /// quick.
+    /// Follows the states at rest along the path and lists the events. Adds a state between two of them if a joint
+    /// opens or slides there, until all additional steps are used.
     pub(super) fn follow(
         &self,
         mut rests: Vec<(f64, AtRest)>,
@@ -75,7 +76,7 @@ impl EventSearch<'_> {
         let mut curve: Vec<Stand> = Vec::new();
         let mut known = vec![Vec::new(); self.model.joints.len()];
         let at_zero = rests.first().map(|(_, rest)| rest.u.clone()).unwrap_or_default();
-        // The next state comes last.
+        // The next state is the last of the list.
         rests.reverse();
         let mut last: Option<(f64, AtRest, Vec<Option<JointChange>>)> = None;
         while let Some((factor, rest)) = rests.pop() {

@@ -1,4 +1,4 @@
-//! One step of a load factor: the blocks rest, or flow.
+//! One step of the load factor, at the end of which the blocks rest or flow.
 
 use lcp::{Contact2d, ContactState, Ending, Observer, Solver, WarmStart};
 
@@ -8,18 +8,18 @@ use crate::method::loading::{self, Loading};
 /// A state of the blocks at rest.
 #[derive(Debug, Clone)]
 pub(super) struct AtRest {
-    /// Displacements of the sparse problem.
+    /// Displacements of the sparse problem at rest.
     pub(super) u: Vec<f64>,
-    /// Forces and gaps; slips of the last part of the step.
+    /// Forces and gaps at rest; slips of the last part of the step.
     pub(super) state: ContactState,
-    /// The problem with the loads of the state, and with slips measured from the state.
+    /// The problem under the loads of the state at rest, with slips measured from this state.
     under: Contact2d,
 }
 
-/// The end of a step.
+/// The outcome of a step.
 pub(super) enum StepEnd {
     Rests(Box<AtRest>),
-    /// The blocks flow, with these velocities of all displacements.
+    /// The blocks flow, with these velocities of all displacements of the sparse problem.
     Flows(Vec<f64>),
     /// Neither rest nor flow was found.
     Open,
@@ -28,16 +28,16 @@ pub(super) enum StepEnd {
 /// A structure under loads that stay and others that grow.
 pub(super) struct Steps<'a> {
     pub(super) sparse: &'a Sparse,
-    /// The loads that grow, for a factor of one.
+    /// The growing loads on all displacements for a load factor of one.
     pub(super) growth: &'a [f64],
-    /// The mass of every displacement \[kg\], and the distance that blocks may move, `reach` \[m\].
+    /// The mass of every displacement \[kg\], and the largest distance that blocks may move, `reach` \[m\].
     pub(super) mass: &'a [f64],
     pub(super) reach: f64,
     pub(super) tolerance: f64,
 }
 
 impl Steps<'_> {
-    /// Advances to a load factor, from a state at rest or without one.
+    /// Advances to a load factor, from a state at rest, or from no loads if there is no such state.
     pub(super) fn advance(
         &self,
         from: Option<&AtRest>,
