@@ -1,7 +1,7 @@
-//! The way from a scene to an outcome: every stage in order, each timed.
+//! The solution of a scene, from the scene to its outcome: every phase in order, each timed.
 //!
-//! scene -> model -> plan -> system -> reduction or sparse form -> route -> recovery -> checks; from the
-//! reduction on, once for every step of the load history.
+//! scene -> model -> plan -> system -> reduction or sparse form -> route -> recovery -> checks. The phases from the
+//! reduction on are repeated for every step of the load history.
 
 mod chain;
 mod run;
@@ -29,10 +29,10 @@ pub enum SolveError {
     /// The scene is wrong.
     #[error(transparent)]
     Scene(#[from] SceneError),
-    /// A block cannot be assembled.
+    /// The equations of a block cannot be assembled.
     #[error(transparent)]
     System(#[from] SystemError),
-    /// A block can move although no contact changes.
+    /// A block can move without any change at its contacts.
     #[error(
         "block \"{block}\" can {motion} without changing a gap or sliding against friction \
          (free motions in all: {free}): let it touch its neighbours or a support, or give its \
@@ -41,9 +41,9 @@ pub enum SolveError {
     Free {
         /// Name of the block that moves most.
         block: String,
-        /// The motion of the block.
+        /// The motion of this block.
         motion: FreeMotion,
-        /// Number of independent motions that nothing resists.
+        /// Number of independent motions of all blocks that nothing resists.
         free: usize,
     },
     /// The matrices would need too much memory.
@@ -52,26 +52,26 @@ pub enum SolveError {
     /// The solver refused its settings or the data.
     #[error("the complementarity problem was refused: {0}")]
     Solver(#[from] lcp::Error),
-    /// The route cannot treat the structure.
+    /// The route cannot treat a structure of this kind.
     #[error("{} cannot treat this problem: {reason}", .route.name())]
     NotTreated {
-        /// The route.
+        /// The route that refused the structure.
         route: Route,
         /// The reason, and an alternative.
         reason: String,
     },
-    /// A later step of the load history could not be solved; the steps before it are kept.
+    /// A step of the load history after the first could not be solved; the steps before it are kept.
     #[error("step {step} of stage \"{stage}\": {error}")]
     Step {
         /// Name of the stage.
         stage: String,
         /// Number of the step in the stage, from 1.
         step: usize,
-        /// The error.
+        /// The error of the step.
         #[source]
         error: Box<SolveError>,
     },
-    /// The checkpoint does not fit.
+    /// The checkpoint cannot be continued with this scene.
     #[error(transparent)]
     Checkpoint(#[from] CheckpointError),
 }
@@ -91,7 +91,7 @@ impl From<AlmError> for SolveError {
 }
 
 impl SolveError {
-    /// Whether the route refuses the problem; another route may treat it.
+    /// Whether a route refused the problem, so that another route may treat it.
     pub fn is_refusal(&self) -> bool {
         matches!(self, Self::NotTreated { .. } | Self::Solver(lcp::Error::NotTreated { .. }))
     }
@@ -116,10 +116,8 @@ impl SolveError {
 /// # Ok::<(), masonry::analysis::solve::SolveError>(())
 /// ```
 ///
-/// # Errors
-/// [`SolveError`] if the scene is wrong.
-/// [`SolveInfo::status`](crate::analysis::outcome::SolveInfo::status) is not `Solved` if the scene is right and no equilibrium
-/// was found.
+/// [`SolveError`] if the scene is wrong. If the scene is right but no equilibrium was found, there is no error, and
+/// [`SolveInfo::status`](crate::analysis::outcome::SolveInfo::status) is not `Solved`.
 pub fn solve(scene: &Scene) -> Result<Outcome, SolveError> {
     solve_observed(scene, &mut |_| ControlFlow::Continue(()))
 }

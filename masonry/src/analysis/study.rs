@@ -1,8 +1,8 @@
-//! The cost of accuracy: a scene by several routes, to several tolerances, on several meshes.
+//! The cost of accuracy: the errors and times of a scene by several routes, to several tolerances, on several meshes.
 //!
-//! Two errors are distinguished. The *algebraic* error of a solution is the error of the solver: its distance from
-//! the [`Reference`] of the same mesh, the most accurate solution on it. The error of the *mesh*, which no solver can
-//! reduce, is the distance of that reference from the one of the finest mesh.
+//! Two errors are distinguished. The *algebraic* error of a solution is the error of the solver: the distance of the
+//! solution from the [`Reference`] on the same mesh, which is the most accurate solution there. The error of the
+//! *mesh*, which no solver can reduce, is the distance of this reference from the reference on the finest mesh.
 //!
 //! ```
 //! use masonry::scene::{Brick, Joint, Load, Material, Route, Scene, Support, Wall};
@@ -58,24 +58,25 @@ use crate::units::Units;
 use figures::Figures;
 use runs::Runner;
 
-/// Routes, tolerances and meshes of a study, and the time limit of a solve.
+/// The settings of a study: routes, tolerances, meshes, and limits of the solves.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Settings {
-    /// The routes; the record of a route that does not treat the scene has the reason.
+    /// The routes. If a route does not treat the scene, its record has the reason.
     pub routes: Vec<Route>,
     /// The tolerances \[-\], between 0 and 1.
     pub tolerances: Vec<f64>,
-    /// Factors by which the numbers of elements of all walls and blocks are multiplied, per direction. A scene of
-    /// rigid blocks has no elements, and is studied as it is.
+    /// Refinement factors of the meshes: the numbers of elements of all walls and blocks per direction are multiplied
+    /// by each. A scene of rigid blocks has no elements, and is studied as it is.
     pub meshes: Vec<u32>,
-    /// Names of the meshes in reports, in their order; missing ones are named by their factors.
+    /// Names of the meshes in reports, in the order of [`meshes`](Self::meshes); a mesh without a name is named by its
+    /// factor.
     pub mesh_names: Vec<String>,
-    /// Wall-clock time of one solve. The observer checks the limit, so that a single factorisation or program is
-    /// never interrupted: [`Record::overrun`] shows the solves that took longer.
+    /// Limit of the wall-clock time of one solve. The observer checks the limit between iterations, so that a single
+    /// factorisation or program is never interrupted: [`Record::overrun`] marks the solves that took longer.
     pub time_limit: Duration,
-    /// Number of runs of a solve of less than a second; its time is the median.
+    /// Number of times that a solve of less than a second is repeated in all; the median time is recorded.
     pub repeats: usize,
-    /// The machine on which times are measured, for reports; [`machine`], for instance.
+    /// The machine on which times are measured, as text for reports: [`machine`], for example.
     pub machine: Option<String>,
 }
 
@@ -110,7 +111,7 @@ impl Settings {
         if self.meshes.contains(&0) { Err(StudyError::NoElements) } else { Ok(()) }
     }
 
-    /// "mesh 4 (4 times as fine)", unless it has another name.
+    /// Returns the name of a mesh in reports: "mesh 4 (4 times as fine)", unless the settings have another name.
     fn mesh_name(&self, factor: u32) -> String {
         let position = self.meshes.iter().position(|it| *it == factor);
         match position.and_then(|position| self.mesh_names.get(position)) {
@@ -128,39 +129,40 @@ pub enum StudyError {
     /// The scene is wrong.
     #[error(transparent)]
     Scene(#[from] SceneError),
-    /// A list of the settings is empty.
+    /// A list in the settings is empty.
     #[error("a study needs at least one {what}: name one, or leave the list out")]
     Empty {
         /// Name of the empty list.
         what: &'static str,
     },
-    /// A tolerance is out of its range.
+    /// A tolerance is not between 0 and 1.
     #[error("a tolerance lies between 0 and 1, and {0} does not: correct it")]
     Tolerance(f64),
-    /// A mesh has no elements.
+    /// A refinement factor is zero, so that the mesh would have no elements.
     #[error("a mesh factor is at least 1, and 0 leaves no elements: correct it")]
     NoElements,
 }
 
-/// The end of a solve.
+/// The outcome of one solve of a study.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum End {
-    /// The solve ended with this status; [`Status::TimeLimit`] by [`Settings::time_limit`].
+    /// The solve ended with this status, which is [`Status::TimeLimit`] if it took longer than
+    /// [`Settings::time_limit`].
     Ended(Status),
-    /// The route does not treat the scene, for this reason.
+    /// The route does not treat the scene; the text is the reason.
     Refused(String),
-    /// The solve was not tried, for this reason.
+    /// The solve was not tried; the text is the reason.
     Skipped(String),
 }
 
 impl End {
-    /// Whether there is a solution.
+    /// Whether the solve ended with a solution.
     pub fn is_solved(&self) -> bool {
         *self == Self::Ended(Status::Solved)
     }
 
-    /// The end in one word.
+    /// Returns the outcome in one word.
     pub fn name(&self) -> String {
         match self {
             Self::Ended(status) => status.to_string(),
@@ -169,7 +171,7 @@ impl End {
         }
     }
 
-    /// The reason for which there was no solve.
+    /// Returns the reason for which the solve was refused or skipped; `None` if it ended.
     pub fn reason(&self) -> Option<&str> {
         match self {
             Self::Ended(_) => None,
@@ -178,26 +180,29 @@ impl End {
     }
 }
 
-/// The result of one route to one tolerance on one mesh.
+/// The record of one solve: one route, to one tolerance, on one mesh.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Record {
     /// The route.
     pub route: Route,
-    /// The tolerance \[-\].
+    /// The tolerance of the solve \[-\].
     pub tolerance: f64,
-    /// The factor of the mesh.
+    /// The refinement factor of the mesh.
     pub mesh: u32,
-    /// The end of the solve.
+    /// The outcome of the solve.
     pub end: End,
-    /// The residual reached \[-\], recomputed from the original data; of the last step of a load history.
+    /// The residual that was reached \[-\], recomputed from the original data (of the last step of a load history);
+    /// `None` without a result.
     pub residual: Option<f64>,
-    /// Wall-clock time from the scene to the checked solution, or to the failure \[s\].
+    /// Wall-clock time from the scene to the checked solution, or to the failure \[s\]; `None` if the solve was
+    /// skipped.
     pub seconds: Option<f64>,
-    /// Whether `seconds` exceeds the limit: one factorisation, reduction or program was not interrupted.
+    /// Whether `seconds` exceeds the time limit, because one factorisation, reduction or program was not interrupted.
     pub overrun: bool,
-    /// Pivots by [`Route::Lemke`], iterations by the others; of the last step of a load history.
+    /// Pivots of [`Route::Lemke`], or iterations of the other routes (of the last step of a load history).
     pub iterations: Option<usize>,
-    /// Algebraic errors: relative to the reference of the same mesh.
+    /// Algebraic errors of the solution, relative to the reference on the same mesh; `None` without a solution or a
+    /// reference.
     pub errors: Option<Errors>,
 }
 
@@ -208,11 +213,11 @@ pub struct Study {
     pub title: String,
     /// Units of the scene, for reports; all values here are in SI units.
     pub units: Units,
-    /// Time limit of one solve.
+    /// Limit of the wall-clock time of one solve.
     pub time_limit: Duration,
     /// The machine on which times were measured, if it was given.
     pub machine: Option<String>,
-    /// Whether the observer has ended the study, so that solves were skipped.
+    /// Whether the observer ended the study early, so that solves were skipped.
     pub is_interrupted: bool,
     /// The records by mesh, route and tolerance, in the order of the settings.
     pub records: Vec<Record>,
@@ -226,13 +231,13 @@ impl Study {
         self.on_first_mesh().any(|record| record.end.is_solved())
     }
 
-    /// The records of the first mesh.
+    /// Returns the records on the first mesh.
     pub fn on_first_mesh(&self) -> impl Iterator<Item = &Record> {
         let first = self.meshes.first().map(|mesh| mesh.factor);
         self.records.iter().filter(move |record| Some(record.mesh) == first)
     }
 
-    /// The routes, each once, in their order.
+    /// Returns the routes of the records, each once, in their order.
     pub fn routes(&self) -> Vec<Route> {
         let mut routes: Vec<Route> = Vec::new();
         for record in &self.records {
@@ -244,29 +249,29 @@ impl Study {
     }
 }
 
-/// The solve that is running.
+/// The solve of a study that is running.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct StudyProgress {
-    /// The factor of the mesh.
+    /// The refinement factor of the mesh.
     pub mesh: u32,
     /// The route.
     pub route: Route,
-    /// The tolerance \[-\].
+    /// The tolerance of the solve \[-\].
     pub tolerance: f64,
 }
 
-/// A function that is called with the running solve, many times in each; all further solves are skipped after
+/// A function that is called with the running solve, many times in each solve; all further solves are skipped after
 /// `Break`.
 pub type StudyObserver<'a> = dyn FnMut(StudyProgress) -> ControlFlow<()> + 'a;
 
 /// Studies a scene and reports the running solve to the observer.
 ///
-/// Form and limit of pivots of the scene are kept for [`Route::Lemke`]; its route, tolerance and springs
-/// are replaced.
+/// The form and the limit of pivots in the scene are kept for [`Route::Lemke`]; the route, the tolerance and the
+/// springs in the scene are replaced.
 ///
 /// # Errors
-/// [`StudyError`] for a scene that is wrong and for settings out of range. A route or a mesh that fails gives a
-/// record and no error.
+/// [`StudyError`] if the scene is wrong or settings are out of range. A route or a mesh that fails is recorded without
+/// an error.
 pub fn study<'a>(
     scene: &Scene,
     settings: &'a Settings,

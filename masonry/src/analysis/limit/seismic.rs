@@ -69,7 +69,8 @@ impl SeismicCheck {
 
 impl Limit {
     /// Whether the seismic check of this limit load is worse than that of `other`. The results of the checks are
-    /// compared first; if they are equal, the accelerations `a_0*`, up to the factor that is not carried.
+    /// compared first; if they are equal, this `a_0*`, computed with the least factor that is not carried, with the
+    /// other `a_0*`.
     pub fn has_worse_check(&self, other: &Self) -> bool {
         let rank = |it: &SeismicCheck| match it.is_satisfied() {
             Some(false) => 0,

@@ -1,4 +1,4 @@
-//! Routes one after another, each on its own form of the problem, until one has the answer.
+//! Runs the routes of a plan one after another, each on its own form of the problem, until one gives a final result.
 
 use std::cmp::Ordering;
 use std::ops::ControlFlow;
@@ -31,16 +31,17 @@ use crate::verify::checks::Checks;
 use crate::verify::step::{LoadingEnd, StepResult};
 use crate::verify::verdict::Drift;
 
-/// The start of a step of a load history.
+/// The state from which a step of a load history starts.
 pub(super) struct Before<'a> {
-    /// The loads, gaps and supports at the start, with slips measured from the state.
+    /// The problem with the loads, gaps and supports at the start of the step, with slips measured from the state
+    /// there.
     pub(super) problem: Contact2d,
     pub(super) state: &'a State,
-    /// The basis at which pivots ended.
+    /// The basis at which the pivots of the previous step ended; `None` without pivots.
     pub(super) basis: Option<&'a Start>,
 }
 
-/// A model on its way through the routes.
+/// A model that is solved by several routes, one after another.
 pub(super) struct Chain<'a> {
     pub(super) model: &'a Model,
     pub(super) system: &'a System,
@@ -50,7 +51,7 @@ pub(super) struct Chain<'a> {
     pub(super) observer: &'a mut dyn FnMut(Event) -> ControlFlow<()>,
     pub(super) before: Option<Before<'a>>,
     sparse: Option<Sparse>,
-    /// The decision whether there are admissible forces; made at most once.
+    /// The decision whether there are admissible forces; `None` until it is made, at most once.
     decision: Option<Decision>,
     /// Whether a proof that there are no admissible forces would end the current route.
     may_be_cut: bool,
@@ -79,8 +80,8 @@ impl<'a> Chain<'a> {
         }
     }
 
-    /// The most conclusive result of the routes, with the attempts of all of them; and the sparse problem, if it was
-    /// built.
+    /// Tries the routes in their order. Returns the most conclusive result, with the attempts of all routes, and the
+    /// sparse problem, if it was built.
     pub(super) fn run(
         mut self,
         routes: &[PlannedRoute],
@@ -109,7 +110,7 @@ impl<'a> Chain<'a> {
             ends.push(RouteRecord { route: *route, because: because.clone(), end, seconds });
             let mut tried = match tried {
                 Ok(tried) => tried,
-                // The next route may treat a structure that this one does not.
+                // The next route may treat a structure that this route refused.
                 Err(error) => {
                     refusal = refusal.or(Some(error));
                     continue;
@@ -152,7 +153,8 @@ impl<'a> Chain<'a> {
         }
     }
 
-    /// Loads rigid blocks that have admissible forces from a state without stresses, if the verdict needs it.
+    /// Loads rigid blocks with admissible forces slowly from a state without stresses, if the verdict needs this
+    /// loading.
     fn add_loading(&mut self, best: &mut StepResult) -> Result<(), SolveError> {
         let has_friction = !self.system.friction.is_empty();
         if !auto::needs_loading(best.info.status, self.system.is_at_rest(), has_friction) {
@@ -188,7 +190,7 @@ impl<'a> Chain<'a> {
         Ok(())
     }
 
-    /// The decision whether there are admissible forces.
+    /// Returns the decision whether there are admissible forces, and makes it if necessary.
     fn statics(&mut self) -> Result<&Decision, lcp::Error> {
         if self.decision.is_none() {
             let (model, system, observer) = (self.model, self.system, &mut *self.observer);
@@ -241,8 +243,9 @@ impl<'a> Chain<'a> {
         Ok(tried)
     }
 
-    /// Solves a result anew on the states of its contacts, with all displacements as unknowns: the reduced forms lose
-    /// digits of flat bricks, and of huge friction. The given result stays if the new one is not better.
+    /// Solves the equations of the contact states of a result again, with all displacements as unknowns, because the
+    /// reduced forms lose digits if bricks are flat or friction is huge. The given result is kept unless the new one
+    /// passes the checks.
     fn refine(&mut self, result: &mut StepResult) -> Result<(), SolveError> {
         let Self { model, system, .. } = *self;
         let Some(state) = &result.state else { return Ok(()) };
@@ -334,15 +337,15 @@ impl<'a> Chain<'a> {
         }
     }
 
-    /// Repeats the steps to a state of rest with a finer tolerance, half of the usual one over `excess`, the factor by
-    /// which the checks exceed their tolerance. Errors of such steps are rounding errors, so that no finer steps
-    /// follow. The first state is kept if the second is not better.
+    /// Repeats the steps to a state at rest with a finer tolerance: half of the usual one, divided by `excess`, the
+    /// factor by which the checks exceed their tolerance. Errors that remain are rounding errors, so that no still
+    /// finer steps follow. The first state is kept if the second is not better.
     fn finer(&mut self, route: Route, excess: f64, rough: StepResult) -> StepResult {
         if self.request.step_tolerance < loading::STEP_TOLERANCE {
             return rough;
         }
         self.request.step_tolerance = 0.5 * loading::STEP_TOLERANCE / excess;
-        // The rough answer stays if finer steps cannot be taken.
+        // The first answer is kept if finer steps cannot be taken.
         let Ok(finer) = self.on_sparse(route) else { return rough };
         let is_nearer = self.excess(&finer).is_some_and(|it| it < excess);
         let is_better = match finer.rank().cmp(&rough.rank()) {
@@ -358,12 +361,12 @@ impl<'a> Chain<'a> {
         best
     }
 
-    /// The factor by which the checks exceed their tolerance.
+    /// Returns the factor by which the checks exceed their tolerance; `None` if there is no state to check.
     fn excess(&self, tried: &StepResult) -> Option<f64> {
         tried.checks.as_ref().map(|checks| checks.excess(self.request.tolerance))
     }
 
-    /// A slip for every contact point, zero without friction.
+    /// Lists a slip for every contact point from the slips of the points with friction; all other slips are zero.
     fn by_contact(&self, moved: Vec<f64>) -> Vec<f64> {
         let mut slips = vec![0.0; self.model.contacts.len()];
         for (friction, slip) in self.system.friction.iter().zip(moved) {
@@ -372,7 +375,7 @@ impl<'a> Chain<'a> {
         slips
     }
 
-    /// The state of an answer on the sparse problem.
+    /// Recovers the mechanical state from the answer of a route on the sparse problem.
     fn recovered(&mut self, model: &Model, sparse: &Sparse, answer: &RouteAnswer) -> Option<State> {
         let Self { system, with_stresses, .. } = *self;
         let (rows, u) = answer.rows.as_ref().zip(answer.displacements.as_deref())?;
@@ -382,7 +385,7 @@ impl<'a> Chain<'a> {
         }))
     }
 
-    /// The sparse problem, built once; the caller gives it back after use.
+    /// Returns the sparse problem, which is built once; the caller stores it in `self.sparse` again after use.
     fn sparse(&mut self) -> Result<Sparse, lcp::Error> {
         let system = self.system;
         match self.sparse.take() {
@@ -417,8 +420,8 @@ impl<'a> Chain<'a> {
     fn concluded(&self, model: &Model, answer: RouteAnswer, state: Option<State>) -> StepResult {
         let checks = state.as_ref().map(|state| Checks::of(model, state));
         let RouteAnswer { mut info, basis, motion, moved, account, .. } = answer;
-        // The complementarity problem may be solved to its tolerance and the structure not: forces and
-        // displacements of very different size meet in one vector.
+        // The complementarity problem may be solved to its tolerance although the structure is not, because forces and
+        // displacements of very different size are in one vector.
         if checks.as_ref().is_some_and(|checks| !checks.hold(self.request.tolerance)) {
             info.status = Status::AlmostSolved;
         }

@@ -1,4 +1,4 @@
-//! A scene on its way through the steps of its load history, of which there is often only one.
+//! A run: the solution of a scene, step by step along its load history, which often has only one step.
 
 use std::ops::ControlFlow;
 
@@ -36,7 +36,7 @@ use crate::verify::verdict::{self, Findings};
 /// use masonry::analysis::solve::Run;
 /// use masonry::units::Units;
 ///
-/// // A block on a floor that is drawn away below it.
+/// // A block on a floor that is pulled away below the block.
 /// let scene = Scene::new("Floor drawn away", Units::SI)
 ///     .thickness(1.0)
 ///     .gravity([0.0, -10.0])
@@ -57,38 +57,39 @@ use crate::verify::verdict::{self, Findings};
 /// ```
 #[derive(Debug)]
 pub struct Run {
-    /// The noun for the structure in sentences.
+    /// The noun for the structure in sentences: "wall" or "arch".
     structure: &'static str,
     title: String,
-    /// The model under the only step; if there are several steps, with all loads in full and all supports in their
-    /// places.
+    /// The model under the actions of the only step. If there are several steps: the model with all loads in full and
+    /// all supports in their original places.
     model: Model,
     plan: Plan,
     system: System,
     steps: Vec<HistoryStep>,
     loads: Vec<String>,
-    /// Unusual magnitudes of the scene.
+    /// Warnings about unusual magnitudes in the scene.
     unusual: Vec<String>,
-    /// The scene that a checkpoint must match; empty for one step, without checkpoint.
+    /// The part of the scene, as text, that a checkpoint must have in common with it; empty for a scene of one step,
+    /// which has no checkpoint.
     origin: String,
     pub(super) request: Request,
     with_stresses: bool,
-    /// The steps that were solved; empty for one step.
+    /// The records of the steps that were solved; empty for a scene of one step.
     records: Vec<StepRecord>,
-    /// The outcome of another loading.
+    /// The outcome of the second loading; `None` if it was not requested.
     pub(super) second_loading: Option<SecondLoading>,
-    /// The last step that was solved.
+    /// The result of the last step that was solved.
     solved: Option<StepResult>,
-    /// The situation of the last state that was kept; `None` if there is only one step.
+    /// The model and slips of the last state that was kept; `None` if there is only one step.
     reached: Option<Situation>,
-    /// The step after the last solved one, if that step was tried and not solved.
+    /// The result of the step after the last solved one, if that step was tried and not solved.
     failed: Option<StepResult>,
     /// The sparse problem of the last step that was tried, if it was built.
     sparse: Option<Sparse>,
     clock: Clock,
 }
 
-/// The model of a step.
+/// The model of a step of the load history, with the slips from which it starts.
 #[derive(Debug)]
 struct Situation {
     /// The model under the actions of the step.
@@ -98,7 +99,7 @@ struct Situation {
 }
 
 impl Run {
-    /// Builds the parts that all steps have in common.
+    /// Builds the parts of the analysis that all steps have in common.
     ///
     /// # Errors
     /// [`SolveError`] when the scene is wrong or too large.
@@ -147,7 +148,7 @@ impl Run {
         })
     }
 
-    /// Goes on from the last step of a checkpoint.
+    /// Continues from the last step of a checkpoint.
     ///
     /// Route, tolerance, output, and stages that are still to come may differ from those of the run that wrote the
     /// checkpoint.
@@ -176,7 +177,7 @@ impl Run {
         let state = checkpoint.state(&model, self.with_stresses)?;
         let slips = checkpoint.slips(&model)?;
         let model = self.model.under(&record.step.actions, &slips);
-        // The checks need the slips of the last step alone, and the state has the sums over all steps.
+        // The checks need only the slips of the last step, but the state has the sums over all steps.
         let mut of_step = state.clone();
         of_step.contacts.iter_mut().zip(&slips).for_each(|(contact, slip)| contact.y_t -= slip);
         let checks = Checks::of(&model, &of_step);
@@ -193,7 +194,8 @@ impl Run {
         Ok(self)
     }
 
-    /// Solves the next step; false when there is none, or the last one failed. `Break` cancels the step, which fails then.
+    /// Solves the next step; returns false if there is no next step, or if the last one failed. `Break` cancels the
+    /// step, which then counts as failed.
     ///
     /// # Errors
     /// As [`solve`](super::solve). Steps that were solved before are kept.
@@ -242,7 +244,7 @@ impl Run {
         }
     }
 
-    /// The situation of a step after the last one that was solved.
+    /// Returns the model for a step after the last solved one, with the slips at its start.
     fn situation(&self, step: &HistoryStep) -> Situation {
         let state = self.solved.as_ref().and_then(|solved| solved.state.as_ref());
         let slips: Vec<f64> = match state {
@@ -252,8 +254,8 @@ impl Run {
         Situation { model: self.model.under(&step.actions, &slips), slips }
     }
 
-    /// The problem of the last step that was solved, with slips measured from its state, and a snapshot for the work of
-    /// the next step.
+    /// Builds the problem of the last step that was solved, with slips measured from its state, and the snapshot from
+    /// which the work of the next step is computed; `None` before the first step.
     fn before(&mut self, slips: &[f64]) -> Result<Option<(Contact2d, Snapshot)>, SolveError> {
         let state = self.solved.as_ref().and_then(|solved| solved.state.as_ref());
         let Some((record, state)) = self.records.last().zip(state) else { return Ok(None) };
@@ -263,13 +265,13 @@ impl Run {
         Ok(Some((Sparse::new(&self.system)?.problem, snapshot)))
     }
 
-    /// The result of a step without an answer: no route ran, or the routes refused the step.
+    /// Returns the result of a step without an answer: no route ran, or all routes refused the step.
     fn without_state(&self, status: Status) -> StepResult {
         let info = SolveInfo::new(self.plan.routes[0].route, status, UNKNOWN);
         StepResult::new(SolveInfo { because: "planned; no route has ended".to_owned(), ..info })
     }
 
-    /// Keeps a result. There is nothing else to remember if there is only one step.
+    /// Keeps the result of a step. If there is only one step, nothing else is kept.
     fn take(
         &mut self,
         step: HistoryStep,
@@ -280,15 +282,15 @@ impl Run {
         if let Some(situation) = situation {
             self.remember(step, situation, before, &mut tried);
         } else if let Some(moved) = &tried.moved {
-            // The state is judged with slips measured from the places that the blocks have reached.
+            // Slips of the state are measured from the places that the blocks have reached.
             self.model = self.model.slid(moved);
         }
         let place = if tried.is_solved() { &mut self.solved } else { &mut self.failed };
         *place = Some(tried);
     }
 
-    /// Keeps the record of a solved step, and the situation of its state. The state of an unsolved step counts only if
-    /// there is no earlier state.
+    /// Keeps the record of a solved step, and the model and slips of its state. The state of an unsolved step is kept
+    /// only if no step before it was solved.
     fn remember(
         &mut self,
         step: HistoryStep,
@@ -308,7 +310,8 @@ impl Run {
         self.reached = Some(reached);
     }
 
-    /// The situation of a state, whose slips become those of all steps.
+    /// Returns the model and slips of the state of a result, and changes the slips of this state to sums over all
+    /// steps.
     fn reached_by(
         &self,
         step: &HistoryStep,
@@ -329,7 +332,7 @@ impl Run {
         Some(Situation { model, slips })
     }
 
-    /// The record of a step after the last one that was solved.
+    /// Returns the record of a step after the last one that was solved; `None` if `result` has no state.
     fn record(
         &self,
         step: HistoryStep,
@@ -361,22 +364,23 @@ impl Run {
         })
     }
 
-    /// Whether there are several steps.
+    /// Whether the scene has several steps.
     pub fn has_history(&self) -> bool {
         self.steps.len() > 1
     }
 
-    /// The number of steps that were solved.
+    /// Returns the number of steps that were solved.
     pub fn solved_steps(&self) -> usize {
         if self.has_history() { self.records.len() } else { usize::from(self.solved.is_some()) }
     }
 
-    /// The number of steps of the scene.
+    /// Returns the number of steps of the scene.
     pub fn steps(&self) -> usize {
         self.steps.len()
     }
 
-    /// The state after the last step that was solved; `None` before the first, and for a scene of one step.
+    /// Returns the state after the last step that was solved; `None` before the first step, and for a scene of one
+    /// step.
     pub fn frame(&self) -> Option<Frame> {
         let position = self.records.len().checked_sub(1)?;
         let AtEnd { model, state, .. } = self.reached()?;
@@ -384,19 +388,20 @@ impl Run {
         Some(Frame { step, position, model: model.clone(), state: state.clone() })
     }
 
-    /// The end of a history; `None` before the last step is solved.
+    /// Returns the state at the end of the load history; `None` if the last step is not solved.
     pub(super) fn at_end(&self) -> Option<AtEnd<'_>> {
         self.reached().filter(|_| self.records.len() == self.steps.len())
     }
 
-    /// The end of the last step that was solved; `None` before the first, and for a scene of one step.
+    /// Returns the state after the last step that was solved; `None` before the first step, and for a scene of one
+    /// step.
     fn reached(&self) -> Option<AtEnd<'_>> {
         let (solved, reached) = (self.solved.as_ref()?, self.reached.as_ref()?);
         let dissipation = self.records.iter().map(|record| record.dissipation).sum();
         Some(AtEnd { model: &reached.model, state: solved.state.as_ref()?, dissipation })
     }
 
-    /// Everything that the next step needs; `None` before the first, and for a scene of one step.
+    /// Returns the data that the next step needs; `None` before the first step, and for a scene of one step.
     pub fn checkpoint(&self) -> Option<Checkpoint> {
         let StepResult { info, state, basis, .. } = self.solved.as_ref()?;
         let slips = &self.reached.as_ref()?.slips;
@@ -404,7 +409,7 @@ impl Run {
         Some(Checkpoint::new(origin, records, info, state.as_ref()?, slips, basis.as_ref()))
     }
 
-    /// The outcome: the state after the last step that was solved, and the reason why no other was.
+    /// Returns the outcome: the state after the last step that was solved and, if a step failed, the reason.
     pub fn finish(mut self) -> Outcome {
         let step = match (self.failed.take(), self.solved.take()) {
             (Some(failed), Some(StepResult { state, checks, .. })) => {
@@ -457,7 +462,7 @@ fn largest_displacement(state: &State) -> f64 {
     state.displacements.iter().flatten().map(nalgebra::Matrix::amax).fold(0.0, f64::max)
 }
 
-/// The noun for the structure of a scene in sentences.
+/// Returns the noun for the structure of a scene in sentences.
 fn noun(scene: &Scene) -> &'static str {
     if scene.walls.is_empty() && !scene.arches.is_empty() { "arch" } else { "wall" }
 }

@@ -1,4 +1,4 @@
-//! A second loading of a load history, and the distance of its answer from that of the first.
+//! The second loading of a load history, and the differences of its answer from that of the first.
 
 use std::ops::ControlFlow;
 
@@ -6,22 +6,21 @@ use super::{Event, Run, SolveError};
 use crate::history::{SecondLoading, Spread};
 use crate::scene::Scene;
 
-/// The speed of the second loading over that of the first: the ratio of the parts of the loads that their drag may
-/// carry. Chosen: large enough to matter, and still slow.
+/// Ratio of the speeds of the second and the first loading: the drag of the second may carry this many times as large a
+/// part of the loads. Chosen: large enough to matter, and still slow.
 const FASTER: f64 = 10.0;
 
-/// The number of steps of the first loading per step of the second. Chosen: the answers of twenty and of eighty steps
-/// differ by less than those of the two loadings (docs/scaling.md), and a second loading takes half the time of the
+/// Ratio of the numbers of steps of the first and the second loading. Chosen: the answers of twenty and of eighty steps
+/// differ by less than those of the two loadings (docs/scaling.md), and the second loading takes half the time of the
 /// first.
 const COARSER: u32 = 4;
 
 impl Run {
-    /// Loads the scene a second time, with a quarter of the steps in every stage (at least two) and ten times as fast,
-    /// and keeps the [outcome](SecondLoading). Nothing is done for a scene of one step, or if some steps are not
-    /// solved.
+    /// Loads the scene a second time, ten times as fast and with a quarter of the steps in every stage (at least two),
+    /// and keeps the [outcome](SecondLoading). Does nothing for a scene of one step, or if some steps are not solved.
     ///
     /// # Errors
-    /// As [`Run::new`]. A step of the second loading that fails ends it.
+    /// As [`Run::new`]. If a step of the second loading fails, that loading stops there without an error.
     pub fn compare(
         &mut self,
         scene: &Scene,
@@ -51,7 +50,7 @@ mod tests {
     use super::*;
     use crate::analysis::outcome::Outcome;
 
-    /// The differences are those to a run with as few steps that is as fast.
+    /// The second loading gives the same differences as a separate run with as few steps and the same speed.
     #[test]
     fn differences_are_those_of_two_states() {
         let go_on = &mut |_: Event| ControlFlow::Continue(());

@@ -1,4 +1,4 @@
-//! Parts of an answer that are unique and can be compared: forces at nodes, stresses, energy.
+//! Values of an answer that are unique, so that they can be compared: forces at nodes, stresses, energy.
 
 use nalgebra::Vector2;
 use serde::Serialize;
@@ -9,12 +9,12 @@ use crate::model::{Anchor, Model, PlacedBlock};
 use crate::recover;
 use crate::rounding::largest;
 
-/// Errors of an answer relative to a reference \[-\]; `None` if the reference has only zeros.
+/// Errors of an answer relative to a reference \[-\]. An error is `None` if the reference has only zeros.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Errors {
-    /// Largest error of a component of the contact forces on the blocks, relative to the largest
-    /// component: of their sum at every node of an elastic block, of their resultant on a rigid one.
-    /// Forces that circulate between blocks around one place are not unique and not included.
+    /// Largest error of a component of the contact forces on the blocks, relative to the largest component. The forces
+    /// are summed at every node of an elastic block, and to a resultant on a rigid block. Forces that circulate between
+    /// blocks around one place are not unique and not included.
     pub force: Option<f64>,
     /// Largest error of a component of stress in the centre of an element, relative to the largest
     /// component.
@@ -24,22 +24,22 @@ pub struct Errors {
 }
 
 impl Errors {
-    /// The errors of an answer against another one of the same model.
+    /// Computes the errors of an answer relative to another answer for the same model.
     pub fn of(model: &Model, state: &State, reference: &State) -> Self {
         Figures::of(model, state).errors(&Figures::of(model, reference))
     }
 
-    /// The largest of the errors.
+    /// Returns the largest of the errors; `None` if there are none.
     pub fn worst(&self) -> Option<f64> {
         [self.force, self.stress, self.energy].into_iter().flatten().reduce(f64::max)
     }
 }
 
-/// The values of an answer that are unique as far as displacements are.
+/// The values of an answer that are unique if displacements are.
 #[derive(Debug, Clone)]
 pub(super) struct Figures {
-    /// Contact forces \[N\] on every block: at the nodes of an elastic block; force, and moment over the
-    /// size of the block, on a rigid one.
+    /// Contact forces \[N\] on every block: at the nodes of an elastic block; the resultant force, and its moment
+    /// divided by the size of the block, on a rigid block.
     forces: Vec<Vec<f64>>,
     /// Components of stress \[Pa\] of all elements.
     stresses: Vec<f64>,
@@ -47,7 +47,8 @@ pub(super) struct Figures {
     energy: f64,
 }
 
-/// Blocks on which no contact force is larger than this part of the largest one carry nothing.
+/// A block counts as unloaded if no contact force on it is larger than this part of the largest contact force on any
+/// block.
 const IDLE: f64 = 1e-6;
 
 impl Figures {
@@ -68,7 +69,7 @@ impl Figures {
         }
     }
 
-    /// Whether each block carries anything; a block that hangs in its gaps has no unique place.
+    /// Returns for each block whether it carries load; a block that is loose in its gaps has no unique place.
     pub(super) fn loaded_blocks(&self) -> Vec<bool> {
         let most: Vec<f64> = self.forces.iter().map(largest).collect();
         let all = largest(&most);
@@ -76,7 +77,7 @@ impl Figures {
     }
 }
 
-/// `C^T t` for elastic blocks, and `N^T C^T t` for rigid ones.
+/// Computes the contact forces on the blocks: `C^T t` for elastic blocks, and `N^T C^T t` for rigid ones.
 fn forces_on_blocks(model: &Model, state: &State) -> Vec<Vec<f64>> {
     let numbers = |block: &PlacedBlock| elastic_nodes(block).map_or(3, |nodes| 2 * nodes);
     let mut forces: Vec<Vec<f64>> =
@@ -113,7 +114,8 @@ fn elastic_nodes(block: &PlacedBlock) -> Option<usize> {
     block.mesh.as_ref().filter(|_| block.elasticity.is_some()).map(|mesh| mesh.nodes.len())
 }
 
-/// Largest difference, relative to the largest of the reference.
+/// Returns the largest difference between values and a reference, divided by the largest value of the reference; `None`
+/// if that is zero or the lengths differ.
 pub(super) fn relative(values: &[f64], reference: &[f64]) -> Option<f64> {
     let size = largest(reference);
     let differences = values.iter().zip(reference).map(|(value, expected)| value - expected);

@@ -2,8 +2,8 @@
 
 use std::thread::available_parallelism;
 
-/// The model of the processor and the number of its threads, for tables and pictures; the kind of processor
-/// if the model is unknown.
+/// Describes the machine, for tables and pictures: the model of the processor, or its architecture if the model is
+/// unknown, and the number of its threads.
 ///
 /// ```
 /// assert!(masonry::analysis::study::machine().contains("thread"));

@@ -1,4 +1,4 @@
-//! Finer meshes of a scene, and the change of its results on them.
+//! Finer meshes of a scene, and the changes of the results between meshes.
 
 use nalgebra::Vector2;
 use serde::Serialize;
@@ -11,29 +11,29 @@ use crate::model::{Body, Model, PlacedBlock};
 use crate::recover;
 use crate::scene::Scene;
 
-/// A mesh and its reference.
+/// A mesh of a study, with its reference and its errors.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Mesh {
-    /// The factor of the numbers of elements in the scene, per direction.
+    /// The refinement factor: the numbers of elements in the scene are multiplied by it in every direction.
     pub factor: u32,
     /// The name of the mesh in reports.
     pub name: String,
-    /// Blocks.
+    /// Number of blocks.
     pub blocks: usize,
-    /// Elements.
+    /// Number of elements.
     pub elements: usize,
-    /// Contact points.
+    /// Number of contact points.
     pub contact_points: usize,
-    /// The reason for which the mesh cannot be made: too many elements, for instance.
+    /// The reason for which the mesh cannot be made: too many elements, for example; `None` if it was made.
     pub refusal: Option<String>,
-    /// The most accurate solution; `None` if no route found one within the time limit.
+    /// The most accurate solution on the mesh; `None` if no route found one within the time limit.
     pub reference: Option<Reference>,
-    /// The values of the reference.
+    /// The values of the reference that are compared between meshes; `None` without a reference.
     pub values: Option<Values>,
-    /// Errors of the mesh: distances of its values from those of the finest mesh with a reference. That mesh has no
-    /// errors itself.
+    /// Errors of the mesh: distances of its values from those of the finest mesh with a reference. `None` for that mesh
+    /// itself, and without a reference.
     pub errors: Option<MeshErrors>,
-    /// Displacements of the corners of blocks that carry load.
+    /// Displacements \[m\] of the corners of every block; `None` for blocks that carry no load.
     #[serde(skip)]
     corners: Vec<Option<Vec<Vector2<f64>>>>,
 }
@@ -43,34 +43,35 @@ pub struct Mesh {
 pub struct Values {
     /// Strain energy \[J\].
     pub strain_energy: f64,
-    /// Horizontal force \[N\] of all supports left of the middle on the structure.
+    /// Horizontal force \[N\] on the structure from all supports left of its middle.
     pub thrust: f64,
-    /// Displacement \[m\] of the corner of a loaded block that moves most on the finest mesh.
+    /// Displacement \[m\] of one corner on this mesh: the corner of a loaded block that moves most on the finest mesh.
     pub displacement: [f64; 2],
 }
 
-/// Relative errors of a mesh \[-\]; `None` if there is nothing to compare with.
+/// Errors of the values on a mesh, relative to those on the finest mesh \[-\]; an error is `None` if the values cannot
+/// be compared.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct MeshErrors {
     /// Error of the strain energy.
     pub energy: Option<f64>,
     /// Error of the thrust.
     pub thrust: Option<f64>,
-    /// Error of the displacement, as a vector.
+    /// Error of the displacement: the length of the difference vector.
     pub displacement: Option<f64>,
 }
 
 impl MeshErrors {
-    /// The largest of the errors. A single value may come near that of a finer mesh by accident.
+    /// Returns the largest of the errors. A single error may be as small as that of a finer mesh by accident.
     pub fn worst(&self) -> Option<f64> {
         [self.energy, self.thrust, self.displacement].into_iter().flatten().reduce(f64::max)
     }
 }
 
-/// A thrust below this part of all forces of the supports is rounding.
+/// A thrust is only rounding error if it is below this part of the sum of all forces of the supports.
 const NO_THRUST: f64 = 1e-9;
 
-/// The scene with `factor` times the elements in every direction.
+/// Returns the scene with `factor` times as many elements in every direction.
 pub fn refined(scene: &Scene, factor: u32) -> Scene {
     let mut scene = scene.clone();
     let meshes = scene.walls.iter_mut().map(|wall| &mut wall.mesh);
@@ -82,7 +83,8 @@ pub fn refined(scene: &Scene, factor: u32) -> Scene {
     scene
 }
 
-/// A mesh with its reference, not yet compared with others.
+/// Finds the reference on a mesh, and returns the mesh, not yet compared with others, with the figures of the
+/// reference.
 pub(super) fn studied(scene: &Scene, factor: u32, runner: &mut Runner) -> (Mesh, Option<Figures>) {
     let mut mesh = Mesh {
         factor,
@@ -125,7 +127,7 @@ pub(super) fn studied(scene: &Scene, factor: u32, runner: &mut Runner) -> (Mesh,
     (mesh, Some(figures))
 }
 
-/// The meshes with their displacements and errors.
+/// Adds displacements and errors to all meshes, by comparison with the finest mesh that has values.
 pub(super) fn compared(mut meshes: Vec<Mesh>) -> Vec<Mesh> {
     let with_values = meshes.iter().filter(|mesh| mesh.values.is_some());
     let Some(finest) = with_values.max_by_key(|mesh| mesh.factor).cloned() else { return meshes };
@@ -155,7 +157,7 @@ pub(super) fn compared(mut meshes: Vec<Mesh>) -> Vec<Mesh> {
     meshes
 }
 
-/// The horizontal force of the supports left of the middle on the structure; zero if there are only
+/// Computes the horizontal force \[N\] on the structure from the supports left of its middle; zero if there are only
 /// rounding errors.
 fn thrust(model: &Model, state: &State) -> f64 {
     let corners = || model.blocks.iter().flat_map(|block| block.corners.iter().map(|it| it.x));
@@ -184,7 +186,7 @@ fn corners(model: &Model, state: &State, figures: &Figures) -> Vec<Option<Vec<Ve
     corners.zip(loaded).map(|(corners, is_loaded)| is_loaded.then_some(corners)).collect()
 }
 
-/// Block and corner with the largest displacement.
+/// Finds the block and the corner with the largest displacement; `None` if no block carries load.
 fn most_moved(corners: &[Option<Vec<Vector2<f64>>>]) -> Option<(usize, usize)> {
     let places =
         corners.iter().enumerate().filter_map(|(block, corners)| Some((block, corners.as_ref()?)));

@@ -10,56 +10,56 @@ use crate::analysis::outcome::Outcome;
 use crate::scene::{Route, Scene};
 use crate::verify::checks::Checks;
 
-/// Routes that end on a basis, and so at rounding errors; and a last one that does not, for scenes that are too
-/// large for the others. The first two routes with an answer are compared.
+/// The routes that are tried for a reference; the first two with an answer are compared. All but the last end on a
+/// basis, and so at rounding errors; the last is for scenes that are too large for the others.
 const ROUTES: [Route; 4] = [Route::Interior, Route::Lemke, Route::Alm, Route::Qp];
-/// Tolerances of a reference: the first that is reached.
+/// The tolerances that are tried for a reference, up to the first that is reached.
 const TOLERANCES: [f64; 4] = [1e-13, 1e-12, 1e-11, 1e-10];
-/// The tolerance of a route that converges to a residual: enough to decide the states of the contacts.
+/// The tolerance for a route that converges to a residual: small enough to decide the states of the contacts.
 const CONVERGED: [f64; 1] = [1e-10];
 
-/// The most accurate solution on a mesh.
+/// The reference of a mesh: the most accurate solution on it.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Reference {
-    /// The route.
+    /// The route that found the solution.
     pub route: Route,
     /// The tightest tolerance that the route reached \[-\].
     pub tolerance: f64,
     /// The residual, recomputed from the original data \[-\].
     pub residual: f64,
-    /// The worst of the [checks](Checks) \[-\], which do not depend on the method.
+    /// The worst of the [checks](Checks) \[-\] of the solution, which do not depend on the method.
     pub balance: f64,
-    /// Wall-clock time \[s\].
+    /// Wall-clock time of the solve \[s\].
     pub seconds: f64,
-    /// The verification in double-double arithmetic. Errors are relative to the refined solution if that
-    /// solution [is better](Verification::is_better).
+    /// The verification of the solution in double-double arithmetic; `None` if memory does not suffice. Errors of other
+    /// solutions are relative to the refined solution if the latter [is better](Verification::is_better).
     pub verified: Option<Verification>,
-    /// The solution of another route; `None` if no other route has one.
+    /// The comparison with the solution of another route; `None` if no other route has one.
     pub confirmed: Option<Confirmation>,
 }
 
-/// The distance of an independent solution from a reference.
+/// The distance between a reference and an independent solution by another route.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Confirmation {
-    /// The other route.
+    /// The route of the independent solution.
     pub route: Route,
-    /// The distance from the reference; it may be large with friction, since there may be several equilibria.
+    /// The distance from the reference. It may be large if there is friction, since there may be several equilibria.
     pub errors: Errors,
-    /// The distance of both solutions, each refined from the states of its own contacts, in the forces on the
-    /// nodes \[-\].
+    /// The difference between the forces on the nodes in both solutions, each refined from its own contact states
+    /// \[-\]; `None` if they are not refined.
     pub refined: Option<f64>,
 }
 
-/// A reference with the values that are compared with it.
+/// A reference with the values with which other solutions are compared.
 pub(super) struct FoundReference {
     pub(super) reference: Reference,
     pub(super) outcome: Outcome,
     pub(super) figures: Figures,
-    /// The refined answer, if it is better.
+    /// The refined solution, if it is better than the reference.
     pub(super) exact: Option<Exact>,
 }
 
-/// The reference of a scene.
+/// Finds the reference of a scene on a mesh; `None` if no route has a solution.
 pub(super) fn find(scene: &Scene, mesh: u32, runner: &mut Runner) -> Option<FoundReference> {
     let mut found: Vec<RankedReference> = Vec::new();
     for route in ROUTES {
@@ -89,7 +89,8 @@ struct RankedReference {
 }
 
 impl RankedReference {
-    /// Verified answers come first, then those of small residuals.
+    /// Returns the rank of a solution: solutions with a better, refined one come first, then those with small
+    /// residuals.
     fn rank(&self) -> (bool, f64) {
         (self.better().is_none(), self.reference.residual)
     }
@@ -128,7 +129,7 @@ fn tightest(
             };
             return Some(RankedReference { reference, ran, exact });
         }
-        // A looser tolerance helps only if the residual was too large.
+        // A looser tolerance is tried only if the residual was too large.
         let End::Ended(status) = ran.end else { return None };
         if !matches!(status, Status::AlmostSolved | Status::Stalled | Status::IterationLimit) {
             return None;

@@ -1,4 +1,4 @@
-//! Solves of a scene within a limit of time, each measured.
+//! Solves of a scene within a time limit, each measured.
 
 use std::ops::ControlFlow;
 use web_time::{Duration, Instant};
@@ -13,21 +13,21 @@ use crate::plan::Plan;
 use crate::scene::{Form, Route, Scene};
 use crate::verify::checks::Checks;
 
-/// Solves that take longer are not repeated.
+/// A solve that takes longer is not repeated.
 const SHORT: Duration = Duration::from_secs(1);
 
-/// A limit counts as kept up to this factor.
+/// The time limit counts as kept up to this multiple of it.
 const OVERRUN: f64 = 1.1;
 
-/// Dense matrices of larger orders are not built: reduction and factors take minutes that no observer
-/// can cut short.
+/// Largest order of a dense matrix that is built. The reduction and the factorisation of larger ones take minutes,
+/// during which no observer can stop the solve.
 const LARGEST_DENSE: usize = 4000;
 
 /// The result of one solve.
 pub(super) struct Ran {
     pub(super) end: End,
     pub(super) seconds: Option<f64>,
-    /// The outcome, unless the solve was refused or skipped.
+    /// The outcome; `None` if the solve was refused or skipped.
     pub(super) outcome: Option<Outcome>,
 }
 
@@ -36,7 +36,8 @@ impl Ran {
         Self { end: End::Skipped(reason), seconds: None, outcome: None }
     }
 
-    /// The exceeded limit, which a solve to a tighter tolerance would exceed too.
+    /// Returns the limit that the solve exceeded, and that a solve to a tighter tolerance would exceed too; `None` if
+    /// it exceeded no limit.
     fn is_beyond(&self) -> Option<Beyond> {
         match self.end {
             End::Ended(Status::TimeLimit) => Some(Beyond::Time),
@@ -45,39 +46,39 @@ impl Ran {
         }
     }
 
-    /// The outcome, when solved.
+    /// Returns the outcome if the solve ended with a solution.
     pub(super) fn solved(&self) -> Option<&Outcome> {
         self.outcome.as_ref().filter(|_| self.end.is_solved())
     }
 
-    /// The residual reached, if there is one.
+    /// Returns the residual that was reached; `None` without an outcome or if it is infinite.
     pub(super) fn residual(&self) -> Option<f64> {
         let residual = self.outcome.as_ref().map(|it| it.solve.residuals.worst());
         residual.filter(|residual| residual.is_finite())
     }
 
-    /// Forces, stresses and energy, when solved.
+    /// Returns forces, stresses and energy of the solution; `None` if the solve ended without one.
     pub(super) fn figures(&self) -> Option<Figures> {
         let outcome = self.solved()?;
         outcome.state.as_ref().map(|state| Figures::of(&outcome.model, state))
     }
 }
 
-/// An exceeded limit.
+/// A limit that a solve exceeded.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Beyond {
-    /// The limit of time, which finer meshes exceed too.
+    /// The time limit, which solves on finer meshes exceed too.
     Time,
     Iterations,
 }
 
-/// A runner of solves that remembers which of them ran out of time or iterations.
+/// Runs the solves of a study, and remembers those that exceeded a limit of time or of iterations.
 pub(super) struct Runner<'a> {
     settings: &'a Settings,
     observer: &'a mut StudyObserver<'a>,
     is_interrupted: bool,
     beyond: Vec<(Beyond, StudyProgress)>,
-    /// The last record by pivots, with its balances.
+    /// The last record by Lemke's method, with the checks of its state.
     pivots: Option<(Record, Checks)>,
 }
 
@@ -91,12 +92,12 @@ impl<'a> Runner<'a> {
         self.is_interrupted
     }
 
-    /// The name of a mesh in reports.
+    /// Returns the name of a mesh in reports.
     pub(super) fn mesh_name(&self, factor: u32) -> String {
         self.settings.mesh_name(factor)
     }
 
-    /// Makes the record of one solve.
+    /// Runs one solve and returns its record.
     pub(super) fn record(
         &mut self,
         scene: &Scene,
@@ -133,8 +134,8 @@ impl<'a> Runner<'a> {
         record
     }
 
-    /// Pivots are the same for every tolerance above their residual: the tolerance decides only whether the
-    /// end counts as solved.
+    /// Returns the last record by Lemke's method, with another tolerance, if it is valid for it: the pivots do not
+    /// depend on the tolerance, which decides only whether the residual at their end counts as solved.
     fn same_pivots(&self, at: StudyProgress) -> Option<Record> {
         let StudyProgress { mesh, route, tolerance } = at;
         let (last, checks) = self.pivots.as_ref()?;
@@ -144,7 +145,7 @@ impl<'a> Runner<'a> {
             .then(|| Record { tolerance, ..last.clone() })
     }
 
-    /// Solves a scene, several times if the solve is quick. Skips the scene if the time ran out at a looser
+    /// Solves a scene, several times if the solve is quick. The solve is skipped if the time ran out at a looser
     /// tolerance or on a coarser mesh, or if the iterations ran out at a looser tolerance.
     pub(super) fn run(&mut self, scene: &Scene, at: StudyProgress) -> Ran {
         let is_easier = |(beyond, other): &&(Beyond, StudyProgress)| {
@@ -182,7 +183,7 @@ impl<'a> Runner<'a> {
         ran
     }
 
-    /// Calls the observer, unless it has ended the study.
+    /// Calls the observer, unless it has ended the study before; returns `Break` if the study has ended.
     fn ask(&mut self, at: StudyProgress) -> ControlFlow<()> {
         self.is_interrupted = self.is_interrupted || (self.observer)(at).is_break();
         if self.is_interrupted { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
@@ -208,7 +209,7 @@ impl<'a> Runner<'a> {
     }
 }
 
-/// The scene by a route to a tolerance, with the stresses that are compared.
+/// Returns the scene with the settings of a solve: its route, its tolerance, and the stresses that are compared.
 fn on_route(scene: &Scene, StudyProgress { route, tolerance, .. }: StudyProgress) -> Scene {
     let mut scene = scene.clone().route(route).tolerance(tolerance).stresses(true);
     scene.solver.soft = None;
@@ -219,7 +220,7 @@ fn on_route(scene: &Scene, StudyProgress { route, tolerance, .. }: StudyProgress
     scene
 }
 
-/// The order of the largest matrix of the route by pivots.
+/// Returns the order of the largest dense matrix of Lemke's method; `None` for other routes.
 fn dense_order(scene: &Scene) -> Option<usize> {
     let model =
         Model::from_scene(scene).ok().filter(|_| scene.solver.route == Route::Lemke.into())?;

@@ -1,4 +1,4 @@
-//! The reference in double-double arithmetic: the equations of its contact states, solved again.
+//! Verification in double-double arithmetic: the equations of the contact states of a solution are solved again.
 
 use lcp::ContactState;
 use lcp::refine::{ContactStatus, Extended, Refined};
@@ -11,38 +11,38 @@ use crate::model::Model;
 use crate::recover;
 use crate::system::System;
 
-/// The verification of a solution in double-double arithmetic: see [`lcp::Contact2d::verify`]. The last step of a
+/// The verification of a solution in double-double arithmetic ([`lcp::Contact2d::verify`]). Only the last step of a
 /// load history is verified, with the slips of the previous steps.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Verification {
-    /// The largest residual of an equation of the refined solution, relative to the terms of its row \[-\].
+    /// The largest residual of an equation in the refined solution, relative to the terms of the equation \[-\].
     pub residual: f64,
-    /// The contradiction between the gaps of redundant contacts, relative to the terms of a row \[-\]: rounding
+    /// The contradiction between the gaps of redundant contacts, relative to the terms of an equation \[-\]: rounding
     /// errors of coordinates and stiffnesses, or zero.
     pub shift: f64,
     /// The smallest margin of the inequalities of the contact law (gaps, slips, forces and distances from the edge of
     /// the cone), relative to the largest displacement or force \[-\]; `None` without contacts.
     pub margin: Option<f64>,
-    /// Whether all these inequalities hold, up to rounding errors of `f64`.
+    /// Whether all inequalities of the contact law hold, up to rounding errors of `f64`.
     pub holds: bool,
-    /// Decimal digits of the refined solution that are certain.
+    /// Number of decimal digits of the refined solution that are certain.
     pub digits: f64,
-    /// Distance between the route's solution and the refined one: the largest difference of the forces on the nodes,
-    /// relative to the largest force \[-\].
+    /// Distance between the solution of the route and the refined one: the largest difference of the forces on the
+    /// nodes, relative to the largest force \[-\].
     pub distance: Option<f64>,
-    /// Solves with one factorisation.
+    /// Number of solves with the one factorisation.
     pub passes: usize,
-    /// Wall-clock time of the factorisation and of these solves \[s\].
+    /// Wall-clock time of the factorisation and of the solves with it \[s\].
     pub seconds: f64,
 }
 
-/// Answers with residuals up to this one are exact to the usual digits.
+/// The largest residual of a refined solution that counts as exact: the precision of `f64`.
 const EXACT: f64 = f64::EPSILON;
-/// Violations of inequalities below this one are rounding errors.
+/// The largest violation of an inequality that counts as a rounding error.
 const ROUNDED: f64 = 4.0 * f64::EPSILON;
 
 impl Verification {
-    /// Whether the refined point is a solution and better than any in `f64`.
+    /// Whether the refined point is a solution, and more accurate than any solution in `f64`.
     pub fn is_better(&self) -> bool {
         self.holds && self.residual < EXACT
     }
@@ -51,20 +51,20 @@ impl Verification {
 /// A solution refined in double-double arithmetic.
 #[derive(Debug, Clone)]
 pub struct Exact {
-    /// The verification.
+    /// The verification of the solution: residuals, margins and certain digits.
     pub verified: Verification,
-    /// The problem.
+    /// The sparse problem that the solution solves.
     pub sparse: Sparse,
-    /// The states of all contacts.
+    /// The states of all contacts in the solution.
     pub statuses: Vec<ContactStatus>,
-    /// The solution of the equations of these states.
+    /// The refined solution of the equations of these contact states.
     pub refined: Refined,
-    /// The solution in `f64`.
+    /// The mechanical state of the refined solution, rounded to `f64`.
     pub state: State,
 }
 
 impl Exact {
-    /// The verified numbers of an outcome with a state; `None` if memory does not suffice.
+    /// Verifies an outcome; `None` if it has no state, or if memory does not suffice.
     pub fn of(outcome: &Outcome) -> Option<Self> {
         let (model, state) = (&outcome.model, outcome.state.as_ref()?);
         let system = System::new(model).ok()?;
@@ -94,7 +94,7 @@ fn judged(sparse: &Sparse, given: &ContactState, refined: &Refined) -> Verificat
     }
 }
 
-/// The distance of a plain answer in the forces on the displacements.
+/// Returns the distance between the solution of the route and the refined one, in the forces on the displacements.
 fn distance(sparse: &Sparse, given: &ContactState, refined: &Refined) -> Option<f64> {
     let [t_n, t_t] = [&given.t_n, &given.t_t]
         .map(|forces| forces.iter().map(|force| Extended::from(*force)).collect::<Vec<_>>());
