@@ -1,4 +1,5 @@
-//! Plain data that modules pass to one another, built on numbers of parts alone.
+//! Plain data that modules pass to one another; these types need no other module of the crate, except the numbers of
+//! parts.
 //!
 //! | module | content |
 //! |---|---|
@@ -9,7 +10,7 @@
 //! | [`motion`] | motions of a structure that has no equilibrium |
 //! | [`verdict`] | whether a wall stands, with the evidence |
 //!
-//! Functions that make these data are in the modules of their methods: [`Proof::of`](statics::Proof::of) is in
+//! The functions that make these data are in the modules of their methods: [`Proof::of`](statics::Proof::of) is in
 //! [`method::statics`](crate::method::statics), [`Principal::of`](state::Principal::of) in
 //! [`recover`](crate::recover).
 

@@ -1,4 +1,4 @@
-//! Attempts as sentences.
+//! Attempts of routes as sentences.
 
 use std::fmt::{Display, Formatter, Result};
 
@@ -73,7 +73,7 @@ fn solved(status: Status) -> String {
     }
 }
 
-/// The name of the steps of a route.
+/// Returns the name for the steps of a route in sentences.
 fn counted(route: Route) -> &'static str {
     match route {
         Route::Qp => "programs",

@@ -1,21 +1,21 @@
-//! Records of the work of routes: plain data.
+//! Records of the work of routes.
 
 use serde::{Deserialize, Deserializer, Serialize};
 
 use crate::data::route::Route;
 
-/// The way in which a state was found.
+/// The way in which a state was found: by one step with Coulomb's law, or by a motion of blocks.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Way {
-    /// One step from the previous state, or without one, with Coulomb's law for its slips.
+    /// One step from the previous state, or from no loads, with Coulomb's law for the slips of the step.
     Law,
-    /// The motion of blocks with mass, with Coulomb's law in each of its steps.
+    /// A motion of blocks with mass in several steps, with Coulomb's law for the slips of each.
     Motion,
 }
 
 impl Way {
-    /// A name for files.
+    /// Returns the name in files.
     pub fn name(self) -> &'static str {
         match self {
             Self::Law => "law",
@@ -24,49 +24,49 @@ impl Way {
     }
 }
 
-/// The record of the solution of the complementarity problem.
+/// The record of the solution of a complementarity problem by all routes that were tried.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct SolveInfo {
-    /// `Solved`, or the reason for the end.
+    /// `Solved`, or the reason why the route ended without a solution.
     pub status: lcp::Status,
     /// The route whose result is reported.
     pub route: Route,
-    /// The reason for which the route was tried at its place in the order.
+    /// The reason for which this route was tried at its place in the order.
     pub because: String,
     /// All routes that were tried, in order.
     pub routes: Vec<RouteRecord>,
-    /// The form that was solved: `coulomb`, `stewart-trinkle` or `mixed`
-    /// ([`FormKind`](crate::forms::FormKind)) of the pivoting route, `contact` of the others.
+    /// The form of the problem that was solved: `coulomb`, `stewart-trinkle` or `mixed`
+    /// ([`FormKind`](crate::forms::FormKind)) by Lemke's method, `contact` by most other routes.
     pub form: String,
     /// Order of the complementarity problem, or of the linear systems of the augmented Lagrangian method.
     pub order: usize,
     /// All attempts of all routes, in order.
     pub attempts: Vec<RouteAttempt>,
-    /// Pivots over all attempts.
+    /// Number of pivots in all attempts.
     pub pivots: usize,
-    /// Steps of the interior-point method, programs, re-centrings of springs, or iterations of the
-    /// augmented Lagrangian method.
+    /// Number of iterations: steps of the interior-point method, programs, re-centrings of springs, or iterations of
+    /// the augmented Lagrangian method.
     pub iterations: usize,
-    /// Every iteration of the augmented Lagrangian method; empty on the other routes.
+    /// All iterations of the augmented Lagrangian method; empty for other routes.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub convergence: Vec<AlmIteration>,
-    /// Matrices factorised.
+    /// Number of factorised matrices.
     pub factorisations: usize,
-    /// Whether the status `Infeasible` is proved, by a vector that was checked in the data.
+    /// Whether the status `Infeasible` is proved by a vector that was checked against the data.
     pub proved: bool,
-    /// The effect of the springs of the scene.
+    /// The effect of the springs that held the blocks; `None` without springs.
     pub soft: Option<SoftReport>,
-    /// The way in which the state was found, which decides the law of friction that it obeys.
+    /// The way in which the state was found: by one step with Coulomb's law, or by a motion of blocks.
     pub way: Way,
-    /// Dimensionless residuals recomputed from the original data.
+    /// Dimensionless residuals of the solution, recomputed from the original data.
     pub residuals: lcp::Residuals,
-    /// Residuals of the same solution in the paper's form (3.27), if another form was solved.
+    /// Residuals of the same solution in the paper's form (3.27); `None` unless another form was solved after it.
     pub coulomb_residuals: Option<lcp::Residuals>,
 }
 
 impl SolveInfo {
-    /// A route, a status and residuals only.
+    /// Returns a record that has only a route, a status and residuals.
     pub fn new(route: Route, status: lcp::Status, residuals: lcp::Residuals) -> Self {
         Self {
             status,
@@ -89,61 +89,61 @@ impl SolveInfo {
     }
 }
 
-/// One attempt to find a state.
+/// One attempt of a route to find a state.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum RouteAttempt {
-    /// A path of pivots.
+    /// A path of pivots of Lemke's method.
     Pivots {
-        /// The form, by its name.
+        /// The name of the form of the problem.
         form: String,
-        /// The name of the start basis that was given, unless the solver found its own.
+        /// The name of the start basis that was given; `None` if the solver found its own.
         start: Option<String>,
         /// Covering vector, end and pivots.
         path: lcp::lemke::Attempt,
     },
-    /// A method on the sparse problem.
+    /// An iterative method on the sparse problem.
     Sparse {
         /// The route.
         route: Route,
-        /// `Solved`, or the reason for the end.
+        /// `Solved`, or the reason why the method ended without a solution.
         status: lcp::Status,
-        /// Steps, programs, rounds or iterations.
+        /// Number of steps, programs, rounds or iterations, as the method calls them.
         iterations: usize,
-        /// Matrices factorised.
+        /// Number of factorised matrices.
         factorisations: usize,
-        /// The worst residual \[-\].
+        /// The worst residual at the end \[-\].
         #[serde(deserialize_with = "or_infinite")]
         residual: f64,
     },
     /// The motion of blocks that are loaded slowly.
     Motion {
-        /// The end of the motion.
+        /// The end of the motion: the blocks rest, go on moving, or the search ended for another reason.
         ending: lcp::Ending,
-        /// Matrices factorised.
+        /// Number of factorised matrices.
         factorisations: usize,
     },
-    /// The search for forces within friction that balance the loads.
+    /// The search for admissible forces, which balance the loads within friction.
     Forces {
-        /// `Solved` if the forces are an answer, `Infeasible` if there are none, or the reason why they are not an
-        /// answer.
+        /// `Solved` if the forces are the answer, `Infeasible` if no such forces exist, or the reason why the forces
+        /// are not an answer.
         status: lcp::Status,
-        /// Whether there are such forces.
+        /// Whether admissible forces were found.
         are_found: bool,
-        /// Matrices factorised.
+        /// Number of factorised matrices.
         factorisations: usize,
     },
-    /// The states of the contacts, solved anew with all displacements as unknowns.
+    /// A refinement: the equations of the contact states are solved again, with all displacements as unknowns.
     Refinement {
-        /// The worst residual \[-\].
+        /// The worst residual of the refined solution \[-\].
         #[serde(deserialize_with = "or_infinite")]
         residual: f64,
     },
-    /// A route that was left because no forces balance the loads.
+    /// A route that was stopped because it is proved that no forces balance the loads.
     Left {
-        /// The route.
+        /// The route that was stopped.
         route: Route,
-        /// The steps of the route until it was left.
+        /// Number of steps of the route until it was stopped.
         iterations: usize,
     },
 }
@@ -152,25 +152,25 @@ pub enum RouteAttempt {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct AlmIteration {
-    /// The attempt, from 1.
+    /// The number of the attempt, from 1.
     pub attempt: usize,
-    /// Largest unbalanced force after the projection, relative to the largest load \[-\].
+    /// Largest unbalanced force after the projection onto the friction cones, relative to the largest load \[-\].
     #[serde(deserialize_with = "or_infinite")]
     pub unbalance: f64,
-    /// Estimate of the distance from the solution, of displacements and of the forces in the blocks, relative to the
-    /// largest of them or to the values under the loads alone \[-\]; infinite until the iteration contracts.
+    /// Estimate of the distance from the solution \[-\], for displacements and for the forces in the blocks, relative
+    /// to the largest of them or to the values under the loads alone; infinite until the iteration contracts.
     #[serde(deserialize_with = "or_infinite")]
     pub distance: f64,
-    /// Contacts that changed their state.
+    /// Number of contacts that changed their state.
     pub changes: usize,
 }
 
-/// A number; infinite if the file has none, since JSON has no infinite numbers.
+/// Reads a number; it is infinite if the file has `null`, since JSON has no infinite numbers.
 fn or_infinite<'de, D: Deserializer<'de>>(from: D) -> Result<f64, D::Error> {
     Ok(Option::deserialize(from)?.unwrap_or(f64::INFINITY))
 }
 
-/// The end of a route.
+/// One route that was tried: why, how it ended, and how long it took.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct RouteRecord {
@@ -178,33 +178,33 @@ pub struct RouteRecord {
     pub route: Route,
     /// The reason for which the route was tried at its place in the order.
     pub because: String,
-    /// The status and result of the route; or the reason of a refusal.
+    /// The status at the end of the route, or the reason why the route refused the problem.
     pub end: String,
-    /// Wall-clock time \[s\].
+    /// Wall-clock time of the route \[s\].
     pub seconds: f64,
 }
 
-/// Springs that hold the blocks while a scene is solved, and their effect before they were re-centred; the springs do
-/// not act in the final result.
+/// The effect of auxiliary springs that hold the blocks while a scene is solved, before the springs are re-centred. The
+/// springs do not act in the final result.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct SoftReport {
-    /// The stiffness, relative to that of the blocks \[-\].
+    /// Stiffness of the springs, relative to that of the blocks \[-\].
     pub stiffness: f64,
-    /// Number of re-centrings.
+    /// Number of times that the springs were re-centred.
     pub rounds: usize,
-    /// The share of the load that the springs carried at first \[-\].
+    /// The share of the load that the springs carried before they were re-centred \[-\].
     pub share: f64,
-    /// The error of the displacements that the springs caused at first, relative to the displacements \[-\]; `None` if
-    /// the error is unknown, for example if nothing moves.
+    /// The error that the springs caused in the displacements before they were re-centred, relative to the
+    /// displacements \[-\]; `None` if the error is unknown, for example if nothing moves.
     pub displacement_error: Option<f64>,
 }
 
-/// Wall-clock time of one phase \[s\].
+/// Wall-clock time of one phase of an analysis.
 #[derive(Debug, Clone, Serialize)]
 pub struct PhaseTime {
     /// Name of the phase.
     pub phase: String,
-    /// Seconds.
+    /// Wall-clock time \[s\].
     pub seconds: f64,
 }

@@ -1,4 +1,4 @@
-//! The mechanical state of a structure: plain data, without dependence on the rest of the crate except numbers of
+//! The mechanical state of a structure: plain data, which need no other module of the crate, except the numbers of
 //! parts.
 
 use nalgebra::{Point2, Vector2};
@@ -9,53 +9,54 @@ use crate::ids::{BlockId, ContactId, FilmId};
 /// The mechanical state of a model under its loads, in SI units.
 #[derive(Debug, Clone)]
 pub struct State {
-    /// Displacements \[m\] of the nodes of every block, in the order of the block's mesh, or of the corners of a
-    /// rigid block.
+    /// Displacements \[m\] of every block: of all nodes, in the order of the block's mesh, or of the corners of a rigid
+    /// block.
     pub displacements: Vec<Vec<Vector2<f64>>>,
     /// Force, gap and slip at every contact point.
     pub contacts: Vec<PointState>,
-    /// Stresses at the contact points of the mortar films, in the order of the points; empty without
-    /// films, and when no output shows stresses.
+    /// Stresses at the contact points of the mortar films, in the order of the points; empty if there are no films, or
+    /// if no output shows stresses.
     pub films: Vec<FilmStress>,
-    /// Stresses at the centre of every element; empty when no output shows them.
+    /// Stresses at the centre of every element; empty if no output shows stresses.
     pub stresses: Vec<ElementStress>,
     /// Strain energy of all blocks, joints and films \[J\].
     pub strain_energy: f64,
 }
 
-/// Forces and relative displacements of all rows of a [`System`](crate::system::System), in SI units.
+/// Forces and relative displacements in all rows of a [`System`](crate::system::System), in SI units.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RowState {
-    /// Contact forces \[N\].
+    /// Contact forces of all rows \[N\].
     pub t: Vec<f64>,
-    /// Relative displacements \[m\].
+    /// Relative displacements of all rows \[m\].
     pub y: Vec<f64>,
 }
 
-/// The state of one contact point.
+/// The force, the gap and the slip at one contact point.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct PointState {
     /// Normal contact force \[N\], compression positive.
     pub t_n: f64,
-    /// Tangential contact force \[N\] on side `b` along `t`.
+    /// Tangential contact force \[N\] that acts on side `b`, along the tangent `t` of the joint.
     pub t_t: f64,
-    /// Normal gap \[m\]; the gap across a film is beyond its compression.
+    /// Normal gap \[m\]; the gap of a film is measured beyond the compression of the film.
     pub y_n: f64,
-    /// Slip \[m\] of side `b` relative to `a` along `t`; the slip across a film is beyond its shear.
+    /// Slip \[m\] of side `b` relative to side `a` along the tangent `t`; the slip of a film is measured beyond its
+    /// shear.
     pub y_t: f64,
-    /// Open, stick or slip.
+    /// The state of the point: open, stick or slip.
     pub status: PointStatus,
 }
 
-/// The three states of a frictional contact point.
+/// The three states of a contact point with friction.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum PointStatus {
-    /// The gap is positive: no force is carried.
+    /// The gap is positive, and the point carries no force.
     Open,
-    /// Closed without sliding.
+    /// The point is closed and does not slide.
     Stick,
-    /// Closed, and the sides slide on each other: the force is on the edge of the friction cone.
+    /// The point is closed, and its sides slide on each other: the force is on the edge of the friction cone.
     Slip,
 }
 
@@ -63,13 +64,14 @@ pub enum PointStatus {
 /// joint and `y` along its normal.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FilmStress {
-    /// The film.
+    /// The mortar film.
     pub film: FilmId,
     /// The contact point.
     pub contact: ContactId,
-    /// Stress along the joint \[Pa\], tension positive; `None` if films act across their joints only.
+    /// Stress along the joint \[Pa\], tension positive; `None` if films act only in the direction normal to their
+    /// joints.
     pub sigma_x: Option<f64>,
-    /// Stress across the joint \[Pa\], tension positive: never above zero.
+    /// Stress normal to the joint \[Pa\], tension positive; never above zero.
     pub sigma_y: f64,
     /// Shear stress \[Pa\].
     pub tau: f64,
@@ -80,11 +82,11 @@ pub struct FilmStress {
 pub struct ElementStress {
     /// The block that the element belongs to.
     pub block: BlockId,
-    /// The element's position in the block's mesh.
+    /// The position of the element in the mesh of the block.
     pub element: usize,
     /// The centre of the element \[m\].
     pub centre: Point2<f64>,
-    /// `sigma_x, sigma_y, tau_xy` \[Pa\], tension positive.
+    /// The stresses `sigma_x, sigma_y, tau_xy` \[Pa\], tension positive.
     pub sigma: [f64; 3],
     /// The principal stresses and their direction.
     pub principal: Principal,
@@ -101,7 +103,7 @@ pub struct Principal {
     pub theta: f64,
 }
 
-/// The resultant of the contact forces of one support on the structure, in SI units.
+/// The reaction of one support: the resultant of its contact forces on the structure, in SI units.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Reaction {
     /// Name of the support.
@@ -110,6 +112,6 @@ pub struct Reaction {
     pub fx: f64,
     /// Vertical force on the structure \[N\].
     pub fy: f64,
-    /// Moment about the origin, counter-clockwise \[N m\].
+    /// Moment about the origin of coordinates, counter-clockwise \[N m\].
     pub m: f64,
 }

@@ -1,42 +1,42 @@
-//! Forces that balance the loads, or the proof that there are no such forces.
+//! Admissible forces, which balance the loads within friction, or the proof that no such forces exist.
 
 use nalgebra::Vector2;
 
-/// The decision on forces that balance the loads.
+/// The decision whether forces within friction balance the loads.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Statics {
-    /// Forces of all rows of the system \[N\] that balance the loads.
+    /// Forces balance the loads: the forces of all rows of the system \[N\].
     Admissible(Vec<f64>),
-    /// No forces balance the loads.
+    /// No forces balance the loads, with the proof.
     Impossible(Proof),
-    /// The decision is open.
+    /// Undecided: neither forces nor a proof were found.
     Open,
 }
 
-/// A motion that was checked to be a proof.
+/// A proof that no forces balance the loads: a motion of the blocks, which was checked in the geometry.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Proof {
     /// Displacement rates of the corners of every block, scaled to a largest component of one.
     pub rates: Vec<Vec<Vector2<f64>>>,
-    /// Work of the loads on the motion, less that of cohesion and tensile strength, relative to the sum of all these
-    /// forces \[-\].
+    /// Work of the loads on the motion, minus that of cohesion and tensile strength, relative to the sum of all loads
+    /// and strengths \[-\].
     pub work: f64,
-    /// The largest work of a unit contact force against the motion, relative to the force \[-\]: rounding errors.
+    /// The largest work that a unit contact force can do against the motion \[-\]: rounding errors of the motion.
     pub error: f64,
 }
 
-/// The largest value of a linear function of admissible forces.
+/// An extreme value, the largest or the least, of a linear function of admissible forces.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Extreme {
-    /// Bounds of the largest value \[N\].
+    /// The value is known between two bounds \[N\].
     Value {
-        /// The value that forces reach.
+        /// The value that admissible forces reach.
         value: f64,
-        /// The bound by a motion.
+        /// The bound that a motion proves: no admissible forces go beyond it.
         bound: f64,
     },
-    /// Forces that balance one another make the value as large as one likes.
+    /// There is no limit: forces that balance one another can be added in any amount.
     Unlimited,
-    /// Neither bounds nor unlimited forces were found.
+    /// Undecided: neither bounds nor forces that balance one another were found.
     Open,
 }

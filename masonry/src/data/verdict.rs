@@ -1,14 +1,14 @@
-//! A verdict: whether a wall stands, falls or is undecided, with the evidence.
+//! The verdict on a structure: whether it stands, falls or is undecided, with the evidence.
 
 use serde::Serialize;
 
-/// Whether a wall stands.
+/// The verdict on a structure.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Verdict {
-    /// The wall stands.
+    /// The structure stands.
     Stands,
-    /// The wall falls.
+    /// The structure falls.
     Falls,
     /// Neither an equilibrium nor a failure was found.
     Undecided,
@@ -20,24 +20,24 @@ impl std::fmt::Display for Verdict {
     }
 }
 
-/// The evidence of a verdict.
+/// The kind of evidence for a verdict.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize)]
 #[non_exhaustive]
 pub enum Evidence {
-    /// An equilibrium, verified by its residuals and the balance of every block.
+    /// An equilibrium that is verified by its residuals and by the balance of every block.
     #[serde(rename = "equilibrium")]
     Equilibrium,
-    /// Forces within friction that balance the loads: sufficient for rigid blocks at rest only.
+    /// Forces within friction that balance the loads, which are sufficient only for rigid blocks at rest.
     #[serde(rename = "admissible forces")]
     AdmissibleForces,
-    /// A checked proof that there are no such forces.
+    /// A checked proof that no forces within friction balance the loads.
     #[serde(rename = "no admissible forces")]
     NoAdmissibleForces,
-    /// A slow motion under the loads that does not come to rest. The motion does not prove that the
-    /// wall falls under every order of loading if forces within friction balance the loads.
+    /// A slow motion under the loads that does not come to rest. If forces within friction balance the loads, the
+    /// motion does not prove that the structure falls under every order of loading.
     #[serde(rename = "motion")]
     Motion,
-    /// No evidence.
+    /// No evidence was found.
     #[serde(rename = "none")]
     None,
 }
@@ -46,12 +46,12 @@ pub enum Evidence {
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct Judgement {
-    /// The verdict.
+    /// The verdict: the structure stands, falls, or is undecided.
     pub verdict: Verdict,
-    /// The evidence.
+    /// The kind of evidence for the verdict.
     pub evidence: Evidence,
-    /// Verdict and evidence in one sentence; for a load history also the last step that was reached.
+    /// The verdict and the evidence in one sentence, including the last step that was reached in a load history.
     pub sentence: String,
-    /// Limitations of the result.
+    /// Warnings about limitations of the result.
     pub warnings: Vec<String>,
 }

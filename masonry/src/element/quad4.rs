@@ -6,28 +6,28 @@ use nalgebra::{Matrix2, Matrix3, Point2, SMatrix, SVector, Vector2, Vector3};
 
 use super::quadrature;
 
-/// Positions of the four nodes \[m\].
+/// Coordinates of the four nodes of an element, counter-clockwise \[m\].
 pub type Nodes = [Point2<f64>; 4];
 
-/// The strain-displacement matrix: `eps = B u`.
+/// The strain-displacement matrix `B` \[1/m\] of `eps = B u`.
 pub type StrainMatrix = SMatrix<f64, 3, 8>;
 
-/// Reference coordinates of the nodes.
+/// Coordinates of the nodes in the reference square.
 const CORNERS: [[f64; 2]; 4] = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
 
-/// Shape functions at a place of the reference square.
+/// Returns the values of the four shape functions at a place of the reference square.
 pub fn shape([xi, eta]: [f64; 2]) -> [f64; 4] {
     CORNERS.map(|[a, b]| 0.25 * (1.0 + a * xi) * (1.0 + b * eta))
 }
 
-/// Derivatives of the shape functions by the reference coordinates.
+/// Returns the derivatives of the four shape functions with respect to the reference coordinates.
 fn reference_gradients([xi, eta]: [f64; 2]) -> [Vector2<f64>; 4] {
     CORNERS.map(|[a, b]| Vector2::new(0.25 * a * (1.0 + b * eta), 0.25 * b * (1.0 + a * xi)))
 }
 
-/// The Jacobian of the map from the reference square: entry `(i, j)` is `d x_j / d xi_i`.
+/// Computes the Jacobian matrix \[m\] of the map from the reference square: entry `(i, j)` is `d x_j / d xi_i`.
 fn jacobian(nodes: &Nodes, place: [f64; 2]) -> Matrix2<f64> {
-    // Differences to node 0, so that elements far from the origin lose no digits.
+    // Coordinates relative to node 0: elements far from the origin lose no digits.
     let origin = nodes[0];
     reference_gradients(place)
         .iter()
@@ -36,8 +36,8 @@ fn jacobian(nodes: &Nodes, place: [f64; 2]) -> Matrix2<f64> {
         .sum()
 }
 
-/// The gradients of the shape functions \[1/m\] and the determinant of the Jacobian at a place of the reference square;
-/// `None` if the map is not invertible with positive orientation.
+/// Computes the gradients of the shape functions \[1/m\] and the determinant of the Jacobian \[m^2\] at a place of the
+/// reference square; `None` unless the map is invertible and keeps the orientation.
 pub fn gradients(nodes: &Nodes, place: [f64; 2]) -> Option<([Vector2<f64>; 4], f64)> {
     let jacobian = jacobian(nodes, place);
     let determinant = jacobian.determinant();
@@ -45,8 +45,8 @@ pub fn gradients(nodes: &Nodes, place: [f64; 2]) -> Option<([Vector2<f64>; 4], f
     Some((reference_gradients(place).map(|it| inverse * it), determinant))
 }
 
-/// The strain-displacement matrix and the determinant of the Jacobian at a place of the reference
-/// square; `None` if the map is not invertible with positive orientation.
+/// Computes the strain-displacement matrix \[1/m\] and the determinant of the Jacobian \[m^2\] at a place of the
+/// reference square; `None` unless the map is invertible and keeps the orientation.
 pub fn strain_matrix(nodes: &Nodes, place: [f64; 2]) -> Option<(StrainMatrix, f64)> {
     let (gradients, determinant) = gradients(nodes, place)?;
     let mut b = StrainMatrix::zeros();
@@ -59,9 +59,9 @@ pub fn strain_matrix(nodes: &Nodes, place: [f64; 2]) -> Option<(StrainMatrix, f6
     Some((b, determinant))
 }
 
-/// Stiffness matrix \[N/m\] for the constitutive matrix `d` \[Pa\] and a thickness \[m\].
+/// Computes the stiffness matrix \[N/m\] for the constitutive matrix `d` \[Pa\] and a thickness \[m\].
 ///
-/// `None` when the element is folded at a Gauss point.
+/// `None` if the element is folded at a Gauss point.
 pub fn stiffness(nodes: &Nodes, d: &Matrix3<f64>, thickness: f64) -> Option<SMatrix<f64, 8, 8>> {
     quadrature::square()
         .map(|place| {
@@ -71,7 +71,7 @@ pub fn stiffness(nodes: &Nodes, d: &Matrix3<f64>, thickness: f64) -> Option<SMat
         .sum()
 }
 
-/// Consistent nodal forces \[N\] of a uniform force per volume \[N/m^3\].
+/// Computes the consistent nodal forces \[N\] of a uniform force per volume \[N/m^3\], for a thickness \[m\].
 pub fn body_load(nodes: &Nodes, force: Vector2<f64>, thickness: f64) -> SVector<f64, 8> {
     let mut load = SVector::zeros();
     for place in quadrature::square() {
@@ -84,7 +84,8 @@ pub fn body_load(nodes: &Nodes, force: Vector2<f64>, thickness: f64) -> SVector<
     load
 }
 
-/// Stress at the centre \[Pa\] for the displacements of the nodes \[m\]; `None` if the element is folded there.
+/// Computes the stress at the centre \[Pa\] for the displacements of the nodes \[m\]; `None` if the element is folded
+/// at its centre.
 pub fn stress_at_centre(
     nodes: &Nodes,
     d: &Matrix3<f64>,
@@ -94,7 +95,7 @@ pub fn stress_at_centre(
     Some(d * b * displacements)
 }
 
-/// The centre of the element: the image of the centre of the reference square \[m\].
+/// Returns the centre of the element \[m\], the image of the centre of the reference square.
 pub fn centre(nodes: &Nodes) -> Point2<f64> {
     Point2::from(nodes.iter().map(|p| p.coords).sum::<Vector2<f64>>() * 0.25)
 }
