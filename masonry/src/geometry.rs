@@ -1,4 +1,4 @@
-//! Polygons and segments: area, centroid, shape checks, overlaps.
+//! Polygons and segments: area, centroid, checks of shapes, overlaps.
 //!
 //! A polygon is given by its corners, counter-clockwise; edge `k` runs from corner `k` to the next one, and the last
 //! edge back to corner 0. Tolerances are relative to the sizes of the shapes involved.
@@ -13,19 +13,19 @@ pub(crate) use extent::Extent;
 pub use overlap::{SegmentOverlap, facing_normal, facing_overlap, length_inside, overlap_area};
 pub use shape::{PolygonError, check_convex, check_simple, edge_behind_centroid, without_straight};
 
-/// Lengths below this part of the lengths around them are rounding errors: places as near to each other as this are
-/// one.
+/// Lengths below this part of the lengths around them are rounding errors: places that are closer together than this
+/// part of the size are one place.
 pub(crate) const SAME_PLACE: f64 = 1e-9;
 
 /// Corners of a quadrilateral, counter-clockwise.
 pub type Quad = [Point2<f64>; 4];
 
-/// Signed area, positive when the corners run counter-clockwise \[m^2\].
+/// Computes the signed area of a polygon \[m^2\], positive if the corners run counter-clockwise.
 pub fn area(polygon: &[Point2<f64>]) -> f64 {
     fan(polygon).map(|[a, b]| 0.5 * cross(a, b)).sum()
 }
 
-/// Centroid of the area of a polygon.
+/// Computes the centroid of the area of a polygon \[m\].
 ///
 /// # Panics
 /// If there is no corner.
@@ -37,21 +37,21 @@ pub fn centroid(polygon: &[Point2<f64>]) -> Point2<f64> {
     polygon[0] + moment / (3.0 * twice)
 }
 
-/// The sides of the triangles that corner 0 makes with the edges. Vectors from corner 0 lose no digits of a small block
-/// far from the origin.
+/// Returns two sides of each triangle that corner 0 makes with an edge. The sides are vectors from corner 0, so that a
+/// small block far from the origin loses no digits.
 fn fan(polygon: &[Point2<f64>]) -> impl Iterator<Item = [Vector2<f64>; 2]> {
     let pairs = polygon.get(1..).unwrap_or_default().windows(2);
     pairs.map(|pair| [pair[0] - polygon[0], pair[1] - polygon[0]])
 }
 
-/// Size of a polygon: the largest distance between two corners \[m\].
+/// Computes the size of a polygon: the largest distance between two corners \[m\].
 pub fn size(polygon: &[Point2<f64>]) -> f64 {
     let pairs =
         polygon.iter().enumerate().flat_map(|(k, p)| polygon[..k].iter().map(move |q| p - q));
     pairs.map(|apart| apart.norm()).fold(0.0, f64::max)
 }
 
-/// The two ends of edge `k`.
+/// Returns the two ends of edge `k`.
 ///
 /// # Panics
 /// If there is no such edge.
@@ -59,7 +59,7 @@ pub fn edge(polygon: &[Point2<f64>], k: usize) -> [Point2<f64>; 2] {
     [polygon[k], polygon[(k + 1) % polygon.len()]]
 }
 
-/// The place at a fraction of edge `k`, from its first corner.
+/// Returns the point on edge `k` at a fraction of its length from its first corner.
 ///
 /// # Panics
 /// If there is no such edge.
@@ -68,7 +68,7 @@ pub fn on_edge(polygon: &[Point2<f64>], k: usize, at: f64) -> Point2<f64> {
     p + (q - p) * at
 }
 
-/// A fraction of an edge, set to 0 or 1 if only rounding separates them.
+/// Returns a fraction of an edge; it is set to 0 or 1 if it differs only by rounding errors.
 pub(crate) fn snap(fraction: f64) -> f64 {
     if fraction < SAME_PLACE {
         0.0
@@ -79,8 +79,8 @@ pub(crate) fn snap(fraction: f64) -> f64 {
     }
 }
 
-/// The coordinates `[r, s]` that the bilinear map takes to a point of a strictly convex quadrilateral, `r` along edge 0
-/// and `s` along edge 3 from its end, both in 0..=1 for a point inside.
+/// Returns the coordinates `[r, s]` of a point in a strictly convex quadrilateral, which the bilinear map takes to this
+/// point: `r` along edge 0, and `s` along edge 3 from its end. Both are in 0..=1 for a point inside.
 pub fn reference(quad: &Quad, point: Point2<f64>) -> [f64; 2] {
     // The cross product of h - f s and e + g s is zero for h = e r + f s + g r s: a quadratic equation in s. The map
     // keeps its orientation inside, and the left side increases with s there, so that the root is the larger one.
@@ -88,7 +88,7 @@ pub fn reference(quad: &Quad, point: Point2<f64>) -> [f64; 2] {
     let g = (quad[2] - quad[3]) - e;
     let (square, linear, constant) = (cross(g, f), cross(e, f) + cross(h, g), cross(h, e));
     let root = (linear * linear - 4.0 * constant * square).max(0.0).sqrt();
-    // The form of the root without a difference of similar numbers.
+    // This form of the root has no difference of almost equal numbers.
     let s = if linear >= 0.0 {
         -2.0 * constant / (linear + root)
     } else {
@@ -98,7 +98,7 @@ pub fn reference(quad: &Quad, point: Point2<f64>) -> [f64; 2] {
     [(h - f * s).dot(&along) / along.norm_squared(), s]
 }
 
-/// The point of a segment that is nearest to a point.
+/// Returns the point of a segment that is nearest to a given point.
 pub fn nearest_on_segment([p, q]: [Point2<f64>; 2], point: Point2<f64>) -> Point2<f64> {
     let along = q - p;
     let square = along.norm_squared();
@@ -106,20 +106,20 @@ pub fn nearest_on_segment([p, q]: [Point2<f64>; 2], point: Point2<f64>) -> Point
     p + along * at.clamp(0.0, 1.0)
 }
 
-/// The point of the boundary of a polygon that is nearest to a point.
+/// Returns the point of the boundary of a polygon that is nearest to a given point.
 pub fn nearest_on_boundary(polygon: &[Point2<f64>], point: Point2<f64>) -> Point2<f64> {
     let nearest_on = |k: usize| nearest_on_segment(edge(polygon, k), point);
     let near = |a: &Point2<f64>, b: &Point2<f64>| (a - point).norm().total_cmp(&(b - point).norm());
     (0..polygon.len()).map(nearest_on).min_by(near).unwrap_or(point)
 }
 
-/// The distance of a point from the boundary of a simple polygon; negative inside \[m\].
+/// Computes the distance of a point from the boundary of a simple polygon \[m\], negative inside.
 pub fn outside(polygon: &[Point2<f64>], point: Point2<f64>) -> f64 {
     let distance = (nearest_on_boundary(polygon, point) - point).norm();
     if contains(polygon, point) { -distance } else { distance }
 }
 
-/// Whether a point is inside: a ray to the right crosses the boundary an odd number of times.
+/// Whether a point is inside of a polygon: a ray to the right crosses the boundary an odd number of times.
 fn contains(polygon: &[Point2<f64>], point: Point2<f64>) -> bool {
     let is_crossed = |k: &usize| {
         let [p, q] = edge(polygon, *k);
@@ -129,7 +129,7 @@ fn contains(polygon: &[Point2<f64>], point: Point2<f64>) -> bool {
     (0..polygon.len()).filter(is_crossed).count() % 2 == 1
 }
 
-/// Unit outward normal of edge `k`.
+/// Returns the unit outward normal of edge `k`.
 ///
 /// # Panics
 /// If there is no such edge.
@@ -138,22 +138,22 @@ pub fn outward_normal(polygon: &[Point2<f64>], k: usize) -> Vector2<f64> {
     turn_right((q - p).normalize())
 }
 
-/// Half the central angle \[rad\] of an arc of a circle with this rise over a span.
+/// Computes half the central angle \[rad\] of a circular arc with this rise and span.
 pub(crate) fn half_angle(rise: f64, span: f64) -> f64 {
     2.0 * (2.0 * rise / span).atan()
 }
 
-/// A vector turned by -90 degrees.
+/// Turns a vector by -90 degrees, which is clockwise.
 pub fn turn_right(v: Vector2<f64>) -> Vector2<f64> {
     Vector2::new(v.y, -v.x)
 }
 
-/// The out-of-plane component of the cross product.
+/// Computes the out-of-plane component of the cross product of two vectors.
 pub fn cross(a: Vector2<f64>, b: Vector2<f64>) -> f64 {
     a.x * b.y - a.y * b.x
 }
 
-/// The polar moment of area of a polygon about its centroid \[m^4\].
+/// Computes the polar moment of area of a polygon about its centroid \[m^4\].
 pub fn polar_moment(polygon: &[Point2<f64>]) -> f64 {
     let centre = centroid(polygon);
     let of_triangle = |k: usize| {
@@ -163,7 +163,7 @@ pub fn polar_moment(polygon: &[Point2<f64>]) -> f64 {
     (0..polygon.len()).map(of_triangle).sum()
 }
 
-/// The parts of an interval outside of others; parts shorter than 1e-9 are left out.
+/// Returns the parts of an interval that are outside of other intervals, without parts shorter than 1e-9.
 pub fn without(whole: [f64; 2], others: &[[f64; 2]]) -> Vec<[f64; 2]> {
     let mut left = vec![whole];
     for [from, to] in others {

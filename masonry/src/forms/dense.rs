@@ -6,8 +6,8 @@
 //! one whatever the units and moduli. [`DenseForm::rows`] converts back to forces and relative displacements in SI
 //! units.
 //!
-//! The pairs of a problem of `m` points, `m_f` of them with friction, come in groups: first
-//! `(t_n, y_n)` of all points, then, group by group, those of the points with friction.
+//! The pairs of a problem of `m` points, of which `m_f` have friction, come in groups: first the pairs `(t_n, y_n)` of
+//! all points, then, group by group, the pairs of the points with friction.
 
 use faer::Mat;
 use lcp::HorizontalLcp;
@@ -21,7 +21,7 @@ use crate::system::System;
 mod mixed;
 mod reduced;
 
-/// The choice of the variables.
+/// The form of the linear complementarity problem, which is a choice of its variables.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum FormKind {
     /// The paper's (3.27), order `m + 2 m_f`: pairs `(t_n, y_n)`, `(p+, y+)`, `(p-, y-)`, where
@@ -40,50 +40,50 @@ pub enum FormKind {
     Mixed,
 }
 
-/// Units of the dimensionless variables of a form.
+/// The units of the dimensionless variables of a form.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FormScale {
-    /// Force of one \[N\].
+    /// The unit of force \[N\].
     pub force: f64,
-    /// Displacement of one \[m\].
+    /// The unit of displacement \[m\].
     pub length: f64,
 }
 
 /// A complementary basis from which Lemke's method may start.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Start {
-    /// A name for reports.
+    /// The name of the basis in reports.
     pub name: &'static str,
-    /// Whether the `t` variable of every pair is basic (else its `y` variable).
+    /// Whether the `t` variable of every pair is basic; otherwise the `y` variable of the pair is basic.
     pub t_basic: Vec<bool>,
 }
 
 impl Start {
-    /// The name of the basis at which a similar problem ended.
+    /// The name for a basis at which the pivots of a similar problem ended.
     pub const LAST: &'static str = "last basis";
 
-    /// The basis at which a similar problem ended.
+    /// Returns a start basis from the basis at which the pivots of a similar problem ended.
     pub fn last(t_basic: Vec<bool>) -> Self {
         Self { name: Self::LAST, t_basic }
     }
 }
 
-/// A contact problem `A t + B y = c`, `t >= 0`, `y >= 0`, `t.y = 0`, dimensionless.
+/// A contact problem `A t + B y = c`, `t >= 0`, `y >= 0`, `t.y = 0` in dimensionless variables.
 #[derive(Debug, Clone)]
 pub struct DenseForm {
-    /// The variables used.
+    /// The form of the problem, which is the choice of its variables.
     pub kind: FormKind,
-    /// `A`, `B` and `c`.
+    /// The matrices `A` and `B` and the vector `c`.
     pub problem: HorizontalLcp,
     /// The units of force and of displacement.
     pub scale: FormScale,
-    /// Start bases for Lemke's method, the most promising first; empty if `y` itself is the natural start. Any of
-    /// these bases may be singular for a certain `mu`.
+    /// Start bases for Lemke's method, the most promising first; empty if the basis of all `y` is the natural start.
+    /// Each of these bases may be singular for a certain `mu`.
     pub starts: Vec<Start>,
     layout: Layout,
 }
 
-/// The equations of a form while they are written.
+/// The equations of a form while they are assembled.
 struct Equations {
     a: Mat<f64>,
     b: Mat<f64>,
@@ -93,8 +93,8 @@ struct Equations {
 }
 
 impl Equations {
-    /// The form, with zeros for the coefficients and right-hand sides that are only rounding errors: a solver that
-    /// has only the equations would treat them as couplings and loads.
+    /// Completes the form. Coefficients and right-hand sides that are only rounding errors become zero, because a
+    /// solver would treat them as couplings and loads.
     fn into_form(self, kind: FormKind, starts: Vec<Start>) -> Result<DenseForm, lcp::Error> {
         let Self { mut a, mut b, mut c, scale, layout } = self;
         let rows: Vec<f64> =
@@ -115,7 +115,7 @@ impl Equations {
 }
 
 impl DenseForm {
-    /// Sets up the problem in the given variables.
+    /// Sets up the problem in the variables of the form `kind`.
     ///
     /// # Errors
     /// [`lcp::Error::NotFinite`] when the data of the scene overflow.
@@ -126,18 +126,18 @@ impl DenseForm {
         }
     }
 
-    /// Number of complementary pairs.
+    /// Returns the number of complementary pairs.
     pub fn order(&self) -> usize {
         self.problem.order()
     }
 
-    /// Number of contact points: of pairs `(t_n, y_n)`, which come first.
+    /// Returns the number of contact points: of the pairs `(t_n, y_n)`, which come first.
     pub fn points(&self) -> usize {
         self.layout.points
     }
 
-    /// The rigid amplitudes \[m\], three per block, among the variables `t` of the mixed form;
-    /// `None` for the forms that have eliminated them.
+    /// Returns the rigid amplitudes \[m\], three per block, which are among the variables `t` of the mixed form; `None`
+    /// for the other forms, which have eliminated them.
     pub fn amplitudes(&self, t: &[f64]) -> Option<Vec<f64>> {
         if self.kind != FormKind::Mixed {
             return None;
@@ -153,7 +153,7 @@ impl DenseForm {
         )
     }
 
-    /// Forces and relative displacements of all rows from the dimensionless variables.
+    /// Converts the dimensionless variables to forces and relative displacements of all rows in SI units.
     ///
     /// # Panics
     /// If `t` or `y` is shorter than [`DenseForm::order`].
@@ -166,8 +166,8 @@ impl DenseForm {
         }
     }
 
-    /// The dimensionless variables `(t, y)` of given forces and relative displacements of all rows, and of the
-    /// matching rigid amplitudes \[m\] and forces of bars \[N\] (used by the mixed form only).
+    /// Converts forces and relative displacements of all rows to the dimensionless variables `(t, y)`. The matching
+    /// rigid amplitudes \[m\] and forces of bars \[N\] are used by the mixed form only.
     ///
     /// # Panics
     /// If there are fewer values than rows.
@@ -211,7 +211,7 @@ impl DenseForm {
 }
 
 impl FormKind {
-    /// The name in reports.
+    /// Returns the name in reports.
     pub fn name(self) -> &'static str {
         match self {
             Self::Coulomb => "coulomb",
@@ -220,7 +220,7 @@ impl FormKind {
         }
     }
 
-    /// Unknowns that a frictional point has besides its normal force.
+    /// Returns the number of unknowns of a point with friction, besides its normal force.
     pub(crate) fn unknowns_per_friction(self) -> usize {
         match self {
             Self::Coulomb => 2,
@@ -228,8 +228,8 @@ impl FormKind {
         }
     }
 
-    /// The factors in `t_t = factor (t+ - t-)` and `y_t = factor (y+ - y-)`; `t+`, `y+` are the variables of the
-    /// second group of pairs and `t-`, `y-` those of the third.
+    /// Returns the factors in `t_t = factor (t+ - t-)` and `y_t = factor (y+ - y-)`, where `t+` and `y+` are the
+    /// variables of the second group of pairs, and `t-` and `y-` those of the third group.
     fn tangential_weights(self) -> (f64, f64) {
         match self {
             Self::Coulomb => (0.5, 1.0),
@@ -238,12 +238,12 @@ impl FormKind {
     }
 }
 
-/// Positions of the variables of points and rows among the pairs.
+/// The positions of the variables of points and rows among the complementary pairs.
 #[derive(Debug, Clone)]
 struct Layout {
     /// Number of contact points.
     points: usize,
-    /// The points that resist sliding, with their bounds in units of force.
+    /// The points that resist sliding; the constant parts of their bounds are in units of force of the form.
     friction: Vec<Friction>,
     /// Number of bars of mortar strips, which are unknowns of the mixed form.
     bars: usize,
@@ -259,17 +259,17 @@ impl Layout {
         Self { points: system.points(), friction, bars: system.stretches.len() }
     }
 
-    /// The pair of frictional point `k` in a group; group 1 follows the normal pairs.
+    /// Returns the index of the pair of frictional point `k` in a group; group 1 follows the normal pairs.
     fn pair(&self, group: usize, k: usize) -> usize {
         self.points + (group - 1) * self.friction.len() + k
     }
 
-    /// Rows of the system.
+    /// Returns the number of rows of the system.
     fn rows(&self) -> usize {
         self.points + self.friction.len()
     }
 
-    /// The value of a row as a combination of pair variables; `weight` belongs to tangential rows.
+    /// Returns the value of a row as a linear combination of pair variables; `weight` is the factor in tangential rows.
     fn terms(&self, row: usize, weight: f64) -> Vec<(usize, f64)> {
         match row.checked_sub(self.points) {
             None => vec![(row, 1.0)],
@@ -286,7 +286,7 @@ impl Layout {
 }
 
 impl FormScale {
-    /// Units in which the mean of the diagonal of `A` is one and the loads are at most one.
+    /// Returns the units in which the mean of the diagonal of `A` is one and the loads are at most one.
     fn of(reduction: &Reduction) -> Self {
         let or_one = |x: f64| if x > 0.0 { x } else { 1.0 };
         let n = reduction.a.nrows();

@@ -1,14 +1,15 @@
 //! Elimination of the displacements: from the equilibrium system to contact forces alone.
 //!
-//! Equilibrium of all blocks, with isostatic rows `I` and the others `E`, is `t_I = R t_E + t_0` (3.18), and the
-//! relative displacements are `y_E = A t_E - R^T y_I + c` (3.23) with `A = W^T F W`; `W` is the identity on `E` and `R`
-//! on `I`, and `F = C K^+ C^T`, with the compliance of joints and of mortar films on the diagonal. Any generalised
-//! inverse `K^+` gives the same `A` and `c`, because the columns of `W` and the loads with `t_0` balance on every
-//! block.
+//! The rows of the system are divided into isostatic rows `I` and other rows `E`. Equilibrium of all blocks is `t_I = R
+//! t_E + t_0` (3.18), and the relative displacements are `y_E = A t_E - R^T y_I + c` (3.23) with `A = W^T F W`. The
+//! matrix `W` is the identity in rows `E` and `R` in rows `I`, and `F = C K^+ C^T` has the compliance of joints and of
+//! mortar films added to its diagonal. Any generalised inverse `K^+` gives the same `A` and `c`, because the columns of
+//! `W`, and the loads together with `t_0`, are balanced on every block.
 //!
-//! Strips of mortar couple blocks. Equilibrium with their elongations `e = L u` and stiffnesses `D` is
-//! `(K + L^T D L) u = f + C^T t`. No rigid motion stretches a strip, so that the rows of `L` balance on every block,
-//! and with the forces `q = -D L u` of the bars on the blocks `u = K^+ (f + C^T t + L^T q) + N alpha` as before, and
+//! Strips of mortar couple blocks. Equilibrium with the elongations `e = L u` of their bars and the stiffnesses `D` is
+//! `(K + L^T D L) u = f + C^T t`. No rigid motion stretches a strip, so that the rows of `L` are balanced on every
+//! block. With the forces `q = -D L u` of the bars on the blocks, `u = K^+ (f + C^T t + L^T q) + N alpha` as before,
+//! and
 //!
 //! ```text
 //!  H q + F_LC t + L K^+ f = 0,      H = D^-1 + F_LL,    F_LC = L K^+ C^T,    F_LL = L K^+ L^T,
@@ -16,7 +17,8 @@
 //!  y = (F - F_CL H^-1 F_LC) t + C K^+ f - F_CL H^-1 L K^+ f + x + G alpha
 //! ```
 //!
-//! (Woodbury's identity). `H` is positive definite. It is the block of the bars in the flexibility of rows and bars.
+//! (Woodbury's identity). `H` is positive definite: it is the part of the flexibility of rows and bars that belongs to
+//! the bars.
 
 use faer::linalg::solvers::{PartialPivLu, Solve};
 use faer::{Mat, MatRef};
@@ -24,27 +26,27 @@ use faer::{Mat, MatRef};
 use crate::system::rigid::{self, Modes, RigidError, select_rows};
 use crate::system::{BodySystem, System};
 
-/// The reduced problem: equilibrium and compatibility in the contact forces.
+/// The reduced contact problem: equilibrium and compatibility with only the contact forces as unknowns.
 #[derive(Debug, Clone)]
 pub struct Reduction {
-    /// The isostatic rows `I` of the system, three per block, increasing.
+    /// The isostatic rows `I` of the system, three per block, in increasing order.
     pub isostatic: Vec<usize>,
-    /// The other rows `E`, increasing.
+    /// The other rows `E` of the system, in increasing order.
     pub others: Vec<usize>,
-    /// `R` of (3.18), rows `I` by columns `E` \[-\].
+    /// The matrix `R` of (3.18) \[-\], whose rows belong to `I` and columns to `E`.
     pub r: Mat<f64>,
-    /// `t_0` of (3.18): forces of the isostatic rows that balance the loads \[N\].
+    /// The vector `t_0` of (3.18): forces of the isostatic rows that balance the loads \[N\].
     pub t0: Vec<f64>,
-    /// `A = W^T F W` \[m/N\], symmetric and positive semidefinite; empty if nothing deforms: rigid blocks in joints
-    /// that do not give way have only `R`.
+    /// The matrix `A = W^T F W` \[m/N\], symmetric and positive semidefinite; empty if nothing deforms, as in a
+    /// structure of rigid blocks and joints without compliance.
     pub a: Mat<f64>,
-    /// `c` of (3.23) \[m\].
+    /// The vector `c` of (3.23) \[m\].
     pub c: Vec<f64>,
-    /// The flexibility of rows and bars, from which displacements follow.
+    /// The flexibility of rows and bars, from which relative displacements are computed.
     pub(super) flexibility: Flexibility,
-    /// The factors of `H`; `None` without bars.
+    /// The factors of the matrix `H`; `None` if there are no bars.
     bars: Option<PartialPivLu<f64>>,
-    /// `G_I`, rows `I` by three columns per block.
+    /// The matrix `G_I`, with the rows `I` and three columns per block.
     g_isostatic: Mat<f64>,
 }
 
@@ -90,7 +92,7 @@ impl Reduction {
         Ok(Self { c, ..reduction })
     }
 
-    /// `W^T F W = F_EE + S + S^T` with `S = R^T (F_IE + F_II R / 2)`: one large product, and
+    /// Computes `A = W^T F W = F_EE + S + S^T` with `S = R^T (F_IE + F_II R / 2)`, which needs one large product and is
     /// symmetric to the last digit.
     fn of_others(&self, f: MatRef<'_, f64>) -> Mat<f64> {
         let Self { isostatic, others, r, .. } = self;
@@ -104,7 +106,7 @@ impl Reduction {
         })
     }
 
-    /// Relative displacements `F t + C K^+ f + x` \[m\] of all rows for forces `t` \[N\], without the
+    /// Computes the relative displacements `F t + C K^+ f + x` \[m\] of all rows for forces `t` \[N\], without those of
     /// rigid motions.
     pub fn elastic_gaps(&self, t: &[f64]) -> Vec<f64> {
         let mut y = self.flexibility.gaps(&[t, &self.bar_forces(t)].concat());
@@ -112,7 +114,7 @@ impl Reduction {
         y
     }
 
-    /// The forces `q` \[N\] of the bars of strips on their blocks for forces `t` \[N\] of all rows.
+    /// Computes the forces `q` \[N\] of the bars of strips on their blocks for forces `t` \[N\] of all rows.
     pub fn bar_forces(&self, t: &[f64]) -> Vec<f64> {
         let Some(h) = &self.bars else { return Vec::new() };
         let rest = vec![0.0; self.flexibility.own.len() - t.len()];
@@ -121,8 +123,8 @@ impl Reduction {
         h.solve(rhs).col_as_slice(0).to_vec()
     }
 
-    /// The rigid amplitudes \[m\], three per block, for the forces `t` \[N\] and the relative displacements `y` \[m\]
-    /// of all rows; the isostatic rows determine the amplitudes.
+    /// Computes the rigid amplitudes \[m\], three per block, for the forces `t` \[N\] and the relative displacements
+    /// `y` \[m\] of all rows. Only the isostatic rows are used, since they determine the amplitudes.
     pub fn amplitudes(&self, t: &[f64], y: &[f64]) -> Vec<f64> {
         let elastic = self.elastic_gaps(t);
         let rigid = self.isostatic.iter().map(|row| y[*row] - elastic[*row]);
@@ -132,8 +134,8 @@ impl Reduction {
     }
 }
 
-/// `F - F_CL H^-1 F_LC` of the rows in the place of the flexibility of rows and bars, symmetric to the last digit, and the
-/// factors of `H`; `None` without bars.
+/// Replaces `f`, the flexibility of rows and bars, by that of the rows alone, `F - F_CL H^-1 F_LC`, symmetric to the
+/// last digit. Returns the factors of `H`; `None` if there are no bars.
 fn eliminate_bars(f: &mut Mat<f64>, rows: usize) -> Option<PartialPivLu<f64>> {
     let bars = f.nrows() - rows;
     if bars == 0 {
@@ -146,25 +148,25 @@ fn eliminate_bars(f: &mut Mat<f64>, rows: usize) -> Option<PartialPivLu<f64>> {
     Some(h)
 }
 
-/// The deformation of blocks, joints and films by forces at the rows of a system, and at the bars of mortar strips
-/// after them.
+/// The flexibility `F`: the relative displacements of the rows of a system, and of the bars of mortar strips after
+/// them, under forces on these rows and bars.
 #[derive(Debug, Clone)]
 pub(super) struct Flexibility {
     blocks: Vec<Compliance>,
-    /// The compliance of every joint and film, and `D^-1` of every bar \[m/N\].
+    /// The compliance \[m/N\] of every row by its joint or film, and `D^-1` of every bar after them.
     own: Vec<f64>,
-    /// `x` \[m\]; zero of bars.
+    /// The offsets `x` \[m\] of the rows; zero for bars.
     offsets: Vec<f64>,
 }
 
-/// The compliance of one elastic block.
+/// The flexibility of one elastic block.
 #[derive(Debug, Clone)]
 struct Compliance {
-    /// The rows and bars that act on the block.
+    /// The indices of the rows and bars that act on the block.
     places: Vec<usize>,
-    /// The part of the block in `F` \[m/N\] there.
+    /// The part of `F` \[m/N\] that is due to the block, for these rows and bars.
     f: Mat<f64>,
-    /// The part of the block in `C K^+ f` and `L K^+ f` \[m\].
+    /// The part of `C K^+ f` and `L K^+ f` \[m\] that is due to the block, for these rows and bars.
     v: Vec<f64>,
 }
 
@@ -180,7 +182,7 @@ impl Flexibility {
         }
     }
 
-    /// `F`, dense.
+    /// Returns the flexibility `F` of all rows and bars as a dense matrix \[m/N\].
     pub(super) fn matrix(&self) -> Mat<f64> {
         let mut f = Mat::zeros(self.own.len(), self.own.len());
         self.own.iter().enumerate().for_each(|(k, own)| f[(k, k)] = *own);
@@ -194,7 +196,8 @@ impl Flexibility {
         f
     }
 
-    /// `F t + C K^+ f + x` \[m\] for forces `t` \[N\], without the rigid motions.
+    /// Computes the relative displacements `F t + C K^+ f + x` \[m\] for forces `t` \[N\], without those of rigid
+    /// motions.
     pub(super) fn gaps(&self, t: &[f64]) -> Vec<f64> {
         let own = self.offsets.iter().zip(&self.own).zip(t);
         let mut y: Vec<f64> = own.map(|((offset, own), t)| offset + own * t).collect();
@@ -209,13 +212,13 @@ impl Flexibility {
 }
 
 impl Compliance {
-    /// `None` for a rigid block.
+    /// Returns the flexibility of a block; `None` if the block is rigid.
     fn of(system: &System, body: &BodySystem) -> Option<Self> {
         let stiffness = &system.stiffnesses[body.stiffness?];
         let rows = body.rows.iter().map(|row| (row.row, &row.entries));
         let bars = body.stretches.iter().map(|bar| (system.rows.len() + bar.row, &bar.entries));
         let (places, entries): (Vec<_>, Vec<_>) = rows.chain(bars).unzip();
-        // The last column carries the loads.
+        // The last column is for the loads.
         let count = places.len();
         let mut rhs = Mat::zeros(body.load.len(), count + 1);
         for (k, entries) in entries.iter().enumerate() {

@@ -1,4 +1,4 @@
-//! The contact problem with all displacements as unknowns: larger than the reduced forms, but sparse.
+//! The sparse form of the contact problem, with all displacements as unknowns: larger than the reduced forms.
 
 use faer::sparse::{SparseColMat, Triplet};
 use lcp::refine::ContactStatus;
@@ -10,30 +10,31 @@ use crate::model::Model;
 use crate::rounding::cleared;
 use crate::system::{BodySystem, System, displaced_nodes};
 
-/// A [`System`] as a sparse contact problem in SI units, and back.
+/// A [`System`] as a sparse contact problem in SI units, with conversions in both directions.
 #[derive(Debug, Clone)]
 pub struct Sparse {
-    /// `K u = f + C^T t` (3.2) with the contact law. The displacements are those of the nodes, block by block, or the
-    /// amplitudes of the three motions of a rigid block. Joints with a stiffness and films are the compliance of their
-    /// points. Strips of mortar couple their blocks by `L^T D L` in `K`.
+    /// The contact problem: equilibrium `K u = f + C^T t` (3.2) with the contact law. The displacements `u` are those
+    /// of the nodes, block by block, or the amplitudes of the three motions of a rigid block. The stiffness of joints
+    /// and films is in the compliance of their points. Strips of mortar couple their blocks by `L^T D L` in `K`.
     ///
-    /// The deformations of the tangential rows that friction and cohesion share follow, because the two points of such
-    /// a row have one deformation: displacements of the free face relative to the block, with the stiffness `1 / c` and
-    /// loaded by the contact force only, `u = c t`. Cohesion comes last, with its own points and displacements.
+    /// The next displacements are deformations of tangential rows in which both friction and cohesion act, because the
+    /// two points of such a row have one deformation: displacements of the free face relative to the block, with the
+    /// stiffness `1 / c`, on which only the contact force acts, `u = c t`. The points and displacements of cohesion
+    /// come last.
     pub problem: Contact2d,
-    /// The first displacement of every block, and one past the last.
+    /// The index of the first displacement of every block, and the number of displacements of all blocks.
     starts: Vec<usize>,
-    /// The carriers of the forces of the tangential rows of the system.
+    /// The points that carry the force of each tangential row of the system.
     carriers: Vec<Carriers>,
-    /// The rows of the system whose deformations are displacements.
+    /// The rows of the system whose deformations are displacements of the problem.
     free_faces: Vec<usize>,
 }
 
-/// The points of the problem that share a tangential force: `|t_t| <= mu t_n + C_0` is the sum of a part that friction
-/// carries and of a part that does not depend on the normal force.
+/// The points of the problem that share the force of a tangential row. Its bound `|t_t| <= mu t_n + C_0` is the sum of
+/// a part that friction carries, and of a constant part that does not depend on the normal force.
 ///
-/// The second part is the friction, with a coefficient of one, of an extra point with the same slip. A force `C_0`
-/// presses this point: the load of a displacement that enters only this point, which holds the displacement at zero.
+/// The constant part is carried by an extra point with the same slip and a friction coefficient of one. A force `C_0`
+/// presses this point: the load on a displacement that only this point has, and that the point holds at zero.
 #[derive(Debug, Clone, Copy)]
 struct Carriers {
     friction: Option<usize>,
@@ -49,14 +50,14 @@ impl Carriers {
         self.friction.into_iter().chain(self.constant)
     }
 
-    /// The sum of the values of both points.
+    /// Returns the sum of the values at these points.
     fn sum(self, of: &[f64]) -> f64 {
         self.points().map(|point| of[point]).sum()
     }
 }
 
 impl Sparse {
-    /// Sets up the problem.
+    /// Sets up the sparse problem of a system.
     ///
     /// # Errors
     /// [`lcp::Error::NotFinite`] when the data of the scene overflow.
@@ -64,8 +65,8 @@ impl Sparse {
         Self::of(system, Carriers::are_two)
     }
 
-    /// Sets up the problem for methods without compliances of contacts: the deformations of all compliant rows are
-    /// displacements.
+    /// Sets up the sparse problem of a system for methods that do not admit compliances of contacts: the deformations
+    /// of all compliant rows become displacements.
     ///
     /// # Errors
     /// As [`new`](Self::new).
@@ -73,7 +74,7 @@ impl Sparse {
         Self::of(system, |_| true)
     }
 
-    /// The form with displacements for the deformations of the rows with these carriers.
+    /// Sets up the problem with displacements for the deformations of those rows for whose carriers `is_free` is true.
     fn of(system: &System, is_free: impl Fn(Carriers) -> bool) -> Result<Self, lcp::Error> {
         let mut starts = vec![0];
         for body in &system.bodies {
@@ -174,8 +175,8 @@ impl Sparse {
         Ok(Self { problem, starts, carriers, free_faces })
     }
 
-    /// Forces and relative displacements of all rows of the system; relative displacements that are rounding errors of
-    /// those of the two sides are zero, as those of contacts that are closed or stick.
+    /// Returns forces and relative displacements of all rows of the system. A relative displacement is set to zero if
+    /// it is only a rounding error of the displacements of both sides, as at contacts that are closed or stick.
     pub fn rows(&self, state: &ContactState) -> RowState {
         let cleared_by = |matrix: &SparseColMat<usize, f64>, direction: usize, values: &[f64]| {
             let forces = [&state.t_n, &state.t_t][direction];
@@ -199,14 +200,14 @@ impl Sparse {
         RowState { t, y }
     }
 
-    /// Slips of the tangential rows of the system from those of the points of the problem: all points of a row have one
-    /// slip.
+    /// Returns the slips of the tangential rows of the system from those of the points of the problem; all points of a
+    /// row have the same slip.
     pub(crate) fn by_rows(&self, slips: &[f64]) -> Vec<f64> {
         let first = |carriers: &Carriers| carriers.points().next().map(|i| slips[i]);
         self.carriers.iter().filter_map(first).collect()
     }
 
-    /// Displacements and forces of the problem from those of the structure: the inverse of
+    /// Converts displacements and forces of the structure to those of the problem: the inverse of
     /// [`recover::from_displacements`](crate::recover::from_displacements).
     ///
     /// # Panics
@@ -229,8 +230,8 @@ impl Sparse {
         self.with_forces(system, u, &normal, &tangential)
     }
 
-    /// The state with these displacements of the blocks, or of the whole problem, and with the forces of the normal and
-    /// of the tangential rows of the system.
+    /// Returns the state with these displacements, of the blocks alone or of the whole problem, and with these forces
+    /// of the normal and of the tangential rows of the system.
     pub(crate) fn with_forces(
         &self,
         system: &System,
@@ -263,8 +264,8 @@ impl Sparse {
         self.problem.state(u, t_n, t_t)
     }
 
-    /// A start with the contact states of given forces of the rows of the system: points without a normal force are
-    /// open, and points with forces on the cone slide.
+    /// Returns a warm start with the contact states for these forces of the rows of the system: points without a normal
+    /// force are open, and points with forces on the edge of the cone slide.
     pub(crate) fn start_of(&self, system: &System, forces: &[f64]) -> WarmStart {
         let (normal, tangential) = forces.split_at(system.points());
         let rest = vec![0.0; self.problem.displacements()];
@@ -279,41 +280,42 @@ impl Sparse {
         self.problem.start_of(&statuses.collect::<Vec<_>>())
     }
 
-    /// The contact points of the structure; those of cohesion follow them in the problem.
+    /// Returns the number of contact points of the structure, which come before those of cohesion in the problem.
     pub(crate) fn points(&self) -> usize {
         let of_cohesion = self.carriers.iter().filter(|it| it.constant.is_some()).count();
         self.problem.points() - of_cohesion
     }
 
-    /// The state with the contact statuses of another one, solved anew with twice the digits; `None` if the new state
-    /// is not a solution to this tolerance either.
+    /// Solves the equations of the contact states of `state` again, with twice as many digits; `None` if the result is
+    /// not a solution to this tolerance.
     pub fn refined(
         &self,
         state: &ContactState,
         tolerance: f64,
     ) -> Option<(ContactState, Residuals)> {
-        // States that overflow are not refined.
+        // A state whose numbers overflow is not refined.
         let refined = self.problem.verify(state).ok()?.refined.rounded(&self.problem);
         let residuals = self.problem.residuals(&refined);
         (residuals.worst() <= tolerance).then_some((refined, residuals))
     }
 
-    /// The first displacement of every block, and one past the last.
+    /// Returns the index of the first displacement of every block, and the number of displacements of all blocks.
     pub(crate) fn starts(&self) -> &[usize] {
         &self.starts
     }
 
-    /// The displacements of one block: of its nodes, or the amplitudes of its rigid motions.
+    /// Returns the displacements of one block: those of its nodes, or the amplitudes of its rigid motions.
     ///
     /// # Panics
-    /// If there is no such block, or `u` is not one of the displacements of the problem.
+    /// If there is no such block, or `u` does not have all displacements of the problem.
     pub fn of_block<'a>(&self, block: usize, u: &'a [f64]) -> &'a [f64] {
         &u[self.starts[block]..self.starts[block + 1]]
     }
 }
 
-/// The stiffnesses of the displacements of cohesion, from the first of its points and displacements on. Held at zero
-/// they need none, but methods that begin with open contacts do: as stiff as the sliding parts there.
+/// Returns the stiffnesses on the displacements of cohesion; `point` and `displacement` are the first ones of cohesion.
+/// The points hold these displacements at zero without any stiffness, but methods that begin with open contacts need
+/// one, which is as large as that of the parts that slide there.
 fn pressing(
     k: &[Triplet<usize, usize, f64>],
     c_t: &[Triplet<usize, usize, f64>],

@@ -1,8 +1,8 @@
-//! Rectangles around points.
+//! Bounding rectangles of points.
 
 use nalgebra::Point2;
 
-/// The smallest rectangle along the axes around points; inside out if there are no points.
+/// The smallest rectangle along the axes around points; `low` is above `high` if there are no points.
 #[derive(Clone, Copy)]
 pub(crate) struct Extent {
     pub(crate) low: Point2<f64>,
@@ -30,7 +30,7 @@ impl Extent {
         (0..2).all(|k| self.low[k] <= other.high[k] && other.low[k] <= self.high[k])
     }
 
-    /// The length of the longer side.
+    /// Returns the length of the longer side \[m\].
     pub(crate) fn longer_side(&self) -> f64 {
         (self.high - self.low).max()
     }

@@ -4,14 +4,14 @@ use nalgebra::{Point2, Vector2};
 
 use super::{area, check_convex, cross, edge, outside, turn_right};
 
-/// Rounding error of a distance, relative to the coordinates of its ends.
+/// Rounding error of a distance, relative to the coordinates of the ends of the distance.
 const ROUNDING: f64 = 8.0 * f64::EPSILON;
 
-/// Area of the intersection of two simple, counter-clockwise polygons \[m^2\].
+/// Computes the area of the intersection of two simple polygons \[m^2\], whose corners run counter-clockwise.
 ///
-/// The first is clipped by the half planes of the second (Sutherland and Hodgman), so that only the second needs to be
-/// convex. Separate parts of the first stay joined by edges without area. If neither is convex, the second is divided
-/// into triangles with signs, which cancel outside of it.
+/// The first polygon is clipped by the half planes of the edges of the second (Sutherland and Hodgman), so that only
+/// the second needs to be convex. Separate parts of the first remain joined by edges without area. If neither polygon
+/// is convex, the second is divided into triangles with signed areas, which cancel outside of it.
 pub fn overlap_area(a: &[Point2<f64>], b: &[Point2<f64>]) -> f64 {
     let is_convex = |polygon| check_convex(polygon).is_ok();
     let total = if is_convex(b) {
@@ -32,7 +32,7 @@ pub fn overlap_area(a: &[Point2<f64>], b: &[Point2<f64>]) -> f64 {
     total.max(0.0)
 }
 
-/// Area of the part of a polygon inside a convex one \[m^2\].
+/// Computes the area of the part of a polygon that is inside of a convex polygon \[m^2\].
 fn clipped_area(polygon: &[Point2<f64>], convex: &[Point2<f64>]) -> f64 {
     let mut part = polygon.to_vec();
     for k in 0..convex.len() {
@@ -42,9 +42,9 @@ fn clipped_area(polygon: &[Point2<f64>], convex: &[Point2<f64>]) -> f64 {
     area(&part)
 }
 
-/// Length of the part of a segment that is in a simple polygon, deeper than `depth` \[m\].
+/// Computes the length of the part of a segment that is deeper than `depth` \[m\] in a simple polygon.
 ///
-/// The segment is cut by the lines of all edges, and the depth of each piece is that of its middle.
+/// The lines of all edges cut the segment into pieces, and the depth of a piece is that of its middle.
 pub fn length_inside(segment: [Point2<f64>; 2], polygon: &[Point2<f64>], depth: f64) -> f64 {
     let [from, to] = segment;
     let along = to - from;
@@ -63,7 +63,7 @@ pub fn length_inside(segment: [Point2<f64>; 2], polygon: &[Point2<f64>], depth: 
     pieces.map(|piece| piece[1] - piece[0]).sum::<f64>() * along.norm()
 }
 
-/// The part of a polygon on which the linear function `inside` is not negative.
+/// Returns the part of a polygon in which the linear function `inside` is not negative.
 fn clip(polygon: &[Point2<f64>], inside: impl Fn(Point2<f64>) -> f64) -> Vec<Point2<f64>> {
     let mut kept = Vec::with_capacity(polygon.len() + 1);
     for (k, &p) in polygon.iter().enumerate() {
@@ -79,34 +79,35 @@ fn clip(polygon: &[Point2<f64>], inside: impl Fn(Point2<f64>) -> f64) -> Vec<Poi
     kept
 }
 
-/// The overlap of two facing segments, as places on both of them.
+/// The overlap of two facing segments, given by its ends on both segments.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SegmentOverlap {
-    /// Fractions of the first segment at the two ends of the overlap, increasing.
+    /// Fractions of the length of the first segment at both ends of the overlap, increasing.
     pub on_first: [f64; 2],
-    /// Fractions of the second segment at the same two ends, decreasing.
+    /// Fractions of the length of the second segment at the same two ends, decreasing.
     pub on_second: [f64; 2],
-    /// Unit normal from the first segment to the second: the mean of the right-hand normal of the
-    /// first and the left-hand normal of the second.
+    /// Unit normal from the first segment to the second: the mean of the right-hand normal of the first and the
+    /// left-hand normal of the second.
     pub normal: Vector2<f64>,
-    /// Distance along the normal at the two ends \[m\]; exactly zero if the segments touch within the tolerance.
+    /// Distance of the segments along the normal at both ends of the overlap \[m\]; exactly zero if the segments touch
+    /// within the tolerance.
     pub gap: [f64; 2],
 }
 
-/// Unit normal from the first of two facing segments to the second, the mean of the right-hand normal of the first and
-/// the left-hand normal of the second; `None` for segments that do not run in opposite directions.
+/// Computes the unit normal from the first of two facing segments to the second: the mean of the right-hand normal of
+/// the first and the left-hand normal of the second. `None` if the segments do not run in opposite directions.
 pub fn facing_normal(first: [Point2<f64>; 2], second: [Point2<f64>; 2]) -> Option<Vector2<f64>> {
     let [e1, e2] = [first, second].map(|[from, to]| (to - from).normalize());
     (e1.dot(&e2) < 0.0).then(|| turn_right((e1 - e2).normalize()))
 }
 
-/// Overlap of two segments that run in opposite directions and face each other, the second on the right-hand side of
-/// the first, such as two edges of counter-clockwise blocks.
+/// Finds the overlap of two segments that run in opposite directions and face each other, such as two edges of
+/// counter-clockwise blocks; the second must be on the right-hand side of the first.
 ///
-/// `slack` \[m\] is the distance that counts as touching and `limit` \[m\] the largest gap that still counts as facing.
-/// Gaps below the slack are kept, too, if there is a limit; only gaps within the rounding errors of the coordinates are
-/// zero then. `None` when the segments are not antiparallel, lie apart, penetrate by more than `slack`, or share no
-/// more than `slack` of length.
+/// Segments touch if their distance is at most `slack` \[m\]; `limit` \[m\] is the largest gap of segments that face
+/// each other without touching. If `limit` is zero, all gaps are set to zero; otherwise gaps are kept, and only those
+/// within the rounding errors of the coordinates are set to zero. `None` if the segments are not antiparallel, lie
+/// apart, penetrate by more than `slack`, or share no more than `slack` of length.
 pub fn facing_overlap(
     first: [Point2<f64>; 2],
     second: [Point2<f64>; 2],
@@ -116,7 +117,8 @@ pub fn facing_overlap(
     let (d1, d2) = (first[1] - first[0], second[1] - second[0]);
     let (l1, l2) = (d1.norm(), d2.norm());
     let (e1, e2) = (d1 / l1, d2 / l2);
-    // The shorter segment may turn away over its whole length by no more than the admitted gap.
+    // The angle between the segments must not open the shorter one, over its whole length, by more than the admitted
+    // gap.
     let turned = cross(e1, e2).abs() * l1.min(l2);
     if e1.dot(&e2) >= 0.0 || turned > slack + limit {
         return None;
@@ -139,7 +141,7 @@ pub fn facing_overlap(
     if gap.iter().any(|g| *g < -slack || *g > slack + limit) {
         return None;
     }
-    // Allowed gaps are kept, down to the rounding errors of the coordinates.
+    // Gaps are kept if they are admitted, down to the rounding errors of the coordinates.
     let ends = first.iter().chain(&second).flat_map(|p| [p.x, p.y]);
     let rounding = ROUNDING * ends.fold(0.0, |largest: f64, x| largest.max(x.abs()));
     let touching = if limit > 0.0 { rounding.min(slack) } else { slack };

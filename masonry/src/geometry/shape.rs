@@ -6,25 +6,27 @@ use nalgebra::Point2;
 
 use super::{SAME_PLACE, area, centroid, cross, edge, nearest_on_segment, size};
 
-/// The reasons for which corners are not those of a polygon in counter-clockwise order.
+/// The reasons for which corners are not those of a polygon that runs counter-clockwise.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum PolygonError {
-    /// The number of corners is two or less.
+    /// There are only two corners or fewer; the number is that of the corners.
     TooFew(usize),
     /// A coordinate is not a finite number.
     NotFinite,
-    /// The corners run clockwise around this signed area \[m^2\].
+    /// The corners run clockwise; the number is their signed area \[m^2\].
     Clockwise(f64),
-    /// The interior angle at this corner, from 0, is 180 degrees or more, or two corners coincide.
+    /// The polygon is not convex at the corner with this index, from 0: the interior angle is 180 degrees or more, or
+    /// two corners coincide.
     NotConvex(usize),
-    /// Both edges at this corner, from 0, lie on each other, or the corner coincides with one beside it.
+    /// The polygon has no width at the corner with this index, from 0: both edges lie on each other, or the corner
+    /// coincides with a neighbour.
     NoWidth(usize),
-    /// Edges cross or touch, such as those of a star that is drawn in one stroke.
+    /// Edges cross or touch, as those of a star that is drawn in one stroke.
     Crossing,
 }
 
-/// The corners at which a polygon turns: those between two edges of one line are left out.
+/// Returns the corners at which a polygon turns, without those between two edges on one straight line.
 pub fn without_straight(polygon: &[Point2<f64>]) -> Vec<Point2<f64>> {
     let count = polygon.len();
     let slack = SAME_PLACE * size(polygon);
@@ -37,10 +39,11 @@ pub fn without_straight(polygon: &[Point2<f64>]) -> Vec<Point2<f64>> {
 
 /// Checks that the corners are finite, run counter-clockwise once and span a strictly convex shape.
 ///
-/// A corner counts as convex when twice the area of its triangle exceeds `1e-9` times the square of the polygon's size.
+/// A corner counts as convex if twice the area of the triangle with its neighbours exceeds `1e-9` times the square of
+/// the polygon's size.
 ///
 /// # Errors
-/// [`PolygonError`] has the error and the corner.
+/// [`PolygonError`] has the kind of the error and its corner.
 pub fn check_convex(polygon: &[Point2<f64>]) -> Result<(), PolygonError> {
     let count = polygon.len();
     check_corners(polygon)?;
@@ -64,12 +67,13 @@ pub fn check_convex(polygon: &[Point2<f64>]) -> Result<(), PolygonError> {
     if turned < 3.0 * PI { Ok(()) } else { Err(PolygonError::Crossing) }
 }
 
-/// Checks that the corners are finite, run counter-clockwise, and that edges meet in their common corners only.
+/// Checks that the corners are finite and run counter-clockwise, and that edges meet only in their common corners.
 ///
-/// Corners may point inwards or lie on a straight line. Parts nearer than `1e-9` of the polygon's size touch.
+/// Corners may point inwards or lie on a straight line. Parts count as touching if they are nearer than `1e-9` of the
+/// polygon's size.
 ///
 /// # Errors
-/// [`PolygonError`] has the error; never [`PolygonError::NotConvex`].
+/// [`PolygonError`] has the kind of the error, which is never [`PolygonError::NotConvex`].
 pub fn check_simple(polygon: &[Point2<f64>]) -> Result<(), PolygonError> {
     if check_convex(polygon).is_ok() {
         return Ok(());
@@ -84,7 +88,7 @@ pub fn check_simple(polygon: &[Point2<f64>]) -> Result<(), PolygonError> {
         }
     }
     for k in 0..count {
-        // The edge before the first one is its neighbour.
+        // The edge before the first edge is its neighbour.
         let last = if k == 0 { count.saturating_sub(1) } else { count };
         if (k + 2..last).any(|other| touch(edge(polygon, k), edge(polygon, other), near)) {
             return Err(PolygonError::Crossing);
@@ -94,7 +98,7 @@ pub fn check_simple(polygon: &[Point2<f64>]) -> Result<(), PolygonError> {
     if area < 0.0 { Err(PolygonError::Clockwise(area)) } else { Ok(()) }
 }
 
-/// Finds the first edge that cannot be seen from the centroid; `None` if all can be seen.
+/// Finds the first edge that cannot be seen from the centroid; `None` if all edges can be seen.
 pub fn edge_behind_centroid(polygon: &[Point2<f64>]) -> Option<usize> {
     let (centre, least) = (centroid(polygon), SAME_PLACE * size(polygon).powi(2));
     let is_behind = |k: &usize| {

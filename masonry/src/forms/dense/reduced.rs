@@ -26,7 +26,7 @@ pub(super) fn build(
 }
 
 impl Equations {
-    /// One equation for every row of the system, at the same position:
+    /// Adds one equation for every row of the system, at the same position:
     /// * rows `E`:  `A t_E - R^T y_I - y_E = -c`;
     /// * rows `I`:  `t_I - R t_E = t_0`.
     fn add_rows(&mut self, kind: FormKind, reduction: &Reduction) {
@@ -59,7 +59,7 @@ impl Equations {
         }
     }
 
-    /// The definition of the cone, `p+ + p- = 2 (mu t_n + C_0)` (3.24).
+    /// Adds the definition of the friction cone at point `k`, `p+ + p- = 2 (mu t_n + C_0)` (3.24).
     fn add_cone(&mut self, k: usize) {
         let Self { a, c, layout, .. } = self;
         let (row, friction) = (layout.rows() + k, layout.friction[k]);
@@ -69,7 +69,7 @@ impl Equations {
         a[(row, layout.pair(2, k))] = 1.0;
     }
 
-    /// `s+ + s- = 2 lambda` and `w = mu t_n + C_0 - b+ - b-`.
+    /// Adds the equations `s+ + s- = 2 lambda` and `w = mu t_n + C_0 - b+ - b-` at point `k`.
     fn add_sliding(&mut self, k: usize) {
         let Self { a, b, c, layout, .. } = self;
         let [plus, minus, lambda] = [1, 2, 3].map(|group| layout.pair(group, k));
@@ -85,8 +85,8 @@ impl Equations {
         a[(row, minus)] = 1.0;
     }
 
-    /// A start in which all points with friction slide forwards, along `t`, and one in which they slide backwards; a
-    /// single start if no point has friction.
+    /// Returns two start bases: all points with friction slide forwards, along `t`, in the first, and backwards in the
+    /// second. Returns a single basis if no point has friction.
     fn starts(&self, kind: FormKind, reduction: &Reduction) -> Vec<Start> {
         let ways: &[_] = if self.layout.friction.is_empty() {
             &[("isostatic normals", true)]
@@ -100,9 +100,10 @@ impl Equations {
         ways.iter().map(start).collect()
     }
 
-    /// Isostatic normals carry force, and all other normals are open. At a point with friction the basic variables are one of
-    /// `(y+, p-)`, `(y-, p+)`, or one of `(s+, b-, lambda)`, `(s-, b+, lambda)`: sliding. At an isostatic tangential row
-    /// equilibrium gives the force: both `p` are basic, or `(b+, s-, w)` or `(b-, s+, w)`.
+    /// Returns, for every pair, whether its `t` variable is basic if all points slide. Isostatic normals carry force,
+    /// and all other normals are open. The basic variables of a point with friction are `(y+, p-)` or `(y-, p+)`, or,
+    /// in the other form, `(s+, b-, lambda)` or `(s-, b+, lambda)`. Equilibrium gives the force of an isostatic
+    /// tangential row, in which both `p` are basic, or `(b+, s-, w)`, or `(b-, s+, w)`.
     fn sliding(&self, kind: FormKind, reduction: &Reduction, forwards: bool) -> Vec<bool> {
         let layout = &self.layout;
         let mut is_held = vec![false; layout.rows()];
