@@ -1,15 +1,15 @@
 //! The load history: the steps of a scene, the actions in each, and their energy.
 //!
-//! The solution depends on the load path if there is friction. The law holds in a step with the slip of the previous
-//! step subtracted,
+//! The solution depends on the load path if there is friction. The law of friction holds in a step for the slip of this
+//! step: the slip at the end of the previous step is subtracted,
 //!
 //! ```text
 //! 0 <= p+ _|_ y+ >= 0,   0 <= p- _|_ y- >= 0,   y+ - y- = y_t^k - y_t^(k-1)
 //! ```
 //!
-//! and everything else is as in one step: the previous slip enters `s_0`, the movement of a support `x_0` and `s_0` of
-//! its joints. So every step has its own [`Model`], the model of the scene [under](Model::under) the actions of the
-//! step.
+//! and everything else is as in one step. The previous slip enters `s_0`; the movement of a support enters `x_0` and
+//! `s_0` of the joints at this support. So every step has its own [`Model`], the model of the scene
+//! [under](Model::under) the actions of the step.
 //!
 //! | module | content |
 //! |---|---|
@@ -30,19 +30,20 @@ pub(crate) mod spread;
 
 pub use spread::{SecondLoading, Spread};
 
-/// The actions on a model.
+/// The actions on a model: gravity, loads and movements of supports.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Actions {
-    /// Factor of gravity \[-\].
+    /// The factor of gravity \[-\].
     pub gravity: f64,
-    /// Factors of the loads \[-\], in addition to their own, in the order of the scene.
+    /// The factors of the loads \[-\], in the order of the scene; each multiplies the factor that the load has in the
+    /// scene.
     pub loads: Vec<f64>,
     /// The movements of the supports, in the order of the scene; lengths in metres.
     pub movements: Vec<Movement>,
 }
 
 impl Actions {
-    /// All loads of a scene in full, all supports in their places.
+    /// Returns the actions with all loads of a scene in full and all supports in their original places.
     pub fn full(scene: &Scene) -> Self {
         Self {
             gravity: 1.0,
@@ -51,7 +52,7 @@ impl Actions {
         }
     }
 
-    /// The actions before the first stage: all actions that no stage names.
+    /// Returns the actions before the first stage: those that no stage names are in full, all others are zero.
     fn before(scene: &Scene) -> Self {
         let mut actions = Self::full(scene);
         let named = |is_named: &dyn Fn(&Stage) -> bool| scene.stages.iter().any(is_named);
@@ -66,7 +67,7 @@ impl Actions {
         actions
     }
 
-    /// The actions at the end of a stage that starts from `self`.
+    /// Returns the actions at the end of a stage that starts from the actions `self`.
     fn after(&self, stage: &Stage, scene: &Scene) -> Self {
         let mut actions = self.clone();
         actions.gravity = stage.gravity.unwrap_or(self.gravity);
@@ -98,13 +99,13 @@ pub struct HistoryStep {
     pub stage: String,
     /// Number of the step in the stage, from 1.
     pub number: usize,
-    /// Number of steps of the stage.
+    /// Number of steps in the stage.
     pub of: usize,
     /// The actions at the end of the step.
     pub actions: Actions,
 }
 
-/// The steps of all stages, or one step with everything in full for a scene without stages.
+/// Lists the steps of all stages of a scene; a scene without stages has one step with all actions in full.
 ///
 /// ```
 /// use masonry::history;
@@ -124,7 +125,7 @@ pub fn steps(scene: &Scene) -> Vec<HistoryStep> {
         let end = actions.after(stage, scene);
         let of = stage.steps as usize;
         steps.extend((1..=of).map(|number| {
-            // The end of a stage has exactly the factors of the scene.
+            // The factors at the end of a stage are exactly those of the scene.
             let fraction = number as f64 / of as f64;
             let within = || actions.towards(&end, fraction);
             let actions = if number == of { end.clone() } else { within() };
@@ -139,11 +140,10 @@ pub fn steps(scene: &Scene) -> Vec<HistoryStep> {
 }
 
 impl Model {
-    /// This model with the actions of a step and previous slips \[m\] at its contact points, one for each.
+    /// Returns this model under the actions of a step, with the previous slip \[m\] of every contact point.
     ///
-    /// Gravity and loads are multiplied by their factors. The products `u_s.n` and `u_s.t` of the movement `u_s` of a
-    /// support are subtracted from the gaps and the slips of its joints. Previous slips are subtracted at points with
-    /// friction.
+    /// Gravity and loads are multiplied by their factors. The movement `u_s` of a support reduces the gaps of its
+    /// joints by `u_s.n`, and their slips by `u_s.t`. Previous slips are subtracted at points with friction.
     #[must_use]
     pub fn under(&self, actions: &Actions, slips: &[f64]) -> Self {
         let mut model = self.slid(slips);
@@ -151,7 +151,7 @@ impl Model {
         model
     }
 
-    /// This model after previous slips \[m\] at its contact points, one for each.
+    /// Returns this model after previous slips \[m\], one for every contact point.
     #[must_use]
     pub fn slid(&self, slips: &[f64]) -> Self {
         let mut model = self.clone();
@@ -163,7 +163,7 @@ impl Model {
         model
     }
 
-    /// Puts the actions of the only step on a model that has no actions yet.
+    /// Applies the actions of the only step to this model, which must not have any actions yet.
     pub(crate) fn act(&mut self, actions: &Actions) {
         self.gravity *= actions.gravity;
         for load in self.blocks.iter_mut().flat_map(|block| &mut block.loads) {
@@ -188,7 +188,7 @@ impl Model {
     }
 }
 
-/// The result of a step, in SI units.
+/// The record of a solved step, in SI units.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct StepRecord {
@@ -196,19 +196,19 @@ pub struct StepRecord {
     pub step: HistoryStep,
     /// The route that solved the step.
     pub route: Route,
-    /// The way in which the state at rest was found.
+    /// The way in which the state was found: by one step with Coulomb's law, or by a motion of blocks.
     pub way: Way,
     /// Number of factorised matrices.
     pub factorisations: usize,
-    /// The residuals of the step.
+    /// The residuals of the solution of the step.
     pub residuals: lcp::Residuals,
     /// Work of loads and of moving supports in this step \[J\], by the trapezoidal rule.
     pub work: f64,
-    /// Energy dissipated by sliding in this step \[J\], `-t_t . (increment of y_t)`; plus the energy
-    /// of opening joints with tensile strength, which is recovered when they close.
+    /// Energy dissipated by sliding in this step \[J\], `-t_t . (increment of y_t)`, plus the energy that opens joints
+    /// with tensile strength and is recovered when they close.
     pub dissipation: f64,
-    /// Work of friction relative to its largest possible value on these slips: the sum of `-t_t ds` over the sum of
-    /// `(mu t_n + C) |ds|`, which is one by Coulomb's law. `None` if nothing slid.
+    /// Ratio of the work of friction to its largest possible value for the slips `ds` of the step: the sum of `-t_t ds`
+    /// divided by the sum of `(mu t_n + C) |ds|`. Coulomb's law requires one. `None` if nothing slid.
     pub friction_power: Option<f64>,
     /// Energy that friction released in this step \[J\]; zero by Coulomb's law.
     pub energy_created: f64,
@@ -218,57 +218,58 @@ pub struct StepRecord {
     pub strain_energy: f64,
     /// The largest displacement after the step \[m\].
     pub largest_displacement: f64,
-    /// Contact points that are open, stick and slip in this step.
+    /// The numbers of contact points that are open, stick and slip at the end of the step, in this order.
     pub contacts: [usize; 3],
-    /// The reactions of all supports.
+    /// The reactions of all supports at the end of the step.
     pub reactions: Vec<Reaction>,
 }
 
-/// The steps of a scene whose solution depends on the load path.
+/// The load history of a scene, step by step.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct History {
-    /// The steps that were solved.
+    /// The records of the steps that were solved.
     pub records: Vec<StepRecord>,
-    /// The step that could not be solved, if there is one: the state is then that of the previous step.
+    /// The step that could not be solved; `None` if all were solved. The state of the outcome is that of the step
+    /// before.
     pub failed: Option<HistoryStep>,
-    /// Number of steps of the scene.
+    /// Number of all steps of the scene.
     pub steps: usize,
-    /// Names of the loads, in the order of the factors.
+    /// Names of the loads, in the order of their factors in [`Actions::loads`].
     pub loads: Vec<String>,
-    /// The outcome of another loading, if [requested](crate::analysis::solve::Run::compare).
+    /// The outcome of the second loading; `None` unless [requested](crate::analysis::solve::Run::compare).
     pub second_loading: Option<SecondLoading>,
 }
 
 impl StepRecord {
-    /// Whether the work of friction in the step is at least 0.99 of its largest value.
+    /// Whether the step keeps Coulomb's law: the work of friction is at least 0.99 of its largest possible value.
     pub fn keeps_law(&self) -> bool {
         self.friction_power.is_none_or(|power| power >= KEPT)
     }
 }
 
-/// The least part of the largest work of friction at which the law counts as kept. Chosen: steps by the law have a part
-/// of one, to many digits, and others mostly much less.
+/// Ratio of the work of friction to its largest possible value above which Coulomb's law counts as kept. Chosen: steps
+/// by the law have a ratio of one, to many digits, and other steps mostly a much smaller one.
 const KEPT: f64 = 0.99;
 
 impl History {
-    /// The number of steps in which friction did less work than Coulomb's law gives for the slips.
+    /// Returns the number of steps in which friction did less work than Coulomb's law gives for the slips.
     pub fn steps_against_law(&self) -> usize {
         self.records.iter().filter(|record| !record.keeps_law()).count()
     }
 
-    /// Work of loads and supports in all steps \[J\].
+    /// Returns the work of loads and supports in all steps \[J\].
     pub fn work(&self) -> f64 {
         self.records.iter().map(|record| record.work).sum()
     }
 
-    /// Energy dissipated in all steps \[J\].
+    /// Returns the energy dissipated in all steps \[J\].
     pub fn dissipation(&self) -> f64 {
         self.records.iter().map(|record| record.dissipation).sum()
     }
 }
 
-/// The names of the supports that some stage of a scene moves.
+/// Lists the names of the supports that any stage of a scene moves.
 pub(crate) fn moving_supports(scene: &Scene) -> Vec<&str> {
     let moved: BTreeSet<&str> = scene
         .stages

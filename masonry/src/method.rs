@@ -9,9 +9,9 @@
 //! | [`pgs`] | [`Sparse`](crate::forms::Sparse) | projected Gauss-Seidel on the contacts of blocks on springs |
 //! | `paper::alm` | [`Sparse`](crate::forms::Sparse), or whole films | the augmented Lagrangian method of the paper |
 //!
-//! Each route gives a [`RouteAnswer`] to a [`Request`], and the error of the solver for a tolerance out of range, for
-//! data that are not finite, and for a problem that the method does not treat. The [`Plan`](crate::plan::Plan) has the
-//! routes of a scene.
+//! Each route gives a [`RouteAnswer`] to a [`Request`], or an error of the solver if the tolerance is out of range,
+//! data are not finite, or the method does not treat the problem. The routes of a scene are in its
+//! [`Plan`](crate::plan::Plan).
 
 use std::ops::ControlFlow;
 
@@ -34,25 +34,26 @@ pub mod statics;
 /// The settings of a route.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Request {
-    /// Largest residual of a solution with status `Solved` \[-\].
+    /// Largest residual \[-\] with which a solution has the status `Solved`.
     pub tolerance: f64,
-    /// The form of the reduced problem.
+    /// The form of the reduced problem, for Lemke's method.
     pub form: Form,
-    /// Pivots of one attempt at most; the solver chooses if `None`.
+    /// Largest number of pivots in one attempt; `None` if the solver chooses.
     pub max_pivots: Option<usize>,
-    /// Steps of the interior points of one attempt at most; the route chooses if `None`.
+    /// Largest number of steps of the interior-point method in one attempt; `None` if the route chooses.
     pub max_steps: Option<usize>,
-    /// Stiffness of springs on all displacements, relative to that of the blocks, for the routes that
-    /// have them.
+    /// Stiffness of auxiliary springs on all displacements, relative to that of the blocks, for the routes that have
+    /// such springs; `None` if the scene sets none.
     pub soft: Option<f64>,
-    /// The part of the loads that the drag may carry while blocks move: the smaller, the slower they are loaded.
+    /// The part of the loads that the drag may carry while blocks move: the smaller it is, the more slowly blocks are
+    /// loaded.
     pub slowness: f64,
-    /// The largest tolerance of steps in time, relative to the largest force \[-\].
+    /// Largest tolerance of the steps in time while blocks move, relative to the largest force \[-\].
     pub step_tolerance: f64,
 }
 
 impl Request {
-    /// A request with this tolerance and default values.
+    /// Returns a request with this tolerance, and default values for all other settings.
     pub fn new(tolerance: f64) -> Self {
         Self {
             tolerance,
@@ -66,28 +67,29 @@ impl Request {
     }
 }
 
-/// The result of a route.
+/// The answer of a route to a request.
 #[derive(Debug, Clone)]
 pub struct RouteAnswer {
-    /// The record of the solve.
+    /// The record of the work of the route.
     pub info: SolveInfo,
-    /// Contact forces and relative displacements, when solved.
+    /// Contact forces and relative displacements of all rows; `None` if not solved.
     pub rows: Option<RowState>,
-    /// The displacements of the sparse problem, for routes that have them, when solved.
+    /// The displacements of the sparse problem; `None` if not solved, or if the route has none.
     pub displacements: Option<Vec<f64>>,
-    /// The basis of Lemke's method, when solved: a start for the next step of a load history.
+    /// The basis at which Lemke's method ended, from which the next step of a load history may start; `None` if not
+    /// solved.
     pub basis: Option<Start>,
-    /// A motion that no contact seems to stop, when not solved.
+    /// A motion that no contact seems to stop; `None` if solved, or if no such motion was found.
     pub motion: Option<Motion>,
-    /// The slip \[m\] of every point with friction, in the order of the system, before the slip in `rows`, if a motion
-    /// led to the solution.
+    /// The slip \[m\] of every point with friction, in the order of the system, before the slip in `rows`; `None`
+    /// unless a motion of blocks led to the solution.
     pub moved: Option<Vec<f64>>,
-    /// Works and energies on the way, if blocks moved.
+    /// Work and energies during the motion of blocks; `None` if no blocks moved.
     pub account: Option<lcp::Account>,
 }
 
 impl RouteAnswer {
-    /// An answer without a solution.
+    /// Returns an answer without a solution.
     pub(crate) fn new(info: SolveInfo) -> Self {
         Self {
             info,
@@ -101,25 +103,25 @@ impl RouteAnswer {
     }
 }
 
-/// The progress of a solve.
+/// An event that shows the progress of a solve.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Event {
     /// A step of the load history begins.
     Step {
-        /// Number of the step, from 1.
+        /// Number of the step among all steps, from 1.
         number: usize,
-        /// Number of steps of the scene.
+        /// Number of all steps of the scene.
         of: usize,
     },
-    /// A phase begins.
+    /// A phase of the analysis with this name begins.
     Phase(&'static str),
-    /// The solver pivots.
+    /// Lemke's method pivots.
     Pivots(lcp::lemke::Progress),
-    /// The solver iterates.
+    /// An iterative method takes a step.
     Iteration {
-        /// Steps, iterations, programs, or re-centrings of springs so far.
+        /// Number of steps, iterations, programs, or re-centrings of springs so far.
         number: usize,
-        /// The residual by which the solver stops.
+        /// The residual that the solver compares with its tolerance.
         residual: f64,
     },
 }
@@ -130,5 +132,5 @@ impl From<&lcp::Iteration> for Event {
     }
 }
 
-/// Follows the progress of a solve; `Break` cancels it.
+/// A function that is called at every event of a solve; `Break` cancels the solve.
 pub type EventObserver<'a> = &'a mut dyn FnMut(Event) -> ControlFlow<()>;

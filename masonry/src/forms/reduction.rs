@@ -1,10 +1,10 @@
 //! Elimination of the displacements: from the equilibrium system to contact forces alone.
 //!
-//! The rows of the system are divided into isostatic rows `I` and other rows `E`. Equilibrium of all blocks is `t_I = R
-//! t_E + t_0` (3.18), and the relative displacements are `y_E = A t_E - R^T y_I + c` (3.23) with `A = W^T F W`. The
-//! matrix `W` is the identity in rows `E` and `R` in rows `I`, and `F = C K^+ C^T` has the compliance of joints and of
-//! mortar films added to its diagonal. Any generalised inverse `K^+` gives the same `A` and `c`, because the columns of
-//! `W`, and the loads together with `t_0`, are balanced on every block.
+//! The rows of the system are divided into isostatic rows `I` and other rows `E`. Equilibrium of all blocks is
+//! `t_I = R t_E + t_0` (3.18), and the relative displacements are `y_E = A t_E - R^T y_I + c` (3.23) with
+//! `A = W^T F W`. The matrix `W` is the identity in rows `E` and `R` in rows `I`, and `F = C K^+ C^T` has the
+//! compliance of joints and of mortar films added to its diagonal. Any generalised inverse `K^+` gives the same `A` and
+//! `c`, because the columns of `W`, and the loads together with `t_0`, are balanced on every block.
 //!
 //! Strips of mortar couple blocks. Equilibrium with the elongations `e = L u` of their bars and the stiffnesses `D` is
 //! `(K + L^T D L) u = f + C^T t`. No rigid motion stretches a strip, so that the rows of `L` are balanced on every

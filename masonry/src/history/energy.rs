@@ -1,13 +1,13 @@
 //! Work and dissipation between two states.
 //!
-//! The blocks store strain energy `U`, sliding dissipates `D`, and both come from the work `W` of loads and of supports
-//! that move. `D` is a sum over contact points of `-t_t` at the end of the step times the slip in it; no single term is
-//! negative, because friction opposes slip. `W` is a trapezoidal sum, exact if forces change linearly with
-//! displacements. So `W - U - D` tends to zero as steps become shorter, and is zero if no point slides with a force
-//! that changes.
+//! The blocks store strain energy `U`, sliding dissipates the energy `D`, and the work `W` of loads and of moving
+//! supports supplies both. `D` is a sum over contact points of `-t_t` at the end of the step times the slip in the
+//! step; no single term is negative, because friction opposes slip. `W` is computed by the trapezoidal rule, which is
+//! exact if forces change linearly with displacements. So `W - U - D` tends to zero as steps become shorter, and is
+//! zero if no point slides with a force that changes.
 //!
-//! Blocks that move go from one state to the next in several steps. `D` is the sum over all these steps, and the drag
-//! takes a small part of the work, too.
+//! Blocks with mass move from one state to the next in several steps. `D` is then the sum over all these steps, and the
+//! drag takes a small part of the work.
 
 use nalgebra::Vector2;
 
@@ -17,21 +17,21 @@ use crate::recover;
 use crate::system::rigid::Modes;
 use crate::system::{nodal_loads, resultant};
 
-/// The data for the work of loads and supports.
+/// The data of a state from which the work of loads and supports is computed.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Snapshot {
     /// Loads \[N\] in the order of all displacements.
     loads: Vec<f64>,
-    /// Nodal displacements, or amplitudes of rigid blocks \[m\].
+    /// Displacements \[m\] of nodes, or amplitudes of rigid blocks, in the same order.
     displacements: Vec<f64>,
-    /// Force \[N\] of a support on the structure at each contact point, zero between blocks.
+    /// Force \[N\] of a support on the structure at each contact point; zero between blocks.
     pushes: Vec<Vector2<f64>>,
-    /// Movement \[m\] of the support at each contact point.
+    /// Movement \[m\] of the support at each contact point; zero between blocks.
     movements: Vec<Vector2<f64>>,
 }
 
 impl Snapshot {
-    /// The data of a state, for a model under the loads of the state.
+    /// Collects the data of a state of a model, which is under the loads of this state.
     pub(crate) fn of(model: &Model, state: &State) -> Self {
         let (mut loads, mut displacements) = (Vec::new(), Vec::new());
         for (block, moved) in model.blocks.iter().zip(&state.displacements) {
@@ -58,8 +58,8 @@ impl Snapshot {
         Self { loads, displacements, pushes, movements }
     }
 
-    /// Work \[J\] of loads and supports on the way from a previous state, or from rest without loads, to this one, by
-    /// the trapezoidal rule.
+    /// Computes the work \[J\] of loads and supports from the state `before` to this state, by the trapezoidal rule;
+    /// without `before`, from the structure without loads.
     ///
     /// # Panics
     /// If the states are not of one structure.
@@ -77,21 +77,21 @@ impl Snapshot {
     }
 }
 
-/// The work of friction in one step or in several.
+/// The energies of friction and of drag in one step, or in several.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) struct FrictionWork {
     /// Energy \[J\] dissipated by friction, `-t_t . (increment of y_t)`.
     pub(crate) dissipation: f64,
-    /// The work relative to its largest value; `None` if nothing slid.
+    /// Ratio of the work of friction to its largest possible value; `None` if nothing slid.
     power: Option<f64>,
-    /// Energy \[J\] that friction released: the negative part of the dissipation.
+    /// Energy \[J\] that friction released, which is the negative part of the dissipation; zero by Coulomb's law.
     pub(crate) created: f64,
     /// Energy \[J\] taken by the drag of slow motions.
     pub(crate) dragged: f64,
 }
 
 impl FrictionWork {
-    /// The friction of one step; `y_t` of the contacts is the slip of the step.
+    /// Computes the work of friction in one step; `y_t` of `contacts` is the slip of this step.
     pub(crate) fn of_step(model: &Model, contacts: &[PointState]) -> Self {
         let (mut sum, mut capacity) = (Self::default(), 0.0);
         for (point, contact) in model.contacts.iter().zip(contacts) {
@@ -107,20 +107,20 @@ impl FrictionWork {
         sum
     }
 
-    /// The friction of all steps of a motion.
+    /// Returns the work of friction in all steps of a motion.
     pub(crate) fn of_way(account: &lcp::Account) -> Self {
         let lcp::Account { dissipation, created, dragged, .. } = *account;
         Self { dissipation, power: account.friction_power(), created, dragged }
     }
 
-    /// The work relative to its largest value; `None` if nothing slid.
+    /// Returns the ratio of the work of friction to its largest possible value; `None` if nothing slid.
     pub(crate) fn power(&self) -> Option<f64> {
         self.power
     }
 }
 
-/// Energy \[J\] that the tensile strength of open joints holds, `T y_n`: their opening took this energy, and their
-/// closing gives it back.
+/// Computes the energy \[J\] that open joints hold by their tensile strength, `T y_n`: they take this energy when they
+/// open, and give it back when they close.
 pub(crate) fn held(model: &Model, contacts: &[PointState]) -> f64 {
     let points = model.contacts.iter().zip(contacts);
     points.map(|(point, contact)| point.law.tension * contact.y_n.max(0.0)).sum()

@@ -1,38 +1,38 @@
-//! The difference between the answers of two loadings, of which neither is more right than the other.
+//! The spread: the difference between the answers of two loadings, neither of which is more right than the other.
 
 use serde::Serialize;
 
 use crate::data::state::State;
 use crate::model::Model;
 
-/// The difference between two loadings above which an answer counts as not unique. Chosen: engineers compare widths of
-/// cracks to a few per cent.
+/// Largest relative difference between two loadings at which the answer counts as unique. Chosen: engineers compare
+/// widths of cracks to a few per cent.
 const UNIQUE: f64 = 0.05;
 
-/// The outcome of another loading of the same history.
+/// The outcome of the second loading of a load history.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum SecondLoading {
-    /// The loading reached its end, with this distance from the end of the first.
+    /// The second loading reached its end, with these differences from the first.
     Ended(Spread),
-    /// The loading stopped before its end: whether the answer is unique is not known.
+    /// The second loading stopped before its end, so that it is not known whether the answer is unique.
     Stopped {
-        /// Number of steps that were solved.
+        /// Number of steps that the second loading solved.
         solved: usize,
-        /// Number of steps of this loading.
+        /// Number of all steps of the second loading.
         steps: usize,
     },
 }
 
-/// The differences between the state after a load history and that after another loading, relative to the first: root mean
-/// squares over all nodes, contacts and supports \[-\].
+/// The differences between the states at the end of two loadings, relative to the first: root mean squares over all
+/// nodes, contacts and supports \[-\].
 ///
-/// The other loading has a quarter of the steps in every stage, at least two, and is ten times as fast. Friction may
-/// admit several equilibria, and these differences are the distance between two of them.
+/// The second loading has a quarter of the steps in every stage, at least two, and is ten times as fast. Friction may
+/// admit several equilibria, and the differences are the distance between two of them.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct Spread {
-    /// Steps of the other loading.
+    /// Number of steps of the second loading.
     pub steps: usize,
     /// The difference of the displacements of all nodes.
     pub displacements: f64,
@@ -44,7 +44,7 @@ pub struct Spread {
     pub dissipation: f64,
 }
 
-/// The parts of the state at the end of a history that are compared.
+/// The state at the end of a load history, of which some values are compared.
 pub(crate) struct AtEnd<'a> {
     pub(crate) model: &'a Model,
     pub(crate) state: &'a State,
@@ -52,7 +52,7 @@ pub(crate) struct AtEnd<'a> {
 }
 
 impl Spread {
-    /// The differences of two states of one structure.
+    /// Computes the differences between two states of one structure, relative to the state `one`.
     pub(crate) fn of(one: &AtEnd<'_>, other: &AtEnd<'_>, steps: usize) -> Self {
         let displacements = |it: &AtEnd<'_>| -> Vec<f64> {
             it.state.displacements.iter().flatten().flat_map(|u| [u.x, u.y]).collect()
@@ -73,18 +73,18 @@ impl Spread {
         }
     }
 
-    /// The largest difference of the values that can be seen or measured: displacements, cracks and reactions.
+    /// Returns the largest difference of the values that can be seen or measured: displacements, cracks and reactions.
     pub fn largest(&self) -> f64 {
         self.displacements.max(self.openings).max(self.reactions)
     }
 
-    /// Whether both answers agree within five per cent.
+    /// Whether both answers agree within five per cent, so that the answer counts as unique.
     pub fn is_unique(&self) -> bool {
         self.largest() <= UNIQUE
     }
 }
 
-/// The norm of all differences, relative to the norm of the numbers.
+/// Computes the norm of the differences of two lists, divided by the norm of the first list; zero if that is zero.
 fn difference(one: &[f64], other: &[f64]) -> f64 {
     let squares = |values: &mut dyn Iterator<Item = f64>| values.map(|v| v * v).sum::<f64>();
     let size = squares(&mut one.iter().copied());

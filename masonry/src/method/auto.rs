@@ -1,8 +1,9 @@
-//! The rules of `auto`: the routes of a scene and their order, the time that each may take, the results that are final,
-//! and additional questions. Nothing else in the crate chooses routes: [`Plan::routes`](crate::plan::Plan::routes) has
-//! the list with its reasons, and [`analysis`](crate::analysis::solve) runs it.
+//! The rules of `auto`: the routes of a scene and their order, the limits of their work, the results that are final,
+//! and the additional decisions for the verdict. No other part of the crate chooses routes:
+//! [`Plan::routes`](crate::plan::Plan::routes) has the list with its reasons, and [`analysis`](crate::analysis::solve)
+//! runs the list.
 //!
-//! The cheapest method that can decide runs first; slower ones follow only for cases that they alone can decide:
+//! The cheapest method that can decide runs first; slower methods follow only in cases that they alone can decide:
 //!
 //! 1. Rigid blocks without gaps, in joints that do not give way: the program of admissible forces
 //!    ([`statics`](crate::method::statics)) decides either way.
@@ -10,8 +11,9 @@
 //!    that program checks whether any forces balance the loads at all; a proof that none do is the result.
 //! 3. Lemke's method, for a second opinion, if its dense matrices take about a second.
 //!
-//! A result is final if it is a checked equilibrium, or a proof that there is no equilibrium. A secondary ray of
-//! Lemke's method is not a proof if there is friction: the next route follows, as after a route that refuses the scene.
+//! A result is final if it is a checked equilibrium, or a proof that there is no equilibrium. If there is friction, a
+//! secondary ray of Lemke's method is not a proof: the next route follows, as it does after a route that refuses the
+//! scene.
 
 use lcp::Status;
 
@@ -20,21 +22,22 @@ use crate::data::route::Route;
 use crate::forms::FormKind;
 use crate::scene::{Form, RouteSetting, SolverSettings};
 
-/// Pivots on dense matrices of this order take about a second; the time grows with the cube.
+/// Order of dense matrices for which pivots take about a second; the time grows with the cube of the order.
 const FEW: usize = 2000;
-/// Steps of the interior points that suffice for most walls.
+/// Number of steps of the interior-point method that suffices for most walls; after this number, a proof that there is
+/// no equilibrium is looked for.
 pub(crate) const STEPS_BEFORE_PROOF: usize = 40;
 
-/// The facts that decide between the routes.
+/// The facts about a scene that decide between the routes.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Facts {
-    /// All blocks are rigid, no joint gives way, and all gaps are closed before supports move.
+    /// Whether all blocks are rigid, no joint has a compliance, and all gaps are closed before supports move.
     pub(crate) at_rest: bool,
-    /// Order of the largest dense matrix of the pivots.
+    /// Order of the largest dense matrix that Lemke's method would build.
     pub(crate) largest_dense: usize,
 }
 
-/// The routes of a scene in the order in which they are tried, each with the reason for its place.
+/// Lists the routes of a scene in the order in which they are tried, each with the reason for its place.
 pub(crate) fn routes(solver: &SolverSettings, facts: Facts) -> Vec<(Route, String)> {
     let given = |route: Route| format!("solver.route = \"{}\"", route.name());
     match solver.route {
@@ -96,7 +99,7 @@ fn chosen(facts: Facts) -> Vec<(Route, String)> {
     list
 }
 
-/// The forms that pivots try, one after the other until one has a solution.
+/// Lists the forms that Lemke's method tries, one after the other until one has a solution.
 pub(crate) fn forms(form: Form) -> &'static [FormKind] {
     match form {
         Form::Auto => &[FormKind::Coulomb, FormKind::Mixed],
@@ -106,48 +109,50 @@ pub(crate) fn forms(form: Form) -> &'static [FormKind] {
     }
 }
 
-/// Pivots of one attempt at most, in multiples of the order: two to three are usual.
+/// Largest number of pivots of one attempt, divided by the order of the problem: two to three are usual.
 const PIVOTS: usize = 5;
 
-/// The largest number of pivots of an attempt on a problem of this order, if other routes follow.
+/// Returns the largest number of pivots of an attempt on a problem of this order; `None` for other routes than Lemke's
+/// method, or if no other route is planned.
 pub(crate) fn max_pivots(route: Route, order: usize, routes: usize) -> Option<usize> {
     (route == Route::Lemke && routes > 1).then_some(PIVOTS * order)
 }
 
-/// Whether a route may decide more than is known.
+/// Whether a route may decide more than is known already.
 pub(crate) fn is_asked(route: Route, known: Rank) -> bool {
-    // Forces that balance the loads need not result from the loading, but a proof that there are none decides.
+    // Admissible forces need not be reached by blocks that move, so that only a proof that there are none decides.
     known != Rank::Motion || route == Route::Forces
 }
 
-/// Whether a proof that there is no equilibrium may end a route that takes many steps: one of the routes after it would
-/// look for this proof.
+/// Whether a proof that there is no equilibrium may stop a route that takes many steps: if a later route would look for
+/// this proof.
 pub(crate) fn may_be_cut(mut later: impl Iterator<Item = Route>) -> bool {
     later.any(|route| route == Route::Forces)
 }
 
-/// Whether the verdict depends on forces that balance the loads: if there is no answer, if the answer is far away, or
-/// if blocks are at rest. Such forces decide the verdict on blocks at rest, whatever the tolerance of another route.
+/// Whether the verdict depends on the decision whether forces balance the loads: if no route has an answer, if the
+/// answer is far from the scene, or if blocks are at rest. Such forces decide the verdict on blocks at rest, whatever
+/// the tolerance of another route.
 pub(crate) fn needs_statics(status: Status, is_far: bool, at_rest: bool) -> bool {
     status != Status::Cancelled && (status != Status::Solved || is_far || at_rest)
 }
 
-/// Whether the verdict depends on the loading from a state without stresses: a prestress that no loading causes may
-/// hold blocks at rest with friction.
+/// Whether the verdict depends on the loading from a state without stresses: if there is friction, blocks at rest may
+/// be held by a prestress that no loading causes.
 pub(crate) fn needs_loading(status: Status, at_rest: bool, has_friction: bool) -> bool {
     status == Status::Solved && at_rest && has_friction
 }
 
-/// The rank of an attempt by what it decides, the most decisive first.
+/// The rank of an attempt by what it decides, from the most to the least decisive.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Rank {
     Solved,
-    /// There is no equilibrium, with a proof.
+    /// It is proved that there is no equilibrium.
     Proved,
-    /// Blocks with mass move on under their loads.
+    /// Blocks with mass do not come to rest under their loads.
     Motion,
     Mechanism,
-    /// A state was found that does not hold.
+    /// A state was found that does not pass the checks.
     Almost,
     Open,
 }
@@ -164,7 +169,7 @@ impl Rank {
         }
     }
 
-    /// Whether no other route can decide more. A ray is as good as a proof if there is no friction.
+    /// Whether no other route can decide more. If there is no friction, a secondary ray is as good as a proof.
     pub(crate) fn is_final(self, has_friction: bool) -> bool {
         match self {
             Self::Solved | Self::Proved => true,

@@ -1,7 +1,7 @@
 //! The route by statically admissible forces: one convex program without stiffness and gaps.
 //!
-//! Rigid blocks without gaps, in joints that do not give way, are at rest under any such forces, which are the answer.
-//! All other scenes get only the decision whether such forces exist, with a proof if they do not.
+//! Rigid blocks without gaps, in joints without compliance, are at rest under any such forces, which are then the
+//! answer. For all other scenes, the route only decides whether such forces exist, with a proof if they do not.
 
 use lcp::{ContactState, Residuals, Status};
 
@@ -13,10 +13,11 @@ use crate::method::statics::Decision;
 use crate::scene::Route;
 use crate::system::System;
 
-/// The name of the problem in reports.
+/// The name of the form of this route in reports.
 const FORM: &str = "admissible forces";
 
-/// The answer of a decision, to this tolerance.
+/// Returns the answer of the route from the decision on admissible forces; the status is `Solved` if residuals meet
+/// `tolerance`.
 pub fn answer(
     system: &System,
     sparse: &Sparse,
@@ -54,7 +55,8 @@ pub fn answer(
     }
 }
 
-/// The state at rest under forces of all rows; refined to the last digit if necessary.
+/// Returns the state of the blocks at rest under these forces of all rows, refined if the residuals do not meet
+/// `tolerance`.
 fn rested(
     system: &System,
     sparse: &Sparse,

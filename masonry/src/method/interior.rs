@@ -1,8 +1,9 @@
 //! The interior-point route, for walls of many blocks: every step factorises one sparse matrix.
 //!
-//! If there is friction and the path has no answer, blocks with mass move under their loads until they rest or fall
-//! ([`Evolution`](lcp::Evolution)). They always move in a load history, from the end of the previous step. Soft springs
-//! decide whether there is an equilibrium if there is no friction.
+//! If there is friction and the path of the interior-point method ends without an answer, blocks with mass move under
+//! their loads until they rest or fall ([`Evolution`](lcp::Evolution)). In later steps of a load history, they always
+//! move, from the end of the previous step. If there is no friction, soft springs decide whether there is an
+//! equilibrium.
 
 use lcp::{
     Contact2d, ContactState, InteriorPoint, InteriorPointSettings, Iteration, Solver, Status,
@@ -16,23 +17,24 @@ use crate::data::motion::Motion;
 use crate::forms::Sparse;
 use crate::scene::Route;
 
-/// The route on a sparse problem.
+/// The interior-point route on a sparse problem.
 #[derive(Debug, Clone, Copy)]
 pub struct Interior<'a> {
-    /// The problem.
+    /// The sparse problem.
     pub sparse: &'a Sparse,
-    /// Loads, gaps and supports before the step, and the state in which the blocks rest under them.
+    /// The problem before the step, with its loads, gaps and supports, and the state in which the blocks rest there;
+    /// `None` if nothing has acted yet.
     pub before: Option<(&'a Contact2d, &'a ContactState)>,
     /// The mass of every displacement \[kg\].
     pub mass: &'a [f64],
-    /// The distance that blocks may move \[m\].
+    /// The largest distance that blocks may move \[m\].
     pub reach: f64,
-    /// States of the contacts that are tried before the path.
+    /// Contact states that are tried before the path of the interior-point method.
     pub start: &'a WarmStart,
 }
 
 impl Interior<'_> {
-    /// Looks for a solution, or for the end of the loading.
+    /// Looks for a solution, or moves the blocks until they rest or fall.
     ///
     /// # Errors
     /// As [`InteriorPoint`] and [`Evolution`](lcp::Evolution).
@@ -61,7 +63,8 @@ impl Interior<'_> {
         if is_over || !may_move { Ok(path) } else { self.led(Some(path), request, observer) }
     }
 
-    /// Follows the loading, after a path without an answer.
+    /// Moves the blocks under their loads until they rest or fall; `path` is the answer of the path before, if there is
+    /// one.
     fn led(
         &self,
         path: Option<RouteAnswer>,
@@ -108,7 +111,7 @@ impl Interior<'_> {
     }
 }
 
-/// The event of a step after `before` earlier ones.
+/// Returns the event for a step of the solver, whose number comes after `before` earlier steps.
 fn step(at: &Iteration, before: usize) -> Event {
     Event::Iteration { number: before + at.iteration, residual: at.residual }
 }

@@ -1,10 +1,10 @@
 //! The route `lemke`: Lemke's method on the forms of the contact problem.
 //!
-//! The paper's form (3.27) comes first. It is not copositive, and for large friction the method may end on a ray
-//! although there is an equilibrium. Other start bases and covering vectors, and then the copositive mixed form,
-//! follow after a ray. The ray of the mixed form is a motion of the blocks that no contact stops. Even such a ray is
-//! not a proof that there is no equilibrium: a rigid block that just fits between two walls may fall, or may be
-//! jammed. A solution of the mixed form is also measured in the paper's form.
+//! The paper's form (3.27) comes first. The form is not copositive, and for large friction the method may end on a
+//! secondary ray although there is an equilibrium. Other start bases and covering vectors follow after a ray, and then
+//! the copositive mixed form. The ray of the mixed form is a motion of the blocks that no contact stops. Even such a
+//! ray is not a proof that there is no equilibrium: a rigid block that just fits between two walls may fall, or may be
+//! jammed. The residuals of a solution of the mixed form are also computed in the paper's form.
 
 use lcp::lemke::{self, AttemptStart};
 use lcp::{Basis, Covering, Lemke, LemkeSettings, Residuals, Side, Status, WarmStart};
@@ -18,29 +18,30 @@ use crate::forms::reduction::Reduction;
 use crate::forms::{DenseForm, FormKind, Start};
 use crate::system::System;
 
-/// Attempts from every start basis of a reduced form: with the covering vector of [`covering`], then a random one.
+/// Number of attempts from every start basis of a reduced form: the first with the covering vector of [`covering`],
+/// then with a random one.
 const ATTEMPTS_PER_START: usize = 2;
-/// Attempts on the mixed form.
+/// Number of attempts on the mixed form.
 const MIXED_ATTEMPTS: usize = 3;
-/// The opening of the friction cone by the covering vector, in units of force.
+/// Cohesion by which the covering vector opens the friction cone, in units of force.
 const COHESION: f64 = 100.0;
 
-/// Displacements below this, in the dimensionless units of a form, are rounding errors.
+/// Displacements below this number, in the dimensionless units of a form, are rounding errors.
 const ROUNDING: f64 = 1e-14;
 
-/// The route on a reduced system.
+/// The route by Lemke's method on a reduced system.
 #[derive(Debug, Clone, Copy)]
 pub struct Pivots<'a> {
     /// The system.
     pub system: &'a System,
     /// The reduction of the system.
     pub reduction: &'a Reduction,
-    /// The last basis of a similar problem in the paper's form, which is tried first.
+    /// The basis at which the pivots of a similar problem in the paper's form ended, which is tried first.
     pub start: Option<&'a Start>,
 }
 
 impl Pivots<'_> {
-    /// Looks for a solution, form by form.
+    /// Looks for a solution in one form after another.
     ///
     /// # Errors
     /// As [`Lemke`].
@@ -72,14 +73,14 @@ impl Pivots<'_> {
     }
 }
 
-/// Cost and data of the forms tried so far.
+/// The work on all forms that were tried so far.
 struct Pivoting<'a> {
     request: &'a Request,
     start: Option<&'a Start>,
     attempts: Vec<RouteAttempt>,
     pivots: usize,
     factorisations: usize,
-    /// The paper's form, once it was tried: any answer is measured in it.
+    /// The paper's form, if it was tried: the residuals of any solution in another form are computed in it.
     coulomb: Option<DenseForm>,
 }
 
@@ -100,7 +101,7 @@ impl Pivoting<'_> {
                 start: start.filter(|_| is_given(path)).map(str::to_owned),
                 path: path.clone(),
             }));
-            // A singular start was replaced by one that the solver found; the next start would be replaced, too.
+            // If the solver replaced a singular start by its own, it would replace the next start, too.
             let is_own = start.is_some_and(|name| name != Start::LAST);
             let replaced = is_own && !solution.info.attempts.iter().any(is_given);
             let stop = replaced || matches!(solution.status, Status::Solved | Status::Cancelled);
@@ -132,7 +133,7 @@ impl Pivoting<'_> {
         Ok(RouteAnswer { rows, motion: ray.map(Motion::Rigid), basis, ..RouteAnswer::new(info) })
     }
 
-    /// Settings of every run on a form, and the name of the start basis that they give.
+    /// Lists the settings of the runs on a form, each with the name of its start basis.
     fn settings(&self, form: &DenseForm) -> Vec<(LemkeSettings, Option<&'static str>)> {
         let common = LemkeSettings {
             tolerance: self.request.tolerance,
@@ -160,7 +161,7 @@ impl Pivoting<'_> {
     fn against_coulomb(&self, form: &DenseForm, rows: &RowState) -> Option<Residuals> {
         let coulomb = self.coulomb.as_ref().filter(|_| form.kind != FormKind::Coulomb)?;
         let (t, mut y) = coulomb.pairs(rows, &[], &[]);
-        // Rounding errors must not be measured against each other if nothing moves.
+        // Displacements that are only rounding errors must not be compared with one another if nothing moves.
         y.iter_mut().filter(|y| y.abs() <= ROUNDING).for_each(|y| *y = 0.0);
         Some(coulomb.problem.residuals(&t, &y))
     }
@@ -171,9 +172,9 @@ fn basis(start: &Start) -> Basis {
     Basis::new(start.t_basic.iter().map(side).collect())
 }
 
-/// A covering vector with a mechanical meaning: the artificial variable prestresses the isostatic contacts, opens the
-/// others, and gives a much larger cohesion, which opens the friction cone. The paper's form with ones nearly always
-/// ends on a ray after a few pivots if `mu` is large.
+/// Returns a covering vector with a mechanical meaning: the artificial variable prestresses the isostatic contacts,
+/// opens the others, and adds a much larger cohesion, which opens the friction cone. A covering vector of ones nearly
+/// always ends on a ray after a few pivots, in the paper's form and for large `mu`.
 fn covering(form: &DenseForm, start: &Start) -> Vec<f64> {
     let cone = |pair: usize| start.t_basic[pair] && pair >= form.points();
     (0..form.order()).map(|pair| if cone(pair) { COHESION } else { 1.0 }).collect()

@@ -1,4 +1,5 @@
-//! The outcome of a loading: rest, or a fall. Solves, histories and limit loads call this one function.
+//! The slow loading of blocks, which ends at rest or in a fall. Solves, histories and limit loads call this one
+//! function.
 
 use std::ops::ControlFlow;
 
@@ -11,54 +12,55 @@ use crate::geometry;
 use crate::model::Model;
 use crate::rounding;
 
-/// The part of the loads that the drag may carry while blocks move: the smaller, the slower they move. Measured on
-/// settlements of 100 to 1000 bricks: the drag takes about a hundredth of the work of friction.
+/// The part of the loads that the drag may carry while blocks move: the smaller it is, the more slowly blocks move.
+/// Measured on settlements of 100 to 1000 bricks: the drag takes about a hundredth of the work of friction.
 pub(crate) const SLOWNESS: f64 = 1e-2;
-/// The first drag of blocks that start unloaded, relative to the stiffness of their supports; blocks without stiffness
-/// move by this part of their reach. Chosen: drag decreases by itself.
+/// Drag of blocks that start unloaded, relative to the stiffness of the blocks and of their joints. Without stiffness,
+/// the drag is such that blocks move by this part of their reach. Chosen: drag decreases by itself.
 const FIRST_DRAG: f64 = 1e-2;
-/// Displacements above this part of the median size of blocks, plus twice the movement of supports, invalidate the
-/// contacts of the scene. Theory: a brick in running bond has then lost half of its bed.
+/// Part of the median size of blocks that bounds displacements, together with twice the movement of supports: larger
+/// displacements invalidate the contacts of the scene. Theory: a brick in running bond has then lost half of its bed.
 const REACH: f64 = 0.25;
-/// Steps of the path before blocks move. Measured on walls of 1000 bricks: walls that its first start solves take up to
-/// 60.
+/// Largest number of steps of the interior-point method before blocks move. Measured on walls of 1000 bricks: up to 60
+/// steps if its first start gives a solution.
 const STEPS_BEFORE_MOTION: usize = 60;
-/// The largest tolerance of steps: forces are judged against the largest of all forces in steps, and at the end, to
-/// 1e-9, against those on each block. Measured on walls of 100 to 1000 bricks: the latter are up to some hundred times
-/// smaller. Finer steps cost 5 % more, so that they are taken only if blocks need them.
+/// Largest tolerance of the steps of a motion. Forces are compared with the largest of all forces in a step, but with
+/// those on each block, to 1e-9, at the end. Measured on walls of 100 to 1000 bricks: the forces on a block are up to
+/// some hundred times smaller than the largest. Finer steps cost 5 % more, so that they are taken only if blocks need
+/// them.
 pub(crate) const STEP_TOLERANCE: f64 = 1e-11;
-/// Factorisations of one loading. Measured on walls of 1000 bricks: slow falls take up to 14 351, settlements in a
-/// single step up to 15 917.
+/// Largest number of factorisations in one loading. Measured on walls of 1000 bricks: slow falls take up to 14 351,
+/// settlements in a single step up to 15 917.
 const FACTORISATIONS: usize = 20_000;
 
-/// The loading of blocks from one state to the next.
+/// A slow loading of blocks, from one state to the next.
 #[derive(Clone, Copy)]
 pub(crate) struct Loading<'a> {
-    /// Loads, gaps and supports before, with the state in which the blocks rest under them. `None` if nothing has acted
-    /// yet.
+    /// The problem before, with its loads, gaps and supports, and the state in which the blocks rest there. `None` if
+    /// nothing has acted yet.
     pub(crate) before: Option<(&'a Contact2d, &'a ContactState)>,
-    /// Loads, gaps and supports at the end; slips are measured from the state before.
+    /// The problem with the loads, gaps and supports at the end; slips are measured from the state before.
     pub(crate) problem: &'a Contact2d,
     /// The mass of every displacement \[kg\].
     pub(crate) mass: &'a [f64],
-    /// The distance that blocks may have moved from their places in the scene \[m\].
+    /// The largest distance that blocks may move from their places in the scene \[m\].
     pub(crate) reach: f64,
-    /// The part of the loads that the drag may carry.
+    /// The part of the loads that the drag may carry while blocks move.
     pub(crate) slowness: f64,
     pub(crate) tolerance: f64,
 }
 
-/// The end of a loading.
+/// The result of a loading.
 pub(crate) struct Led {
     pub(crate) ending: Ending,
-    /// The blocks after the last step.
+    /// The state and velocities of the blocks after the last step.
     pub(crate) evolution: Evolution,
-    /// Iterations of all steps.
+    /// Number of iterations in all steps.
     pub(crate) iterations: usize,
 }
 
-/// The method before blocks move, if nothing has acted on them yet: from these contact states, or along the path of
-/// interior points from its first start, in at most `max_steps`.
+/// Returns the method that is tried before blocks move, if nothing has acted on them yet: the contact states `start`,
+/// then the path of the interior-point method from its first start, in at most `max_steps` steps.
 pub(crate) fn path(tolerance: f64, max_steps: Option<usize>, start: &WarmStart) -> InteriorPoint {
     let start = start.clone();
     let mut settings =
@@ -69,7 +71,7 @@ pub(crate) fn path(tolerance: f64, max_steps: Option<usize>, start: &WarmStart) 
     InteriorPoint::new(settings)
 }
 
-/// The distance that blocks of a model may have moved from their places in the scene \[m\].
+/// Computes the largest distance \[m\] that blocks of a model may move from their places in the scene.
 pub(crate) fn reach(model: &Model) -> f64 {
     let sizes = median(model.blocks.iter().map(|block| geometry::size(&block.corners)).collect());
     let ends = model
@@ -102,18 +104,18 @@ impl Loading<'_> {
         };
         let h = self.pace();
         let mut evolution = if let Some((before, state)) = before {
-            // The gaps are those under the previous loads and supports.
+            // The gaps of the state are computed for the previous loads and supports.
             let state = before.state(state.u.clone(), state.t_n.clone(), state.t_t.clone());
             Evolution::new(before, matrix, settings)?.at(state, vec![0.0; problem.points()])?
         } else {
-            // Loads that grow from zero.
+            // The loads grow from zero.
             Evolution::new(&problem.with_loads(vec![0.0; n])?, matrix, settings)?
         };
         let ending = evolution.lead_observed(problem, h, observer)?;
         Ok(Led { ending, evolution, iterations })
     }
 
-    /// The time of the way, for a drag of one: so long that the drag is a small part of the loads.
+    /// Returns the duration of the loading for a drag of one: so long that the drag is a small part of the loads.
     fn pace(&self) -> f64 {
         let drag = match self.distance() {
             Some(distance) => self.slowness * self.gravity() / distance,
@@ -125,8 +127,8 @@ impl Loading<'_> {
         if drag > 0.0 && drag.is_finite() { 1.0 / drag } else { 1.0 }
     }
 
-    /// An estimate of how far blocks will move \[m\]: the movement of supports, or the previous displacement times the
-    /// relative change of the loads.
+    /// Estimates how far blocks will move \[m\]: by the movement of supports, or by the previous displacement times the
+    /// relative change of the loads. `None` if nothing has acted yet, or nothing changes.
     fn distance(&self) -> Option<f64> {
         let (before, state) = self.before?;
         let largest = |a: &[f64], b: &[f64]| {
@@ -142,14 +144,14 @@ impl Loading<'_> {
         (distance > 0.0).then_some(distance)
     }
 
-    /// The loads over the mass \[m/s^2\].
+    /// Computes the sum of the loads divided by the sum of the masses \[m/s^2\].
     fn gravity(&self) -> f64 {
         let load: f64 = self.problem.loads().iter().map(|f| f.abs()).sum();
         load / self.mass.iter().sum::<f64>()
     }
 
-    /// The stiffness of blocks and of the joints below them over their mass \[1/s^2\]: the median over all
-    /// displacements with both.
+    /// Computes the stiffness of blocks and joints divided by the mass \[1/s^2\]: the median over all displacements
+    /// that have a stiffness and a mass; `None` if there are none.
     fn stiffness(&self) -> Option<f64> {
         let (problem, compliance) = (self.problem, self.problem.compliance());
         let k = problem.stiffness();

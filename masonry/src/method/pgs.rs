@@ -1,8 +1,8 @@
 //! The route by projected Gauss-Seidel on the contacts of blocks on springs.
 //!
-//! The method needs a definite stiffness, and blocks that only touch have none. So springs hold all displacements, and
-//! are re-centred at the last solution, round after round (proximal steps, Rockafellar 1976), until forces and
-//! displacements solve the problem without the springs. Every round starts from the forces of the previous one and is
+//! The method needs a definite stiffness, which blocks that only touch do not have. So springs hold all displacements.
+//! The springs are re-centred at the last solution, round after round (proximal steps, Rockafellar 1976), until forces
+//! and displacements solve the problem without springs. Every round starts from the forces of the previous one and is
 //! solved only slightly more accurately than the rounds have converged. When the rounds stop converging, the equations
 //! of the contact states are solved once; the solution is exact if these states are right.
 
@@ -18,33 +18,34 @@ use crate::data::info::{SoftReport, SolveInfo};
 use crate::forms::Sparse;
 use crate::scene::Route;
 
-/// Stiffness of the auxiliary springs if the scene gives none, relative to that of the bodies \[-\]: softer springs need
-/// fewer rounds, but more sweeps in each.
+/// Stiffness of the auxiliary springs, relative to that of the blocks \[-\], if the scene does not set one. Softer
+/// springs need fewer rounds, but more sweeps in each round.
 pub const SOFT: f64 = 1e-3;
 
-/// Rounds at most.
+/// Largest number of rounds.
 const MAX_ROUNDS: usize = 2000;
-/// Sweeps of one round at most.
+/// Largest number of sweeps in one round.
 const SWEEPS: usize = 2000;
-/// The tolerance of the sweeps of a round, relative to the last residual. It is multiplied by the same factor after
-/// every round that did not reduce the residual, down to `LEAST`.
+/// Ratio of the tolerance of the sweeps in a round to the last residual of the rounds. The ratio is multiplied by this
+/// number after every round that did not reduce the residual, down to `LEAST`.
 const BETTER: f64 = 0.1;
 const LEAST: f64 = 1e-6;
-/// The tolerance of the sweeps at first, and at last relative to the tolerance of the route, since the springs' forces
-/// may be much larger than the loads; `ROUNDING` bounds it from below.
+/// Bounds of the tolerance of the sweeps: at most `FIRST`, and at least `LAST` times the tolerance of the route, since
+/// the forces of the springs may be much larger than the loads, or `ROUNDING` if that is larger.
 const FIRST: f64 = 0.1;
 const LAST: f64 = 1e-4;
 const ROUNDING: f64 = 1e-14;
-/// Rounds converge by a factor, and the error of the displacements may be several times the last residual: so the
-/// rounds go on to this part of the tolerance, unless they have settled below the tolerance for `SETTLED` rounds.
+/// Part of the tolerance to which the rounds continue: rounds converge linearly, and the error of the displacements may
+/// be several times the last residual. If the residual has not decreased by a tenth for `SETTLED` rounds, the tolerance
+/// itself suffices.
 const NEARER: f64 = 0.1;
 const SETTLED: usize = 3;
-/// Rounds within which the residual must fall by a tenth.
+/// Number of rounds within which the residual must decrease by a tenth.
 const PATIENCE: usize = 200;
-/// Rounds without such a fall after which the states of the contacts may be those of a solution.
+/// Number of rounds without a decrease by a tenth after which the equations of the contact states are solved.
 const IDLE: usize = 20;
 
-/// The route on a sparse problem.
+/// Solves a sparse problem by rounds of projected Gauss-Seidel sweeps.
 ///
 /// # Errors
 /// As [`ProjectedGaussSeidel`].
@@ -76,7 +77,7 @@ pub fn solve(
     Ok(sparse::answer(sparse, info, rounds.state))
 }
 
-/// Rounds of springs that are centred anew.
+/// The rounds, in each of which the springs are re-centred.
 struct Rounds<'a> {
     sparse: &'a Sparse,
     problem: &'a Contact2d,
@@ -84,9 +85,9 @@ struct Rounds<'a> {
     tolerance: f64,
     state: ContactState,
     residuals: Residuals,
-    /// Displacements of the first round, and the share of the load that its springs carried.
+    /// Displacements at the end of the first round, and the share of the load that its springs carried.
     first: Option<(Vec<f64>, f64)>,
-    /// The share of the load that the springs of the last round carry.
+    /// The share of the load that the springs carried in the last round.
     share: f64,
     done: usize,
     factorisations: usize,
@@ -122,18 +123,18 @@ impl<'a> Rounds<'a> {
         Event::Iteration { number: self.done, residual: self.residual() }
     }
 
-    /// The worst residual, or the share of the springs if larger.
+    /// Returns the worst residual, or the share of the load on the springs if that is larger.
     fn residual(&self) -> f64 {
         self.residuals.worst().max(self.share)
     }
 
-    /// The merit of the residuals, or the share of the springs if larger.
+    /// Returns the merit of the residuals, or the share of the load on the springs if that is larger.
     fn lack(&self) -> f64 {
         self.residuals.merit().max(self.share)
     }
 
-    /// Takes the same forces with all bodies at rest, if that state is nearer to a solution: motions are rounding
-    /// errors if nothing is elastic, and residuals would compare them with each other.
+    /// Sets all displacements to zero, with the same forces, if that state is nearer to a solution: if nothing is
+    /// elastic, displacements are rounding errors, and the residuals would compare them with each other.
     fn rest(&mut self) {
         let ContactState { u, t_n, t_t, .. } = &self.state;
         let rest = self.problem.state(vec![0.0; u.len()], t_n.clone(), t_t.clone());
@@ -194,7 +195,7 @@ impl<'a> Rounds<'a> {
         Ok(ControlFlow::Continue(()))
     }
 
-    /// Solves the equations of the reached contact states, and takes the answer if it is a solution.
+    /// Solves the equations of the last contact states; keeps the result and returns true if it is a solution.
     fn finish(&mut self) -> bool {
         let refined = self.sparse.refined(&self.state, self.tolerance);
         let is_solved = refined.is_some();

@@ -1,8 +1,8 @@
-//! The route by convex quadratic programs: a fixed-point iteration of programs with fixed bounds of the friction
-//! forces (Tresca) if there is friction.
+//! The route by convex quadratic programs. If there is friction, the programs are a fixed-point iteration, in each step
+//! of which the bounds of the friction forces are fixed (Tresca).
 //!
-//! Soft springs hold the blocks on request, and are re-centred at the last solution until they carry nothing. Their
-//! effect before the first re-centring is reported as their bias.
+//! On request, soft springs hold the blocks, and are re-centred at the last solution until they carry no load. The
+//! report has their effect before the first re-centring.
 
 use std::ops::ControlFlow;
 
@@ -14,7 +14,7 @@ use crate::data::info::SoftReport;
 use crate::forms::Sparse;
 use crate::scene::Route;
 
-/// The route on a sparse problem.
+/// Solves a sparse problem by convex quadratic programs.
 ///
 /// # Errors
 /// As [`QuadraticProgram`].
@@ -28,7 +28,7 @@ pub fn solve(
     let settings =
         QuadraticProgramSettings { tolerance: request.tolerance, soft, ..Default::default() };
     let program = QuadraticProgram::new(settings);
-    // Springs that carry nothing end the re-centring as solved, even if the observer breaks then.
+    // If the springs carry no load, the status is solved even if the observer breaks at that moment.
     let mut is_cancelled = false;
     let solution = program.solve_observed(problem, &mut |at| {
         let next = observer(at.into());

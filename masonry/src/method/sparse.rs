@@ -1,4 +1,4 @@
-//! Common code of the routes on the sparse problem: answers in the shape of all routes.
+//! Common code of the routes on the sparse problem: they convert solutions to the answers of routes.
 
 use lcp::{Contact2d, ContactState, Residuals, Solution, Status};
 
@@ -8,10 +8,10 @@ use crate::data::motion::Motion;
 use crate::forms::Sparse;
 use crate::scene::Route;
 
-/// The name of the problem in reports, in the place of a form.
+/// The name of the sparse form in reports.
 const FORM: &str = "contact";
 
-/// Residuals if no solve was tried.
+/// The residuals of a record if no solve was tried.
 pub(crate) const UNKNOWN: Residuals = Residuals {
     equation: f64::INFINITY,
     feasibility: f64::INFINITY,
@@ -20,10 +20,10 @@ pub(crate) const UNKNOWN: Residuals = Residuals {
     loads: f64::INFINITY,
 };
 
-/// The answer of a solution.
+/// Returns the answer of a route from a solution of the sparse problem.
 pub(crate) fn solved(route: Route, sparse: &Sparse, solution: Solution<Contact2d>) -> RouteAnswer {
     let problem = &sparse.problem;
-    // In the rows of the displacements, a proof is a motion on which the loads do more work than the contacts can
+    // The entries of a proof for the displacements are a motion on which the loads do more work than the contacts can
     // take.
     let motion =
         solution.farkas().map(|it| it.iter().take(problem.displacements()).copied().collect());
@@ -38,7 +38,7 @@ pub(crate) fn solved(route: Route, sparse: &Sparse, solution: Solution<Contact2d
     RouteAnswer { motion: motion.map(Motion::Displacements), ..answer(sparse, info, state) }
 }
 
-/// The answer of a state, with the record of its route.
+/// Returns the answer of a route from a state and the record of the route; the state is kept only if it is solved.
 pub(crate) fn answer(sparse: &Sparse, info: SolveInfo, state: ContactState) -> RouteAnswer {
     let attempt = RouteAttempt::Sparse {
         route: info.route,

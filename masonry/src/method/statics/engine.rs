@@ -1,29 +1,29 @@
-//! The method that solves the linear programs of admissible forces.
+//! The methods that solve the optimisation programs of admissible forces.
 
 use lcp::{InteriorPoint, InteriorPointSettings, MixedLcp, Observer, Solution, Solver};
 
-/// Residual of the programs, linear or of least forces.
+/// Residual tolerance of the optimisation programs: the linear ones and the program of least forces.
 pub(super) const TOLERANCE: f64 = 1e-12;
-/// Steps of a program. Forces and proofs take ten to forty. Chosen: far more.
+/// Largest number of steps of one program. Forces and proofs take ten to forty. Chosen: far more.
 pub(super) const MAX_STEPS: usize = 200;
-/// Residual of a point inside: many walls take twice as many steps to smaller residuals.
+/// Residual tolerance of the target `Inside`: many walls take twice as many steps to smaller residuals.
 const INSIDE: f64 = 1e-8;
 
-/// The point at which interior points end.
+/// The point at which the interior-point method ends.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Target {
-    /// A point near the solution: the first choice, since there may be many solutions.
+    /// A point near the set of solutions: the first choice, since there may be many solutions.
     Inside,
-    /// The vertex at the end of the path.
+    /// The vertex of the set of solutions to which the path leads.
     Vertex,
 }
 
 impl Target {
-    /// The targets in their order. Measured on a wall of 1000 bricks: the first gives no proof there, and the
-    /// second does.
+    /// All targets, in the order in which they are tried. Measured on a wall of 1000 bricks: the first target gives no
+    /// proof, and the second does.
     pub(super) const ALL: [Self; 2] = [Self::Inside, Self::Vertex];
 
-    /// The best point that was found.
+    /// Solves a program to this target, and returns the best point that was found.
     pub(super) fn solve(
         self,
         program: &MixedLcp,

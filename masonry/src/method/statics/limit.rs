@@ -1,4 +1,4 @@
-//! The largest factor of a group of loads that statically admissible forces carry.
+//! The largest factor of a group of loads at which statically admissible forces exist.
 //!
 //! The resultants of a factor of one on the blocks are `g`; `max l` subject to `E p + r + l g = 0`, `p >= 0`, `l >= 0`
 //! is a linear program. Its multipliers are a motion `x` of rigid blocks with `E^T x >= 0` and `g.x = 1`, the mechanism
@@ -16,51 +16,53 @@ use crate::model::Model;
 use crate::rounding;
 use crate::system::System;
 
-/// Relative distances above the factor of the forces at which a motion is tried as a proof that no forces balance the
-/// loads.
+/// Relative distances above the load factor of the forces. A motion is tried as a proof, at each of these factors, that
+/// no forces balance the loads.
 const BEYOND: [f64; 6] = [1e-9, 1e-8, 1e-7, 1e-6, 1e-5, 1e-4];
-/// Bounds that are nearer to each other than this part of the factor end the search.
+/// Difference of the bounds, relative to the load factor, at which the search ends.
 pub const NEAR: f64 = 2e-5;
-/// Motions that are tried in any case: they may tighten the bounds further.
+/// Number of motions that are tried even if the bounds are close enough, since they may tighten the bounds further.
 const ALWAYS: usize = 2;
 
-/// The bounds of the largest factor.
+/// The bounds of the largest load factor.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Bounds {
-    /// A factor, and forces of all rows of the [`System`] \[N\] that balance the loads under it.
+    /// A load factor, and forces of all rows of the [`System`] \[N\] that balance the loads at this factor; `None` if
+    /// no forces were found.
     pub below: Option<(f64, Vec<f64>)>,
-    /// A factor, and the proof that no forces balance the loads under it.
+    /// A load factor, and the proof that no forces balance the loads at this factor; `None` if no proof was found.
     pub above: Option<(f64, Proof)>,
-    /// The scale of the distance between the bounds: the factor, or the one at which the growing loads are as large as
-    /// the loads that stay, if that is larger.
+    /// The scale of the distance between the bounds: the load factor, or the factor at which the growing loads are as
+    /// large as the loads that stay, if that is larger.
     pub size: f64,
 }
 
 impl Bounds {
-    /// The distance of the two bounds, if both are known.
+    /// Returns the difference of the two bounds; `None` unless both are known.
     pub fn gap(&self) -> Option<f64> {
         Some(self.above.as_ref()?.0 - self.below.as_ref()?.0)
     }
 
-    /// Whether the bounds are so near to each other that they are one number.
+    /// Whether the bounds are so near to each other that they count as one number.
     pub fn is_closed(&self) -> bool {
         self.gap().is_some_and(|gap| gap <= NEAR * self.size)
     }
 }
 
-/// A structure under loads that stay, and others that grow with a factor.
+/// A structure under loads that stay, and others that grow with the load factor.
 pub struct Growing<'a> {
-    /// The structure under some factor.
+    /// A function that returns the model of the structure under a load factor.
     pub at: &'a dyn Fn(f64) -> Model,
     /// The system of the structure under the loads that stay.
     pub system: &'a System,
-    /// The resultants of a factor of one, `N^T f` of all blocks \[N\].
+    /// The resultants of the growing loads for a load factor of one, `N^T f` of all blocks \[N\].
     pub growth: &'a [f64],
-    /// Whether each block is held, by forces of any size; empty if no block is held.
+    /// Whether each block is held by forces of any size; empty if no block is held.
     pub held: &'a [bool],
 }
 
-/// The largest value of `of_rows . t` over the admissible forces `t` of all rows of a system.
+/// Computes the largest value of the linear function `of_rows . t` over all admissible forces `t` of the rows of a
+/// system.
 ///
 /// # Errors
 /// As [`Growing::largest`].
@@ -97,12 +99,13 @@ pub fn extreme(
 }
 
 impl Growing<'_> {
-    /// The largest nonnegative factor, between bounds. There are no bounds if no factor or every factor is carried.
+    /// Computes the largest nonnegative load factor, between bounds. If no factor or every factor is carried, there are
+    /// no bounds.
     ///
     /// # Errors
     /// [`lcp::Error::NotFinite`] when the data of the scene overflow.
     pub fn largest(&self, observer: &mut Observer<'_>) -> Result<Bounds, lcp::Error> {
-        // A factor of one in the program makes the growing loads as large as the others.
+        // The growing loads are scaled, so that they are as large as the others for a factor of one in the program.
         let scale = self.size();
         let growth: Vec<f64> = self.growth.iter().map(|g| scale * g).collect();
         let program = Program::new(self.system, Some(&growth)).holding(self.held);
@@ -130,13 +133,14 @@ impl Growing<'_> {
         Ok(bounds)
     }
 
-    /// The factor at which the growing loads are as large as the loads that stay; one if none stay.
+    /// Returns the factor at which the growing loads are as large as the loads that stay; one if no load stays.
     fn size(&self) -> f64 {
         let size = rounding::largest(self.system.resultants()) / rounding::largest(self.growth);
         if size > 0.0 && size.is_finite() { size } else { 1.0 }
     }
 
-    /// Takes the smallest factor that the motion, or a motion near it, proves to be too large.
+    /// Looks for the smallest load factor that the motion, or a motion near it, proves to be too large, and keeps it as
+    /// upper bound.
     fn prove(
         &self,
         program: &Program<'_>,

@@ -1,4 +1,4 @@
-//! The program of admissible forces.
+//! The optimisation program of admissible forces.
 
 use faer::sparse::{SparseColMat, SparseColMatRef};
 use lcp::{InteriorPoint, InteriorPointSettings, LeastForces, Observer};
@@ -11,30 +11,33 @@ use crate::system::System;
 
 mod linear;
 
-/// Largest residual of the balance of a block, relative to the largest load, of admissible forces.
+/// Largest residual of the balance of a block at which forces count as admissible, relative to the largest load.
 const BALANCED: f64 = 1e-9;
 
-/// The forces that contacts may have, and the balance of the blocks.
+/// The program of admissible forces: the forces that contacts can carry, and the balance of the blocks.
 pub(super) struct Program<'a> {
     system: &'a System,
-    /// The forces that every contact point can carry.
+    /// The friction cone of every contact point.
     cones: Vec<Cone>,
-    /// The first edge of every contact point, and one past the last.
+    /// The index of the first edge of every contact point, and the number of all edges.
     first: Vec<usize>,
-    /// The frictional points with a constant part of friction, and `C_0` of each in units of the largest load.
+    /// The frictional points with a constant part of friction, by their index in the system, and `C_0` of each in units
+    /// of the largest load.
     constant: Vec<(usize, f64)>,
-    /// `E`: edges, then for every force `q` of constant friction `q' = C_0 + q` and `q'' = C_0 - q`, with
-    /// `q' + q'' = 2 C_0` below the balance of the blocks. The growth of the loads per unit factor comes last, if
-    /// loads grow.
+    /// The matrix `E`. Its first columns are the forces along edges, followed by `q' = C_0 + q` and `q'' = C_0 - q` for
+    /// every force `q` of constant friction; rows with `q' + q'' = 2 C_0` follow those of the balance of the blocks. If
+    /// loads grow, the last column is their growth for a load factor of one.
     e: SparseColMat<usize, f64>,
-    /// `r`, in units of the largest load; with `-C_0` along joints that have constant friction.
+    /// The resultants `r` of the loads, in units of the largest load, including `-C_0` along joints that have constant
+    /// friction.
     loads: Vec<f64>,
-    /// The largest load \[N\].
+    /// The largest load \[N\], which is the unit of force of the program.
     unit: f64,
 }
 
 impl<'a> Program<'a> {
-    /// `growth` is the growth of the loads per unit factor, `N^T f` of all blocks \[N\], if they grow.
+    /// Sets up the program; `growth` is `N^T f` of all blocks \[N\] by the growing loads for a load factor of one, if
+    /// loads grow.
     pub(super) fn new(system: &'a System, growth: Option<&[f64]>) -> Self {
         let mut cones = vec![Cone::default(); system.points()];
         for friction in &system.friction {
@@ -67,7 +70,7 @@ impl<'a> Program<'a> {
         Self { system, cones, first, constant, e, loads, unit }
     }
 
-    /// The program with some blocks held by any forces: the balance of these blocks is left out.
+    /// Returns the program with some blocks held by forces of any size: the balance of these blocks is left out.
     pub(super) fn holding(mut self, held: &[bool]) -> Self {
         let is_left = |row: usize| held.get(row / 3).is_none_or(|held| !held);
         let mut columns = ColumnMatrix::default();
@@ -85,37 +88,38 @@ impl<'a> Program<'a> {
         self.loads[..self.balances()].iter().all(|load| load.abs() <= 0.0)
     }
 
-    /// The largest load \[N\].
+    /// Returns the largest load \[N\], which is the unit of force of the program.
     pub(super) fn unit(&self) -> f64 {
         self.unit
     }
 
-    /// Number of unknowns: rigid amplitudes of all blocks, and a multiplier of every bound of constant friction.
+    /// Returns the number of multipliers: the rigid amplitudes of all blocks, and one for every bound of constant
+    /// friction.
     pub(super) fn unknowns(&self) -> usize {
         self.loads.len()
     }
 
-    /// Number of rigid amplitudes of all blocks.
+    /// Returns the number of rigid amplitudes of all blocks.
     fn balances(&self) -> usize {
         3 * self.system.bodies.len()
     }
 
-    /// Number of columns that are forces along the edges of cones.
+    /// Returns the number of columns of `E` for the forces along the edges of the friction cones.
     pub(super) fn edges(&self) -> usize {
         self.first[self.first.len() - 1]
     }
 
-    /// Number of columns that are forces: along edges, and the pairs of constant friction.
+    /// Returns the number of columns of `E` for forces: along the edges, and in pairs for constant friction.
     pub(super) fn forces(&self) -> usize {
         self.edges() + 2 * self.constant.len()
     }
 
-    /// The columns of `E` that are forces.
+    /// Returns the columns of `E` for forces, without that of the growing loads.
     pub(super) fn columns(&self) -> SparseColMatRef<'_, usize, f64> {
         first_columns(&self.e, self.forces())
     }
 
-    /// `min |p|^2 / 2` subject to `E p + r = 0`, `p >= 0`, or a proof that there are no such forces.
+    /// Solves `min |p|^2 / 2` subject to `E p + r = 0`, `p >= 0`, or finds a proof that there are no such forces.
     pub(super) fn least_forces(
         &self,
         observer: &mut Observer<'_>,
@@ -128,7 +132,8 @@ impl<'a> Program<'a> {
         InteriorPoint::new(settings).least_forces(&self.e, &self.loads, observer)
     }
 
-    /// The forces of all rows \[N\], if the forces `p` along the columns balance the loads.
+    /// Returns the forces of all rows \[N\] if the forces `p` of the columns of `E` balance the loads; otherwise
+    /// `None`.
     pub(super) fn admissible(&self, p: &[f64]) -> Option<Vec<f64>> {
         let p: Vec<f64> = p.iter().map(|p| p.max(0.0)).collect();
         let mut rest = self.loads.clone();
@@ -139,7 +144,7 @@ impl<'a> Program<'a> {
         is_balanced.then(|| self.of_rows(&p))
     }
 
-    /// The forces of all rows \[N\].
+    /// Converts the forces `p` of the columns of `E` to the forces of all rows \[N\].
     fn of_rows(&self, p: &[f64]) -> Vec<f64> {
         let points = self.system.points();
         let mut forces = vec![0.0; self.system.rows.len()];
@@ -160,7 +165,8 @@ impl<'a> Program<'a> {
     }
 }
 
-/// The blocks that every row acts on, increasing, with the work of a unit force in their rigid motions.
+/// The blocks on which each row acts, in increasing order, with the work of a unit force of the row in their rigid
+/// motions.
 type Sides<'a> = Vec<Vec<(usize, &'a [f64; 3])>>;
 
 fn sides(system: &System) -> Sides<'_> {
@@ -171,7 +177,7 @@ fn sides(system: &System) -> Sides<'_> {
     sides
 }
 
-/// The columns of `E` that are forces.
+/// Assembles the columns of `E` for forces: along the edges, and in pairs for constant friction.
 fn edges(
     system: &System,
     cones: &[Cone],
@@ -187,7 +193,7 @@ fn edges(
     for (point, cone) in cones.iter().enumerate() {
         let tangent = friction.next_if(|(_, it)| it.contact.index() == point);
         let normal = &sides[point];
-        // A point that does not resist sliding has one edge, along its normal.
+        // A point that does not resist sliding has only one edge, along its normal.
         let tangent = tangent.map_or(normal, |(k, _)| &sides[points + k]);
         for Edge { normal: n, tangential: t } in cone.edges() {
             let both = normal.iter().zip(tangent);

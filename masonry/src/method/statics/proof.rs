@@ -1,9 +1,9 @@
-//! The proof that a wall falls, checked in its geometry.
+//! The proof that a structure falls, checked in its geometry.
 //!
 //! The proof is a motion of rigid blocks on which the loads do work, and no contact force can do negative work: every
 //! contact opens by at least `mu` times its slip. Forces that balance the loads would do the opposite of the loads'
-//! work, so that there are no such forces; the loads must do more work than cohesion and tensile strength take. The
-//! proof holds for any material, since no block is deformed, and for any gaps.
+//! work, so that no such forces exist. If there are cohesion and tensile strength, the loads must do more work than
+//! these take. The proof holds for any material, since no block is deformed, and for any gaps.
 
 use nalgebra::{Point2, Vector2};
 
@@ -14,14 +14,16 @@ use crate::model::{Anchor, JointPoint, Model, PlacedBlock, PlacedForce};
 use crate::recover;
 use crate::system::rigid::Modes;
 
-/// Rounding errors of velocities, relative to the largest velocity.
+/// Least rounding error of velocities that is assumed, relative to the largest velocity.
 const ROUNDING: f64 = 4.0 * f64::EPSILON;
-/// Forces that would balance the loads in spite of the rounding errors of the motion are this much larger than all
-/// loads together.
+/// Safety factor of the proof. The work on the motion must exceed the rounding error of the motion, times the sum of
+/// all loads and strengths, by this factor. Contact forces could then balance the loads only if they were this many
+/// times as large as that sum.
 const CLEAR: f64 = 1e6;
 
 impl Proof {
-    /// Checks a motion, three amplitudes for every block ([`Modes`]); `None` if the motion proves nothing.
+    /// Checks whether a motion, three amplitudes for every block ([`Modes`]), proves that no forces balance the loads;
+    /// `None` if it does not.
     pub fn of(model: &Model, amplitudes: &[f64]) -> Option<Self> {
         let is_number = amplitudes.iter().all(|it| it.is_finite());
         if !is_number || amplitudes.len() != 3 * model.blocks.len() {
@@ -64,7 +66,7 @@ impl<'a> RigidMotion<'a> {
         modes.displacement(place, amplitudes)
     }
 
-    /// The work of all loads, and the sum of their sizes.
+    /// Returns the work of all loads on the motion, and the sum of the sizes of the loads.
     fn work(&self, model: &Model) -> (f64, f64) {
         let of_block = |(block, (modes, amplitudes)): (&PlacedBlock, &(Modes, &[f64]))| {
             let of_load = |load: &PlacedForce| {
@@ -77,11 +79,11 @@ impl<'a> RigidMotion<'a> {
         loads.fold((0.0, 0.0), |(work, total), [of, size]| (work + of, total + size))
     }
 
-    /// The lengths by which a contact opens and slides.
+    /// Returns the lengths by which a contact opens and slides in the motion.
     fn apart(&self, model: &Model, contact: &JointPoint) -> [f64; 2] {
         let joint = &model.joints[contact.joint.index()];
         let side = |Anchor { block, edge, at }: Anchor| {
-            // The force of a film acts on both faces in the middle between them.
+            // The force of a film acts on both faces at the middle between them.
             let face = || geometry::on_edge(&model.blocks[block.index()].corners, edge, at);
             let place = contact.film.map_or_else(face, |_| contact.position);
             self.at(block, place)

@@ -1,9 +1,10 @@
-//! Motions refined to the last digit: the edges of the cones on which they do no work are found, and made to do exactly
-//! no work.
+//! Motions refined to the last digit: the edges of the friction cones on which a motion does no work are found, and the
+//! motion is changed so that it does exactly no work there.
 //!
-//! Just above the limit, a proof is a small difference of large forces, and a program gives it with few digits. The
-//! motion still shows the edges on which it does no work. The projection onto the null space of the rows `E_A^T` of
-//! these edges is `delta (E_A E_A^T + delta)^-1`, applied a few times. Its rounding errors lie in the null space.
+//! Just above the limit load, a proof depends on a small difference of large forces, and a program gives the motion
+//! with few digits. The motion still shows the edges on which it does no work. The projection onto the null space of
+//! the rows `E_A^T` of these edges is `delta (E_A E_A^T + delta)^-1`, applied a few times. The rounding errors of the
+//! projection lie in the null space.
 
 use faer::sparse::SparseColMatRef;
 use lcp_linalg::Gram;
@@ -11,25 +12,26 @@ use lcp_linalg::Gram;
 use crate::columns::column;
 use crate::rounding;
 
-/// Columns that are made to do no work.
+/// The columns of `E` on which a motion is made to do no work.
 enum Idle {
-    /// Columns whose work is below this part of the largest velocity.
+    /// The columns on which the work of the motion is below this part of its largest velocity.
     AtRest(f64),
-    /// Columns whose force, relative to the largest force, is at least as large as their work, relative to the largest
-    /// work.
+    /// The columns whose force, divided by the largest force, is at least as large as their work, divided by the
+    /// largest work.
     Pressed,
 }
 
-/// Attempts, one after the other. Measured on the tests and scenes: motions with forces need the first, and a motion without forces
-/// one of the others.
+/// The sets of columns that are tried, one after the other. Measured on the tests and scenes: a motion that comes with
+/// forces needs the first set, and a motion without forces one of the other sets.
 const ATTEMPTS: [Idle; 4] =
     [Idle::Pressed, Idle::AtRest(1e-9), Idle::AtRest(1e-7), Idle::AtRest(1e-5)];
-/// `delta`, relative to the largest diagonal.
+/// The shift `delta`, divided by the largest diagonal entry of `E_A E_A^T`.
 const SHIFT: f64 = 1e-9;
-/// Passes, each of which makes the part outside of the null space a million times smaller, or more.
+/// Number of projections, each of which makes the part outside of the null space at least a million times smaller.
 const PASSES: usize = 3;
 
-/// A motion, which may come with forces along the first columns, and nearby motions on which some columns do no work.
+/// Lists a motion, and nearby motions that do no work on some columns; `forces` are those along the first columns, if
+/// there are any.
 pub(super) fn candidates<'a>(
     motion: &'a [f64],
     forces: &'a [f64],
@@ -58,7 +60,8 @@ pub(super) fn candidates<'a>(
     std::iter::once(motion.to_vec()).chain(near)
 }
 
-/// The factors are kept for the next set of idle columns.
+/// Projects a motion onto those that do no work on the idle columns; the factors are kept for the next set of idle
+/// columns.
 fn projected(
     motion: &[f64],
     columns: SparseColMatRef<'_, usize, f64>,

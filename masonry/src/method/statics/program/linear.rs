@@ -1,5 +1,5 @@
-//! Linear programs of admissible forces: the largest value of a linear function of them, or of the factor of growing
-//! loads.
+//! Linear programs of admissible forces: the largest value of a linear function of these forces, or the largest load
+//! factor.
 
 use faer::sparse::{SparseColMat, Triplet};
 use lcp::MixedLcp;
@@ -8,7 +8,8 @@ use super::Program;
 use crate::columns::{ColumnMatrix, column};
 
 impl Program<'_> {
-    /// The coefficients of the forces along columns in a linear function of the forces of all rows.
+    /// Converts a linear function of the forces of all rows, given by its coefficients, to one of the forces of the
+    /// columns of `E`.
     pub(in crate::method::statics) fn gain(&self, of_rows: &[f64]) -> Vec<(usize, f64)> {
         let (normals, tangents) = of_rows.split_at(self.system.points());
         let mut of_points: Vec<[f64; 2]> = normals.iter().map(|normal| [*normal, 0.0]).collect();
@@ -24,7 +25,8 @@ impl Program<'_> {
         gain
     }
 
-    /// `max gain . p` subject to `E p + r = 0`, `p >= 0`. The multipliers are a motion `x` with `E^T x >= gain`.
+    /// Sets up `max gain . p` subject to `E p + r = 0`, `p >= 0`. The multipliers are a motion `x` with
+    /// `E^T x >= gain`.
     pub(in crate::method::statics) fn greatest(
         &self,
         gain: &[(usize, f64)],
@@ -46,11 +48,11 @@ impl Program<'_> {
         MixedLcp::new(m, q, (0..order).map(|j| j < n).collect())
     }
 
-    /// The bound of a gain over all forces, by a motion `x` with `E^T x >= gain` \[N\].
+    /// Computes the bound \[N\] of `gain . p` over all admissible forces that a motion `x` with `E^T x >= gain` proves.
     pub(in crate::method::statics) fn bound(&self, motion: &[f64], gain: &[(usize, f64)]) -> f64 {
         let motion = &motion[..self.balances()];
         let work: f64 = self.loads.iter().zip(motion).map(|(r, x)| r * x).sum();
-        // The loads have `-C_0` along each force of constant friction.
+        // The loads contain `-C_0` along each force of constant friction.
         let pairs =
             self.constant.iter().zip(&gain[self.edges()..]).map(|((_, base), (k, gain))| {
                 let on_blocks = column(self.e.as_ref(), *k).filter(|(i, _)| *i < motion.len());
@@ -60,8 +62,8 @@ impl Program<'_> {
         self.unit * (pairs.sum::<f64>() - work)
     }
 
-    /// The program of forces along edges that balance one another and gain one: any multiple of them can be added to
-    /// others.
+    /// Sets up the program of forces along edges that balance one another and have a gain of one: any multiple of such
+    /// forces can be added to admissible forces.
     pub(in crate::method::statics) fn circulating(mut self, gain: &[(usize, f64)]) -> Self {
         let row = self.balances();
         let mut columns = ColumnMatrix::default();
