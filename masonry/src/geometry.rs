@@ -17,7 +17,7 @@ pub use shape::{PolygonError, check_convex, check_simple, edge_behind_centroid, 
 /// part of the size are one place.
 pub(crate) const SAME_PLACE: f64 = 1e-9;
 
-/// Corners of a quadrilateral, counter-clockwise.
+/// Corners of a quadrilateral, counter-clockwise \[m\].
 pub type Quad = [Point2<f64>; 4];
 
 /// Computes the signed area of a polygon \[m^2\], positive if the corners run counter-clockwise.
@@ -54,7 +54,7 @@ pub fn size(polygon: &[Point2<f64>]) -> f64 {
 /// Returns the two ends of edge `k`.
 ///
 /// # Panics
-/// If there is no such edge.
+/// If the polygon has no edge `k`.
 pub fn edge(polygon: &[Point2<f64>], k: usize) -> [Point2<f64>; 2] {
     [polygon[k], polygon[(k + 1) % polygon.len()]]
 }
@@ -62,7 +62,7 @@ pub fn edge(polygon: &[Point2<f64>], k: usize) -> [Point2<f64>; 2] {
 /// Returns the point on edge `k` at a fraction of its length from its first corner.
 ///
 /// # Panics
-/// If there is no such edge.
+/// If the polygon has no edge `k`.
 pub fn on_edge(polygon: &[Point2<f64>], k: usize, at: f64) -> Point2<f64> {
     let [p, q] = edge(polygon, k);
     p + (q - p) * at
@@ -132,7 +132,7 @@ fn contains(polygon: &[Point2<f64>], point: Point2<f64>) -> bool {
 /// Returns the unit outward normal of edge `k`.
 ///
 /// # Panics
-/// If there is no such edge.
+/// If the polygon has no edge `k`.
 pub fn outward_normal(polygon: &[Point2<f64>], k: usize) -> Vector2<f64> {
     let [p, q] = edge(polygon, k);
     turn_right((q - p).normalize())

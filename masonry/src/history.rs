@@ -192,7 +192,7 @@ impl Model {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct StepRecord {
-    /// The step.
+    /// The step of the load history.
     pub step: HistoryStep,
     /// The route that solved the step.
     pub route: Route,
@@ -212,11 +212,11 @@ pub struct StepRecord {
     pub friction_power: Option<f64>,
     /// Energy that friction released in this step \[J\]; zero by Coulomb's law.
     pub energy_created: f64,
-    /// Energy taken by the drag of slow motions in this step \[J\].
+    /// Energy that the drag of slow motions takes in this step \[J\].
     pub dragged: f64,
     /// Strain energy of blocks and films after the step \[J\].
     pub strain_energy: f64,
-    /// The largest displacement after the step \[m\].
+    /// The largest component of a displacement after the step \[m\].
     pub largest_displacement: f64,
     /// The numbers of contact points that are open, stick and slip at the end of the step, in this order.
     pub contacts: [usize; 3],

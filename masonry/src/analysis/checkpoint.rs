@@ -77,9 +77,9 @@ pub enum CheckpointError {
          done must stay as they were; solve from the first step"
     )]
     OtherSteps {
-        /// Name of the stage.
+        /// Name of the stage with other steps.
         stage: String,
-        /// Number of the step in the stage, from 1.
+        /// Number of the step that differs in the stage, from 1.
         step: usize,
     },
     /// The scene has one step only, so that a checkpoint is of no use.
@@ -113,15 +113,15 @@ pub struct Checkpoint {
     pub(crate) origin: String,
     /// The results of the steps that were solved.
     pub records: Vec<StepRecord>,
-    /// The record of the last solve, without times, so that the file does not depend on the machine.
+    /// The record of the last solve, without wall-clock times, so that the file does not depend on the machine.
     pub(crate) solve: SolveInfo,
     displacements: Vec<Vec<[f64; 2]>>,
     contacts: Vec<PointState>,
     /// The slip \[m\] of every contact point at the state from which the slips of the last step are measured.
     slips: Vec<f64>,
     strain_energy: f64,
-    /// The basic side of every pair, `t` or `y`, after the last pivot: the basis from which the next step
-    /// starts.
+    /// The basis from which the pivots of the next step start: for every pair, which variable is basic after the last
+    /// pivot, `t` or `y`. `None` if the last step was not solved by pivots.
     basis: Option<String>,
 }
 

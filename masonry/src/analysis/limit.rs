@@ -73,9 +73,9 @@ const NOTHING: f64 = 1e-6;
 pub enum Laws {
     /// Associated flow, in which joints open by `mu` times their slip: one linear program, with a proof.
     Associative,
-    /// Coulomb's friction, in which joints slide without opening: a path of states at rest.
+    /// Coulomb's friction, in which joints slide without opening: a path of states at rest is followed.
     Path,
-    /// Both laws.
+    /// Both laws of friction, one after the other.
     #[default]
     Both,
 }
@@ -86,19 +86,20 @@ pub enum Laws {
 pub struct Limit {
     /// Title of the scene.
     pub title: String,
-    /// The structure with rigid blocks, under the load factor, or under all loads in full if there is no load factor.
+    /// The structure with rigid blocks under the largest load factor that associated flow carries, or under all loads
+    /// in full if no such factor is known.
     pub model: Model,
     /// The load or the group of loads that grows.
     pub group: String,
-    /// The limit load of associated flow, if it was chosen.
+    /// The limit load of associated flow; `None` if this law was not chosen.
     pub associative: Option<Associative>,
-    /// The limit load of Coulomb's friction along a path, if it was chosen.
+    /// The limit load of Coulomb's friction along a path; `None` if this law was not chosen.
     pub path: Option<Path>,
-    /// The seismic check, if accelerations grow and the limit and its mechanism are known.
+    /// The seismic check; `None` unless accelerations grow, and the limit and its mechanism are known.
     pub seismic: Option<SeismicCheck>,
     /// Whether the weight is the growing load and is proved not to be carried at all by forces within friction.
     pub falls_by_weight: bool,
-    /// The answer in the words of an engineer.
+    /// The answer in sentences for engineers.
     pub sentence: String,
     /// Warnings that limit the meaning of the answer.
     pub warnings: Vec<String>,
@@ -142,7 +143,7 @@ impl Limit {
 /// Computes the limit load of the group that the scene names, or of its only group, by both laws of friction.
 ///
 /// # Errors
-/// [`LimitError`] when the scene is wrong or has no such group.
+/// [`LimitError`] if the scene is wrong or has no group of loads that can grow.
 pub fn limit(scene: &Scene) -> Result<Limit, LimitError> {
     limit_by(scene, Laws::Both)
 }

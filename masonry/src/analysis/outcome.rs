@@ -25,7 +25,7 @@ pub struct Outcome {
     pub model: Model,
     /// The effects and routes that were built, each with its reason.
     pub plan: Plan,
-    /// The record of the solution of the complementarity problem.
+    /// The record of the solution of the complementarity problem: routes, status and residuals.
     pub solve: SolveInfo,
     /// The mechanical state; `None` if no solution was found.
     pub state: Option<State>,
@@ -46,7 +46,7 @@ pub struct Outcome {
 }
 
 impl Outcome {
-    /// Whether the structure stands, falls, or is undecided; [`judgement`](Self::judgement) has the evidence and the sentence.
+    /// Returns whether the structure stands, falls, or is undecided; the evidence is in [`judgement`](Self::judgement).
     pub fn verdict(&self) -> Verdict {
         self.judgement.verdict
     }

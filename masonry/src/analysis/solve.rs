@@ -46,7 +46,7 @@ pub enum SolveError {
         /// Number of independent motions of all blocks that nothing resists.
         free: usize,
     },
-    /// The matrices would need too much memory.
+    /// The matrices of the analysis would need more memory than the machine has.
     #[error(transparent)]
     TooLarge(#[from] TooLarge),
     /// The solver refused its settings or the data.
@@ -57,13 +57,13 @@ pub enum SolveError {
     NotTreated {
         /// The route that refused the structure.
         route: Route,
-        /// The reason, and an alternative.
+        /// The reason for which the route refused the structure, and an alternative.
         reason: String,
     },
     /// A step of the load history after the first could not be solved; the steps before it are kept.
     #[error("step {step} of stage \"{stage}\": {error}")]
     Step {
-        /// Name of the stage.
+        /// Name of the stage of the step.
         stage: String,
         /// Number of the step in the stage, from 1.
         step: usize,

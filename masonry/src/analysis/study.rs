@@ -63,7 +63,7 @@ use runs::Runner;
 pub struct Settings {
     /// The routes. If a route does not treat the scene, its record has the reason.
     pub routes: Vec<Route>,
-    /// The tolerances \[-\], between 0 and 1.
+    /// The tolerances of the solves \[-\], between 0 and 1.
     pub tolerances: Vec<f64>,
     /// Refinement factors of the meshes: the numbers of elements of all walls and blocks per direction are multiplied
     /// by each. A scene of rigid blocks has no elements, and is studied as it is.
@@ -132,7 +132,7 @@ pub enum StudyError {
     /// A list in the settings is empty.
     #[error("a study needs at least one {what}: name one, or leave the list out")]
     Empty {
-        /// Name of the empty list.
+        /// Name of the list that is empty.
         what: &'static str,
     },
     /// A tolerance is not between 0 and 1.
@@ -183,7 +183,7 @@ impl End {
 /// The record of one solve: one route, to one tolerance, on one mesh.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Record {
-    /// The route.
+    /// The route of the solve.
     pub route: Route,
     /// The tolerance of the solve \[-\].
     pub tolerance: f64,
@@ -211,11 +211,11 @@ pub struct Record {
 pub struct Study {
     /// Title of the scene.
     pub title: String,
-    /// Units of the scene, for reports; all values here are in SI units.
+    /// Units of the scene, for reports; all values of the study are in SI units.
     pub units: Units,
     /// Limit of the wall-clock time of one solve.
     pub time_limit: Duration,
-    /// The machine on which times were measured, if it was given.
+    /// The machine on which times were measured; `None` if the settings have none.
     pub machine: Option<String>,
     /// Whether the observer ended the study early, so that solves were skipped.
     pub is_interrupted: bool,
@@ -254,7 +254,7 @@ impl Study {
 pub struct StudyProgress {
     /// The refinement factor of the mesh.
     pub mesh: u32,
-    /// The route.
+    /// The route of the solve.
     pub route: Route,
     /// The tolerance of the solve \[-\].
     pub tolerance: f64,

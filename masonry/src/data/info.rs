@@ -30,7 +30,7 @@ impl Way {
 pub struct SolveInfo {
     /// `Solved`, or the reason why the route ended without a solution.
     pub status: lcp::Status,
-    /// The route whose result is reported.
+    /// The route whose result is kept.
     pub route: Route,
     /// The reason for which this route was tried at its place in the order.
     pub because: String,
@@ -41,7 +41,7 @@ pub struct SolveInfo {
     pub form: String,
     /// Order of the complementarity problem, or of the linear systems of the augmented Lagrangian method.
     pub order: usize,
-    /// All attempts of all routes, in order.
+    /// All attempts of all routes to find a state, in order.
     pub attempts: Vec<RouteAttempt>,
     /// Number of pivots in all attempts.
     pub pivots: usize,
@@ -99,12 +99,12 @@ pub enum RouteAttempt {
         form: String,
         /// The name of the start basis that was given; `None` if the solver found its own.
         start: Option<String>,
-        /// Covering vector, end and pivots.
+        /// The covering vector, the end and the number of pivots of the path.
         path: lcp::lemke::Attempt,
     },
     /// An iterative method on the sparse problem.
     Sparse {
-        /// The route.
+        /// The route of the method.
         route: Route,
         /// `Solved`, or the reason why the method ended without a solution.
         status: lcp::Status,
@@ -116,7 +116,7 @@ pub enum RouteAttempt {
         #[serde(deserialize_with = "or_infinite")]
         residual: f64,
     },
-    /// The motion of blocks that are loaded slowly.
+    /// A motion of blocks with mass, which are loaded slowly.
     Motion {
         /// The end of the motion: the blocks rest, go on moving, or the search ended for another reason.
         ending: lcp::Ending,
@@ -174,7 +174,7 @@ fn or_infinite<'de, D: Deserializer<'de>>(from: D) -> Result<f64, D::Error> {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct RouteRecord {
-    /// The route.
+    /// The route that was tried.
     pub route: Route,
     /// The reason for which the route was tried at its place in the order.
     pub because: String,

@@ -12,7 +12,7 @@ pub struct State {
     /// Displacements \[m\] of every block: of all nodes, in the order of the block's mesh, or of the corners of a rigid
     /// block.
     pub displacements: Vec<Vec<Vector2<f64>>>,
-    /// Force, gap and slip at every contact point.
+    /// Force, gap and slip at every contact point, in the order of the model.
     pub contacts: Vec<PointState>,
     /// Stresses at the contact points of the mortar films, in the order of the points; empty if there are no films, or
     /// if no output shows stresses.

@@ -24,19 +24,19 @@ mod reduced;
 /// The form of the linear complementarity problem, which is a choice of its variables.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum FormKind {
-    /// The paper's (3.27), order `m + 2 m_f`: pairs `(t_n, y_n)`, `(p+, y+)`, `(p-, y-)`, where
-    /// `p+ = mu t_n + t_t`, `p- = mu t_n - t_t`, `y_t = y+ - y-`. Not copositive: a solver may end on
-    /// a ray although there is a solution.
+    /// The paper's form (3.27), of order `m + 2 m_f`, with the pairs `(t_n, y_n)`, `(p+, y+)`, `(p-, y-)`, where
+    /// `p+ = mu t_n + t_t`, `p- = mu t_n - t_t` and `y_t = y+ - y-`. The form is not copositive: a solver may end on a
+    /// ray although there is a solution.
     Coulomb,
-    /// Friction forces split in two, order `m + 3 m_f`: pairs `(t_n, y_n)`, `(b+, s+)`, `(b-, s-)`, `(lambda, w)`
-    /// with `t_t = b+ - b-`, `s+ = lambda + y_t`, `s- = lambda - y_t` and `w = mu t_n - b+ - b-` (a force, while
-    /// `lambda` is a displacement).
+    /// The form of Stewart and Trinkle, of order `m + 3 m_f`, with friction forces split in two: pairs `(t_n, y_n)`,
+    /// `(b+, s+)`, `(b-, s-)`, `(lambda, w)` with `t_t = b+ - b-`, `s+ = lambda + y_t`, `s- = lambda - y_t` and
+    /// `w = mu t_n - b+ - b-` (a force, while `lambda` is a displacement).
     StewartTrinkle,
-    /// The variables of [`StewartTrinkle`](Self::StewartTrinkle) with the rigid amplitudes
-    /// `alpha = alpha+ - alpha-` as unknowns and equilibrium as complementary rows, and with the forces of the `s`
-    /// bars of mortar strips, order `m + 3 m_f + 6 r + 2 s` for `r` blocks: a standard problem, `B = 1`, with a
-    /// copositive `-A`. A ray of this form is a motion of the blocks that no contact stops and on which the loads
-    /// do work.
+    /// The mixed form, of order `m + 3 m_f + 6 r + 2 s` for `r` blocks and `s` bars of mortar strips. It has the
+    /// variables of [`StewartTrinkle`](Self::StewartTrinkle), the rigid amplitudes `alpha = alpha+ - alpha-` as
+    /// unknowns with equilibrium as complementary rows, and the forces of the bars. It is a standard problem, `B = 1`,
+    /// with a copositive `-A`. A ray of this form is a motion of the blocks that no contact stops and on which the
+    /// loads do work.
     Mixed,
 }
 
@@ -75,7 +75,7 @@ pub struct DenseForm {
     pub kind: FormKind,
     /// The matrices `A` and `B` and the vector `c`.
     pub problem: HorizontalLcp,
-    /// The units of force and of displacement.
+    /// The units of force and of displacement of the variables.
     pub scale: FormScale,
     /// Start bases for Lemke's method, the most promising first; empty if the basis of all `y` is the natural start.
     /// Each of these bases may be singular for a certain `mu`.

@@ -51,13 +51,13 @@ pub struct Reduction {
 }
 
 impl Reduction {
-    /// Reduces a system.
+    /// Reduces a system to a problem in which only the contact forces are unknowns.
     ///
-    /// `weights`, one positive number per row, give preference to rows for the isostatic part; they change `R`, `A`
-    /// and `c` but not the recovered state.
+    /// The positive numbers `weights`, one for each row, make rows with large ones preferred for the isostatic part.
+    /// They change `R`, `A` and `c` but not the recovered state.
     ///
     /// # Errors
-    /// [`RigidError::Free`] if some block can move without any resistance at its contacts.
+    /// [`RigidError::Free`] if a block can move without any resistance at its contacts.
     ///
     /// # Panics
     /// If there are fewer weights than rows.

@@ -37,7 +37,7 @@ pub fn without_straight(polygon: &[Point2<f64>]) -> Vec<Point2<f64>> {
     (0..count).filter(turns).map(|k| polygon[k]).collect()
 }
 
-/// Checks that the corners are finite, run counter-clockwise once and span a strictly convex shape.
+/// Checks that the corners are finite, run counter-clockwise once, and are those of a strictly convex polygon.
 ///
 /// A corner counts as convex if twice the area of the triangle with its neighbours exceeds `1e-9` times the square of
 /// the polygon's size.

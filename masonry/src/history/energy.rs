@@ -20,7 +20,7 @@ use crate::system::{nodal_loads, resultant};
 /// The data of a state from which the work of loads and supports is computed.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Snapshot {
-    /// Loads \[N\] in the order of all displacements.
+    /// Loads \[N\] on the displacements of all nodes, or on the amplitudes of rigid blocks.
     loads: Vec<f64>,
     /// Displacements \[m\] of nodes, or amplitudes of rigid blocks, in the same order.
     displacements: Vec<f64>,
@@ -86,7 +86,7 @@ pub(crate) struct FrictionWork {
     power: Option<f64>,
     /// Energy \[J\] that friction released, which is the negative part of the dissipation; zero by Coulomb's law.
     pub(crate) created: f64,
-    /// Energy \[J\] taken by the drag of slow motions.
+    /// Energy \[J\] that the drag of slow motions takes.
     pub(crate) dragged: f64,
 }
 

@@ -34,13 +34,13 @@ pub enum SecondLoading {
 pub struct Spread {
     /// Number of steps of the second loading.
     pub steps: usize,
-    /// The difference of the displacements of all nodes.
+    /// The relative difference of the displacements of all nodes.
     pub displacements: f64,
-    /// The difference of the gaps of all contact points: the widths of cracks.
+    /// The relative difference of the gaps of all contact points, which are the widths of cracks.
     pub openings: f64,
-    /// The difference of the reactions.
+    /// The relative difference of the reactions.
     pub reactions: f64,
-    /// The difference of the energy dissipated by friction.
+    /// The relative difference of the energy dissipated by friction.
     pub dissipation: f64,
 }
 

@@ -25,12 +25,12 @@ pub enum Answer {
     /// The structure falls without the group: no forces within friction balance the other loads.
     #[serde(rename = "falls without the group")]
     Falls,
-    /// Neither a limit load nor a proof of another answer was found.
+    /// Neither a limit load nor a proof of one of the other answers was found.
     #[serde(rename = "undecided")]
     Undecided,
 }
 
-/// The limit load of associated flow: the limit of ideal plasticity, and an upper bound for Coulomb's friction.
+/// The limit load of associated flow, which is the limit of ideal plasticity and an upper bound for Coulomb's friction.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct Associative {
@@ -44,14 +44,15 @@ pub struct Associative {
     /// Whether the answer is proved by forces and a motion, recomputed from the geometry, whose load factors are almost
     /// equal.
     pub proved: bool,
-    /// The forces under [`load_factor`](Self::load_factor), point by point; gaps and slips are zero.
+    /// The forces under [`load_factor`](Self::load_factor) at all contact points; gaps and slips are zero.
     pub forces: Option<Vec<PointState>>,
     /// The reactions of the supports to these forces.
     pub reactions: Vec<Reaction>,
     /// The scale of load factors \[-\]: the factor at which the growing loads are as large as the others, or
     /// [`load_factor`](Self::load_factor) if that is larger.
     pub(super) size: f64,
-    /// The motion that proves the bound: displacement rates of the corners of every block, the largest component one.
+    /// The motion that proves the bound: displacement rates of the corners of every block, scaled to a largest
+    /// component of one.
     pub mechanism: Option<Vec<Vec<Vector2<f64>>>>,
     /// The load factors of the rest of the structure while the blocks of the mechanism are held. `None` if the
     /// mechanism moves several blocks and more than a tenth of all, or if the group does not act on the rest.

@@ -11,7 +11,7 @@ pub enum LimitError {
     /// The scene is wrong.
     #[error(transparent)]
     Scene(#[from] SceneError),
-    /// More memory would be needed than the machine has.
+    /// The matrices of the analysis need more memory than the machine has.
     #[error(transparent)]
     TooLarge(#[from] TooLarge),
     /// The equations of a block cannot be assembled.
@@ -23,13 +23,13 @@ pub enum LimitError {
     /// The scene has no load that can grow.
     #[error("the scene has no loads of which a factor could grow: add [[loads]], or `gravity`")]
     NoLoads,
-    /// The scene has several groups, and none was named.
+    /// The scene has several groups of loads, and none was named as the one that grows.
     #[error(
         "the scene has several groups of loads, {}: say which one grows, by `[limit] group = \"{}\"` or `--group \"{}\"`",
         listed(groups), groups[0], groups[0]
     )]
     WhichGroup {
-        /// Names of the groups.
+        /// Names of the groups of loads in the scene.
         groups: Vec<String>,
     },
     /// The scene has no arch of this name.
@@ -37,7 +37,7 @@ pub enum LimitError {
         "there is no arch \"{name}\" in the scene; {known}: correct the name or add it under [[arches]]"
     )]
     NoArch {
-        /// The name that was given.
+        /// The name of the arch that was asked for.
         name: String,
         /// The names of the arches in the scene.
         known: Known,
@@ -61,7 +61,7 @@ pub enum LimitError {
         /// Name of the bridge, the entry `over` of `[limit.train]`.
         over: String,
     },
-    /// The blocks have no weight that could grow.
+    /// The weight is the growing load, but the blocks have no weight.
     #[error(
         "the blocks have no weight of which a factor could grow: give their materials a `density`, or name a group of loads"
     )]

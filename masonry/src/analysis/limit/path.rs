@@ -38,7 +38,7 @@ const ONE_NUMBER: f64 = 5e-3;
 /// Chosen.
 const DOUBLED: usize = 10;
 
-/// The limit load of Coulomb's friction, in which joints do not open when they slide.
+/// The limit load of Coulomb's friction along a path. Joints do not open when they slide.
 ///
 /// The factor grows from zero in steps, in each of which the blocks come to rest or flow; the limit is found by
 /// bisection. Other paths may end elsewhere if there is friction. Joints between rigid blocks have the [stiffness of
@@ -46,9 +46,10 @@ const DOUBLED: usize = 10;
 #[derive(Debug, Clone)]
 #[non_exhaustive]
 pub struct Path {
-    /// The largest factor \[-\] at which the blocks rest; `None` if they do not rest without the group.
+    /// The largest load factor \[-\] at which the blocks rest; `None` if they do not rest without the group.
     pub load_factor: Option<f64>,
-    /// The smallest factor \[-\] at which the blocks flow, or for which it is proved that no forces balance the loads.
+    /// The smallest load factor \[-\] at which the blocks flow, or at which it is proved that no forces balance the
+    /// loads; `None` if no such factor was found.
     pub falls: Option<f64>,
     /// Whether the limit is decided: both factors are close to each other, or the structure stands at every factor that
     /// was tried. Otherwise there are factors between them at which neither rest nor flow was found.
@@ -62,7 +63,7 @@ pub struct Path {
     /// The motion of the blocks under a factor above `load_factor`: displacement rates of the corners of every block,
     /// scaled to a largest component of one.
     pub mechanism: Option<Vec<Vec<Vector2<f64>>>>,
-    /// Joints that opened or slid for the first time along the path.
+    /// The events along the path: joints that open or slide for the first time.
     pub events: Vec<JointEvent>,
     /// The states at rest along the path, by growing load factor.
     pub curve: Vec<Stand>,
@@ -90,7 +91,7 @@ impl Path {
 /// A state of rest on the path.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Stand {
-    /// The load factor \[-\].
+    /// The load factor of this state \[-\].
     pub load_factor: f64,
     /// The largest displacement \[m\] since the load factor was zero. Rigid blocks move only by the springs of their
     /// joints, so that their displacements have no meaning by themselves.

@@ -24,11 +24,12 @@ pub struct Range {
     pub title: String,
     /// The structure with rigid blocks.
     pub model: Model,
-    /// The extremes of every support, in the order of the scene; `None` if it is proved that no forces balance the loads.
+    /// The extreme reactions of every support, in the order of the scene; `None` if it is proved that no forces balance
+    /// the loads.
     pub supports: Option<Vec<Extremes>>,
     /// Whether the observer ended the search early.
     pub is_interrupted: bool,
-    /// The answer in the words of an engineer.
+    /// The answer in sentences for engineers.
     pub sentence: String,
 }
 
@@ -37,9 +38,9 @@ pub struct Range {
 pub struct Extremes {
     /// Name of the support.
     pub support: String,
-    /// The horizontal force on the structure, at least and at most \[N\].
+    /// The least and the largest horizontal force on the structure \[N\].
     pub fx: [Extreme; 2],
-    /// The vertical force on the structure, at least and at most \[N\].
+    /// The least and the largest vertical force on the structure \[N\].
     pub fy: [Extreme; 2],
 }
 

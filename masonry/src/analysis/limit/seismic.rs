@@ -26,7 +26,7 @@ use crate::verify::moving::moving;
 
 /// The seismic check of a limit load by linear kinematic analysis (Circolare 7/2019, C8.7.1.2.1).
 ///
-/// The data are in `[limit.seismic]` of the scene, and the formulas in the reference on limit loads.
+/// The data are in `[limit.seismic]` of the scene, and the formulas in docs/reference/limit.md.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct SeismicCheck {

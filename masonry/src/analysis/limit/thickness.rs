@@ -39,7 +39,7 @@ pub struct Thickness {
     /// The smallest thickness \[m\] at which forces were found that balance the loads; `None` if no such thickness was
     /// found.
     pub stands: Option<f64>,
-    /// Whether `falls` and `stands` are so near to each other that they are one number.
+    /// Whether `falls` and `stands` are so near to each other that they count as one number.
     pub proved: bool,
     /// Whether the observer ended the search early.
     pub is_interrupted: bool,
@@ -49,7 +49,7 @@ pub struct Thickness {
     pub forces: Option<Vec<PointState>>,
     /// The mechanism for the thickness `falls`: displacement rates of the corners of every block.
     pub mechanism: Option<Vec<Vec<Vector2<f64>>>>,
-    /// The answer in the words of an engineer.
+    /// The answer in sentences for engineers.
     pub sentence: String,
 }
 

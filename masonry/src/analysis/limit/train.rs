@@ -16,7 +16,7 @@ const OF_ONE_POSITION: &str = "The position is the one at which associated flow 
 pub struct TrainPosition {
     /// The position of the train \[m\].
     pub at: f64,
-    /// The outcome; `None` if no axle stands on the bridge.
+    /// The outcome of the limit analysis at this position; `None` if no axle stands on the bridge.
     pub answer: Option<Answer>,
     /// The largest load factor \[-\] that is carried; `None` if none is known.
     pub load_factor: Option<f64>,
@@ -46,7 +46,8 @@ impl TrainPosition {
 pub struct CrossingTrain {
     /// The positions of the train in their order, up to the last one that was computed.
     pub positions: Vec<TrainPosition>,
-    /// Whether the limits of all positions are those of Coulomb's friction along paths, and not of associated flow.
+    /// Whether the limit loads at all positions are those of Coulomb's friction along paths, instead of those of
+    /// associated flow.
     pub by_path: bool,
     /// The index of the worst position, with the smallest load factor; if there is no limit, the first position with an
     /// axle on the bridge.

@@ -7,9 +7,9 @@ use lcp::Iteration;
 /// The bounds of a limit that are known during its search.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Bracket {
-    /// The largest load factor \[-\], or the smallest thickness \[m\], that was found to stand.
+    /// The largest load factor \[-\], or the smallest thickness \[m\], at which the structure was found to stand.
     pub stands: Option<f64>,
-    /// The smallest load factor \[-\], or the largest thickness \[m\], that was found to fall.
+    /// The smallest load factor \[-\], or the largest thickness \[m\], at which the structure was found to fall.
     pub falls: Option<f64>,
 }
 

@@ -28,7 +28,7 @@ use crate::verify::checks::Checks;
 use crate::verify::step::StepResult;
 use crate::verify::verdict::{self, Findings};
 
-/// A scene that is solved step by step.
+/// The analysis of a scene, which is solved step by step.
 ///
 /// ```
 /// use std::ops::ControlFlow;
@@ -84,7 +84,7 @@ pub struct Run {
     reached: Option<Situation>,
     /// The result of the step after the last solved one, if that step was tried and not solved.
     failed: Option<StepResult>,
-    /// The sparse problem of the last step that was tried, if it was built.
+    /// The sparse problem of the last step that was tried; `None` if it was not built.
     sparse: Option<Sparse>,
     clock: Clock,
 }

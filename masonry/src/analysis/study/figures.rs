@@ -16,10 +16,9 @@ pub struct Errors {
     /// are summed at every node of an elastic block, and to a resultant on a rigid block. Forces that circulate between
     /// blocks around one place are not unique and not included.
     pub force: Option<f64>,
-    /// Largest error of a component of stress in the centre of an element, relative to the largest
-    /// component.
+    /// Largest error of a component of stress at the centre of an element, relative to the largest component.
     pub stress: Option<f64>,
-    /// Error of the strain energy.
+    /// Error of the strain energy, relative to the strain energy of the reference.
     pub energy: Option<f64>,
 }
 
@@ -41,7 +40,7 @@ pub(super) struct Figures {
     /// Contact forces \[N\] on every block: at the nodes of an elastic block; the resultant force, and its moment
     /// divided by the size of the block, on a rigid block.
     forces: Vec<Vec<f64>>,
-    /// Components of stress \[Pa\] of all elements.
+    /// Components of stress \[Pa\] at the centres of all elements.
     stresses: Vec<f64>,
     /// Strain energy \[J\].
     energy: f64,

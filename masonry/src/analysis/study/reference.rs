@@ -23,9 +23,9 @@ const CONVERGED: [f64; 1] = [1e-10];
 pub struct Reference {
     /// The route that found the solution.
     pub route: Route,
-    /// The tightest tolerance that the route reached \[-\].
+    /// The smallest tolerance that the route reached \[-\].
     pub tolerance: f64,
-    /// The residual, recomputed from the original data \[-\].
+    /// The residual of the solution \[-\], recomputed from the original data.
     pub residual: f64,
     /// The worst of the [checks](Checks) \[-\] of the solution, which do not depend on the method.
     pub balance: f64,

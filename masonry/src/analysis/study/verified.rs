@@ -20,8 +20,9 @@ pub struct Verification {
     /// The contradiction between the gaps of redundant contacts, relative to the terms of an equation \[-\]: rounding
     /// errors of coordinates and stiffnesses, or zero.
     pub shift: f64,
-    /// The smallest margin of the inequalities of the contact law (gaps, slips, forces and distances from the edge of
-    /// the cone), relative to the largest displacement or force \[-\]; `None` without contacts.
+    /// The smallest margin by which an inequality of the contact law holds (gaps, slips, forces, distances from the
+    /// edge of the friction cone), relative to the largest displacement or force \[-\]; `None` if there are no
+    /// contacts.
     pub margin: Option<f64>,
     /// Whether all inequalities of the contact law hold, up to rounding errors of `f64`.
     pub holds: bool,
@@ -48,7 +49,7 @@ impl Verification {
     }
 }
 
-/// A solution refined in double-double arithmetic.
+/// A solution that is refined in double-double arithmetic, with its verification.
 #[derive(Debug, Clone)]
 pub struct Exact {
     /// The verification of the solution: residuals, margins and certain digits.

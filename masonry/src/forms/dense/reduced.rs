@@ -1,5 +1,5 @@
-//! The reduced forms: equilibrium (3.18) and compatibility (3.23) in the contact forces, with the law of friction in the
-//! variables of the paper (3.26), (3.27) or in those of Stewart and Trinkle.
+//! The reduced forms: equilibrium (3.18) and compatibility (3.23) in the contact forces, with the law of friction in
+//! the variables of the paper (3.26), (3.27) or in those of Stewart and Trinkle.
 
 use faer::Mat;
 

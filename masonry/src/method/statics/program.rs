@@ -83,7 +83,7 @@ impl<'a> Program<'a> {
         self
     }
 
-    /// Whether no load acts.
+    /// Whether no load acts on any block.
     pub(super) fn is_unloaded(&self) -> bool {
         self.loads[..self.balances()].iter().all(|load| load.abs() <= 0.0)
     }

@@ -50,7 +50,7 @@ impl Proof {
     }
 }
 
-/// A motion of rigid blocks.
+/// A motion of rigid blocks: the rigid modes of each block, and their amplitudes.
 struct RigidMotion<'a> {
     blocks: Vec<(Modes, &'a [f64])>,
 }

@@ -25,11 +25,11 @@ const STEPS_BY_POINTS: usize = 5000;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum JointChange {
-    /// A point of the joint opens: the joint is a hinge.
+    /// A point of the joint opens, but not all points: the joint is a hinge.
     Hinges,
     /// All points of the joint are open.
     Opens,
-    /// All closed points of the joint are at the bound of friction.
+    /// All closed points of the joint are at the bound of friction, so that the joint slides.
     Slides,
 }
 
