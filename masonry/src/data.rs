@@ -1,5 +1,5 @@
 //! Plain data that modules pass to one another; these types need no other module of the crate, except the numbers of
-//! parts.
+//! parts (`ids`).
 //!
 //! | module | content |
 //! |---|---|

@@ -1,9 +1,9 @@
 //! Limit analysis: the factor of a group of loads at which a structure fails (limit-load factor).
 //!
-//! Loads outside the group act in full, and the stages of the scene are ignored. There are two laws of friction. Blocks
-//! are rigid under associated flow, which changes no limit load, and gaps count as closed; the answer is proved, and is
-//! an upper bound for Coulomb's friction. A path of states at rest is followed under Coulomb's friction ([`Path`]), on
-//! blocks and gaps as they are. A group of accelerations has a [seismic check](SeismicCheck).
+//! Loads outside the group act in full, and the stages of the scene are ignored. There are two laws of friction.
+//! Associated flow treats blocks as rigid, which changes no limit load, and gaps as closed; its answer is proved, and
+//! is an upper bound for Coulomb's friction. Coulomb's friction follows a path of states at rest ([`Path`]), with
+//! blocks and gaps as they are. If the group consists of accelerations, there is a [seismic check](SeismicCheck).
 //!
 //! ```
 //! use masonry::analysis::limit::{Answer, limit};

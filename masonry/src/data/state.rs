@@ -1,5 +1,5 @@
 //! The mechanical state of a structure: plain data, which need no other module of the crate, except the numbers of
-//! parts.
+//! parts (`ids`).
 
 use nalgebra::{Point2, Vector2};
 use serde::{Deserialize, Serialize};

@@ -53,8 +53,8 @@ pub struct Reduction {
 impl Reduction {
     /// Reduces a system to a problem in which only the contact forces are unknowns.
     ///
-    /// The positive numbers `weights`, one for each row, make rows with large ones preferred for the isostatic part.
-    /// They change `R`, `A` and `c` but not the recovered state.
+    /// The positive numbers `weights`, one for each row, decide between equally good rows: those with large weights are
+    /// taken for the isostatic part. The weights change `R`, `A` and `c` but not the recovered state.
     ///
     /// # Errors
     /// [`RigidError::Free`] if a block can move without any resistance at its contacts.

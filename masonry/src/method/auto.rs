@@ -5,10 +5,11 @@
 //!
 //! The cheapest method that can decide runs first; slower methods follow only in cases that they alone can decide:
 //!
-//! 1. Rigid blocks without gaps, in joints that do not give way: the program of admissible forces
+//! 1. Rigid blocks without gaps, in joints without compliance: the program of admissible forces
 //!    ([`statics`](crate::method::statics)) decides either way.
 //! 2. All other walls: the interior-point method, at every size. If it has no solution after [`STEPS_BEFORE_PROOF`],
-//!    that program checks whether any forces balance the loads at all; a proof that none do is the result.
+//!    the program of admissible forces checks whether any forces balance the loads at all; a proof that none do is the
+//!    result.
 //! 3. Lemke's method, for a second opinion, if its dense matrices take about a second.
 //!
 //! A result is final if it is a checked equilibrium, or a proof that there is no equilibrium. If there is friction, a

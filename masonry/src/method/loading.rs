@@ -1,5 +1,4 @@
-//! The slow loading of blocks, which ends at rest or in a fall. Solves, histories and limit loads call this one
-//! function.
+//! The slow loading of blocks, which ends at rest or in a fall. Solves, histories and limit loads all use this loading.
 
 use std::ops::ControlFlow;
 

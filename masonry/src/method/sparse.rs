@@ -1,4 +1,4 @@
-//! Common code of the routes on the sparse problem: they convert solutions to the answers of routes.
+//! Common code of the routes on the sparse problem, which converts solutions to the answers of routes.
 
 use lcp::{Contact2d, ContactState, Residuals, Solution, Status};
 

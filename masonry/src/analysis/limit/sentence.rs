@@ -1,4 +1,4 @@
-//! Limit loads in the words of an engineer.
+//! Limit loads in sentences for engineers.
 
 use super::{Answer, Associative, Path};
 use crate::rounding::{BoundSide, outwards};

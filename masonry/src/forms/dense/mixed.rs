@@ -2,7 +2,8 @@
 //!
 //! `z = (t_n, b+, b-, lambda, alpha+, alpha-)`, `w = (y_n, lambda + y_t, lambda - y_t, mu t_n + C_0 - b+ - b-, e, -e)`,
 //! where `y = F t + G alpha + C K^+ f + x` and `e = -(G^T t + N^T f)` are the unbalanced forces. `F` is positive
-//! semidefinite, `G` enters skew, and the friction rows leave only `mu lambda t_n` in `z.M z`: `M` is copositive.
+//! semidefinite, `G` enters `M` skew-symmetrically, and the friction rows leave only `mu lambda t_n` in `z.M z`: `M` is
+//! copositive.
 //!
 //! The forces `q = q+ - q-` of the bars of mortar strips are unknowns as well, at the end of `z`. The term `F_CL q` is
 //! added to `y`, and the rows of the bars in `w` are `+-(H q + F_LC t + L K^+ f)`. An elimination of `q` would couple

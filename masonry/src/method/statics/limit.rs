@@ -1,10 +1,11 @@
 //! The largest factor of a group of loads at which statically admissible forces exist.
 //!
-//! The resultants of a factor of one on the blocks are `g`; `max l` subject to `E p + r + l g = 0`, `p >= 0`, `l >= 0`
-//! is a linear program. Its multipliers are a motion `x` of rigid blocks with `E^T x >= 0` and `g.x = 1`, the mechanism
-//! of associated flow, in which joints that slide open by `mu` times the slip, with `l = -r.x`. So the program has both
-//! sides of the theorems of limit analysis (Drucker, Prager and Greenberg 1952; of blocks, Livesley 1978): its forces
-//! are a bound from below, and its motion is a bound from above, which the [`Proof`] checks in the geometry.
+//! The resultants on the blocks for a load factor of one are `g`. The largest factor is found by a linear program:
+//! `max l` subject to `E p + r + l g = 0`, `p >= 0`, `l >= 0`. Its multipliers are a motion `x` of rigid blocks with
+//! `E^T x >= 0`, `g.x = 1` and `l = -r.x`: the mechanism of associated flow, in which joints that slide open by `mu`
+//! times the slip. So the program gives both bounds of the theorems of limit analysis (Drucker, Prager and Greenberg
+//! 1952; for blocks, Livesley 1978). Its forces give the lower bound, and its motion the upper bound, which the
+//! [`Proof`] checks in the geometry.
 
 use lcp::{Observer, Status};
 
