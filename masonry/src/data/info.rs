@@ -158,7 +158,7 @@ pub struct AlmIteration {
     #[serde(deserialize_with = "or_infinite")]
     pub unbalance: f64,
     /// Estimate of the distance from the solution \[-\], for displacements and for the forces in the blocks, relative
-    /// to the largest of them or to the values under the loads alone; infinite until the iteration contracts.
+    /// to the largest value or to the values under the loads alone; infinite until the iteration contracts.
     #[serde(deserialize_with = "or_infinite")]
     pub distance: f64,
     /// Number of contacts that changed their state.

@@ -137,7 +137,7 @@ impl DenseForm {
     }
 
     /// Returns the rigid amplitudes \[m\], three per block, which are among the variables `t` of the mixed form; `None`
-    /// for the other forms, which have eliminated them.
+    /// for the other forms, whose variables do not include amplitudes.
     pub fn amplitudes(&self, t: &[f64]) -> Option<Vec<f64>> {
         if self.kind != FormKind::Mixed {
             return None;

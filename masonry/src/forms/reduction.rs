@@ -164,9 +164,9 @@ pub(super) struct Flexibility {
 struct Compliance {
     /// The indices of the rows and bars that act on the block.
     places: Vec<usize>,
-    /// The part of `F` \[m/N\] that is due to the block, for these rows and bars.
+    /// The part of `F` \[m/N\] that is due to the block, for the rows and bars in `places`.
     f: Mat<f64>,
-    /// The part of `C K^+ f` and `L K^+ f` \[m\] that is due to the block, for these rows and bars.
+    /// The part of `C K^+ f` and `L K^+ f` \[m\] that is due to the block, for the rows and bars in `places`.
     v: Vec<f64>,
 }
 

@@ -50,7 +50,7 @@ impl Carriers {
         self.friction.into_iter().chain(self.constant)
     }
 
-    /// Returns the sum of the values at these points.
+    /// Returns the sum of the values in `of` at the points that carry the force.
     fn sum(self, of: &[f64]) -> f64 {
         self.points().map(|point| of[point]).sum()
     }
@@ -74,7 +74,8 @@ impl Sparse {
         Self::of(system, |_| true)
     }
 
-    /// Sets up the problem with displacements for the deformations of those rows for whose carriers `is_free` is true.
+    /// Sets up the problem; the deformations of a row become displacements if `is_free` is true for the carriers of
+    /// this row.
     fn of(system: &System, is_free: impl Fn(Carriers) -> bool) -> Result<Self, lcp::Error> {
         let mut starts = vec![0];
         for body in &system.bodies {
@@ -230,8 +231,8 @@ impl Sparse {
         self.with_forces(system, u, &normal, &tangential)
     }
 
-    /// Returns the state with these displacements, of the blocks alone or of the whole problem, and with these forces
-    /// of the normal and of the tangential rows of the system.
+    /// Returns the state with the displacements `u`, of the blocks alone or of the whole problem, and with the forces
+    /// of the normal and tangential rows of the system.
     pub(crate) fn with_forces(
         &self,
         system: &System,
@@ -264,8 +265,8 @@ impl Sparse {
         self.problem.state(u, t_n, t_t)
     }
 
-    /// Returns a warm start with the contact states for these forces of the rows of the system: points without a normal
-    /// force are open, and points with forces on the edge of the cone slide.
+    /// Returns a warm start with the contact states that belong to given forces of the rows: points without a normal
+    /// force are open, and points with forces on the edge of the friction cone slide.
     pub(crate) fn start_of(&self, system: &System, forces: &[f64]) -> WarmStart {
         let (normal, tangential) = forces.split_at(system.points());
         let rest = vec![0.0; self.problem.displacements()];
@@ -315,7 +316,7 @@ impl Sparse {
 
 /// Returns the stiffnesses on the displacements of cohesion; `point` and `displacement` are the first ones of cohesion.
 /// The points hold these displacements at zero without any stiffness, but methods that begin with open contacts need
-/// one, which is as large as that of the parts that slide there.
+/// one: it is as large as the stiffness of the parts that slide at the point.
 fn pressing(
     k: &[Triplet<usize, usize, f64>],
     c_t: &[Triplet<usize, usize, f64>],

@@ -32,7 +32,7 @@ pub fn overlap_area(a: &[Point2<f64>], b: &[Point2<f64>]) -> f64 {
     total.max(0.0)
 }
 
-/// Computes the area of the part of a polygon that is inside of a convex polygon \[m^2\].
+/// Computes the area of the intersection of a polygon with a convex polygon \[m^2\].
 fn clipped_area(polygon: &[Point2<f64>], convex: &[Point2<f64>]) -> f64 {
     let mut part = polygon.to_vec();
     for k in 0..convex.len() {

@@ -13,7 +13,7 @@ const UNIQUE: f64 = 0.05;
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum SecondLoading {
-    /// The second loading reached its end, with these differences from the first.
+    /// The second loading reached its end; the differences from the first are given.
     Ended(Spread),
     /// The second loading stopped before its end, so that it is not known whether the answer is unique.
     Stopped {
@@ -24,8 +24,8 @@ pub enum SecondLoading {
     },
 }
 
-/// The differences between the states at the end of two loadings, relative to the first: root mean squares over all
-/// nodes, contacts and supports \[-\].
+/// The differences between the states at the ends of two loadings, relative to the state of the first: root mean
+/// squares of all nodes, contacts and supports \[-\].
 ///
 /// The second loading has a quarter of the steps in every stage, at least two, and is ten times as fast. Friction may
 /// admit several equilibria, and the differences are the distance between two of them.

@@ -55,7 +55,7 @@ pub fn answer(
     }
 }
 
-/// Returns the state of the blocks at rest under these forces of all rows, refined if the residuals do not meet
+/// Returns the state of the blocks at rest under given forces of all rows, refined if the residuals do not meet
 /// `tolerance`.
 fn rested(
     system: &System,

@@ -22,8 +22,8 @@ use crate::scene::Route;
 pub struct Interior<'a> {
     /// The sparse problem.
     pub sparse: &'a Sparse,
-    /// The problem before the step, with its loads, gaps and supports, and the state in which the blocks rest there;
-    /// `None` if nothing has acted yet.
+    /// The problem before the step, with its loads, gaps and supports, and the state in which the blocks rest under
+    /// them; `None` if nothing has acted yet.
     pub before: Option<(&'a Contact2d, &'a ContactState)>,
     /// The mass of every displacement \[kg\].
     pub mass: &'a [f64],

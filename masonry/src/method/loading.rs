@@ -35,10 +35,11 @@ const FACTORISATIONS: usize = 20_000;
 /// A slow loading of blocks, from one state to the next.
 #[derive(Clone, Copy)]
 pub(crate) struct Loading<'a> {
-    /// The problem before, with its loads, gaps and supports, and the state in which the blocks rest there. `None` if
-    /// nothing has acted yet.
+    /// The problem before the loading, with its loads, gaps and supports, and the state in which the blocks rest under
+    /// them. `None` if nothing has acted yet.
     pub(crate) before: Option<(&'a Contact2d, &'a ContactState)>,
-    /// The problem with the loads, gaps and supports at the end; slips are measured from the state before.
+    /// The problem with the loads, gaps and supports at the end of the loading; slips are measured from the state
+    /// before.
     pub(crate) problem: &'a Contact2d,
     /// The mass of every displacement \[kg\].
     pub(crate) mass: &'a [f64],
@@ -149,7 +150,7 @@ impl Loading<'_> {
         load / self.mass.iter().sum::<f64>()
     }
 
-    /// Computes the stiffness of blocks and joints divided by the mass \[1/s^2\]: the median over all displacements
+    /// Computes the stiffness of blocks and joints divided by the mass \[1/s^2\], as the median of all displacements
     /// that have a stiffness and a mass; `None` if there are none.
     fn stiffness(&self) -> Option<f64> {
         let (problem, compliance) = (self.problem, self.problem.compliance());

@@ -46,7 +46,7 @@ pub struct Associative {
     pub proved: bool,
     /// The forces under [`load_factor`](Self::load_factor) at all contact points; gaps and slips are zero.
     pub forces: Option<Vec<PointState>>,
-    /// The reactions of the supports to these forces.
+    /// The reactions of the supports under [`load_factor`](Self::load_factor), to the same `forces`.
     pub reactions: Vec<Reaction>,
     /// The scale of load factors \[-\]: the factor at which the growing loads are as large as the others, or
     /// [`load_factor`](Self::load_factor) if that is larger.

@@ -51,8 +51,8 @@ pub struct Path {
     /// The smallest load factor \[-\] at which the blocks flow, or at which it is proved that no forces balance the
     /// loads; `None` if no such factor was found.
     pub falls: Option<f64>,
-    /// Whether the limit is decided: both factors are close to each other, or the structure stands at every factor that
-    /// was tried. Otherwise there are factors between them at which neither rest nor flow was found.
+    /// Whether the limit is decided: `load_factor` and `falls` are close to each other, or the structure stands at
+    /// every factor that was tried. Otherwise neither rest nor flow was found between the two factors.
     pub decided: bool,
     /// The structure under [`load_factor`](Self::load_factor), including the stiffness of its dry joints.
     pub model: Model,

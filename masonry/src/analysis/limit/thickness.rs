@@ -56,8 +56,8 @@ pub struct Thickness {
 /// Computes the least thickness of an arch under the loads of the scene in full.
 ///
 /// # Errors
-/// [`LimitError`] when the scene is wrong, or has no such arch. If the scene does not admit a thickness that the search
-/// tries later, the search ends there without an error.
+/// [`LimitError`] if the scene is wrong or has no such arch. If a thickness that the search tries later makes the scene
+/// wrong, the search stops at this thickness without an error.
 pub fn least_thickness(scene: &Scene, arch: &str) -> Result<Thickness, LimitError> {
     least_thickness_observed(scene, arch, &mut |_| ControlFlow::Continue(()))
 }

@@ -57,7 +57,7 @@ pub struct CrossingTrain {
 }
 
 /// Computes the limit loads of the train of the scene: by associated flow at all positions, and by both laws of
-/// friction at the position with the smallest of these loads.
+/// friction at the position with the smallest limit load.
 ///
 /// ```
 /// use masonry::analysis::limit::train;

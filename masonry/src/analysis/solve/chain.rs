@@ -33,8 +33,7 @@ use crate::verify::verdict::Drift;
 
 /// The state from which a step of a load history starts.
 pub(super) struct Before<'a> {
-    /// The problem with the loads, gaps and supports at the start of the step, with slips measured from the state
-    /// there.
+    /// The problem with the loads, gaps and supports at the start of the step, with slips measured from `state`.
     pub(super) problem: Contact2d,
     pub(super) state: &'a State,
     /// The basis at which the pivots of the previous step ended; `None` without pivots.

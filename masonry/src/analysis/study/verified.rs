@@ -58,7 +58,7 @@ pub struct Exact {
     pub sparse: Sparse,
     /// The states of all contacts in the solution.
     pub statuses: Vec<ContactStatus>,
-    /// The refined solution of the equations of these contact states.
+    /// The refined solution of the equations for the contact states `statuses`.
     pub refined: Refined,
     /// The mechanical state of the refined solution, rounded to `f64`.
     pub state: State,

@@ -17,8 +17,8 @@ use crate::model::Model;
 use crate::rounding;
 use crate::system::System;
 
-/// Relative distances above the load factor of the forces. A motion is tried as a proof, at each of these factors, that
-/// no forces balance the loads.
+/// Relative distances above the largest load factor for which forces were found. At each of these distances, a motion
+/// is tried as a proof that no forces balance the loads.
 const BEYOND: [f64; 6] = [1e-9, 1e-8, 1e-7, 1e-6, 1e-5, 1e-4];
 /// Difference of the bounds, relative to the load factor, at which the search ends.
 pub const NEAR: f64 = 2e-5;

@@ -70,7 +70,7 @@ impl<'a> Program<'a> {
         Self { system, cones, first, constant, e, loads, unit }
     }
 
-    /// Returns the program with some blocks held by forces of any size: the balance of these blocks is left out.
+    /// Returns the program with some blocks held by forces of any size: the balance of the held blocks is left out.
     pub(super) fn holding(mut self, held: &[bool]) -> Self {
         let is_left = |row: usize| held.get(row / 3).is_none_or(|held| !held);
         let mut columns = ColumnMatrix::default();

@@ -30,8 +30,8 @@ const SHIFT: f64 = 1e-9;
 /// Number of projections, each of which makes the part outside of the null space at least a million times smaller.
 const PASSES: usize = 3;
 
-/// Lists a motion, and nearby motions that do no work on some columns; `forces` are those along the first columns, if
-/// there are any.
+/// Lists a motion, and nearby motions that do no work on some columns; `forces` belong to the first columns, and may be
+/// empty.
 pub(super) fn candidates<'a>(
     motion: &'a [f64],
     forces: &'a [f64],
@@ -60,8 +60,8 @@ pub(super) fn candidates<'a>(
     std::iter::once(motion.to_vec()).chain(near)
 }
 
-/// Projects a motion onto those that do no work on the idle columns; the factors are kept for the next set of idle
-/// columns.
+/// Projects a motion onto the null space in which it does no work on the idle columns; `factors` are kept for the next
+/// set of idle columns.
 fn projected(
     motion: &[f64],
     columns: SparseColMatRef<'_, usize, f64>,

@@ -64,8 +64,8 @@ pub(super) struct EventSearch<'a> {
 }
 
 impl EventSearch<'_> {
-    /// Follows the states at rest along the path and lists the events. Adds a state between two of them if a joint
-    /// opens or slides there, until all additional steps are used.
+    /// Follows the states at rest along the path and lists the events. Adds a state between two of the states if a
+    /// joint opens or slides between them, until all additional steps are used.
     pub(super) fn follow(
         &self,
         mut rests: Vec<(f64, AtRest)>,
