@@ -253,7 +253,7 @@ impl StepRecord {
 const KEPT: f64 = 0.99;
 
 impl History {
-    /// Returns the number of steps in which friction did less work than Coulomb's law gives for the slips.
+    /// Returns the number of steps that do not [keep Coulomb's law](StepRecord::keeps_law).
     pub fn steps_against_law(&self) -> usize {
         self.records.iter().filter(|record| !record.keeps_law()).count()
     }

@@ -16,7 +16,7 @@ use crate::verify::moving::moving;
 /// The outcome of a limit analysis of a structure under a growing group of loads.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize)]
 pub enum Answer {
-    /// The structure fails at a largest load factor.
+    /// There is a largest load factor, at which the structure fails.
     #[serde(rename = "fails")]
     Fails,
     /// Forces within friction balance the loads at every load factor.

@@ -22,7 +22,7 @@ use crate::system::System;
 pub struct Range {
     /// Title of the scene.
     pub title: String,
-    /// The structure with rigid blocks.
+    /// The structure with rigid blocks under all loads in full.
     pub model: Model,
     /// The extreme reactions of every support, in the order of the scene; `None` if it is proved that no forces balance
     /// the loads.

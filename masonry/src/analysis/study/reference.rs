@@ -18,7 +18,7 @@ const TOLERANCES: [f64; 4] = [1e-13, 1e-12, 1e-11, 1e-10];
 /// The tolerance for a route that converges to a residual: small enough to decide the states of the contacts.
 const CONVERGED: [f64; 1] = [1e-10];
 
-/// The reference of a mesh: the most accurate solution on it.
+/// The reference of a mesh: the most accurate solution on this mesh.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Reference {
     /// The route that found the solution.

@@ -5,7 +5,7 @@ use lcp::{Contact2d, ContactState, Ending, Observer, Solver, WarmStart};
 use crate::forms::Sparse;
 use crate::method::loading::{self, Loading};
 
-/// A state of the blocks at rest.
+/// A state in which all blocks are at rest.
 #[derive(Debug, Clone)]
 pub(super) struct AtRest {
     /// Displacements of the sparse problem at rest.
