@@ -116,6 +116,7 @@ impl SolveError {
 /// # Ok::<(), masonry::analysis::solve::SolveError>(())
 /// ```
 ///
+/// # Errors
 /// [`SolveError`] if the scene is wrong. If the scene is right but no equilibrium was found, there is no error, and
 /// [`SolveInfo::status`](crate::analysis::outcome::SolveInfo::status) is not `Solved`.
 pub fn solve(scene: &Scene) -> Result<Outcome, SolveError> {

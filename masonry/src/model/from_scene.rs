@@ -21,7 +21,8 @@ impl Model {
     /// Blocks come wall by wall, course by course, then arch by arch, then the single blocks, in the order of the
     /// scene. Only blocks of elastic materials are meshed.
     ///
-    /// Fails for the mistakes that [`Scene::check`] finds, and for mistakes of the whole structure: overlapping
+    /// # Errors
+    /// For the mistakes that [`Scene::check`] finds, and for mistakes of the whole structure: overlapping
     /// blocks; a support that runs through a block, lies on another support or meets no block; a load on no free edge
     /// or outside of its block; a block that meets nothing; a joint whose class is not given. Each error has its line
     /// and column if the scene was read from text.

@@ -52,7 +52,8 @@ pub struct JointSearch {
 /// joints with supports. Points come joint by joint, along the tangent of the joint. Blocks that touch only at a
 /// corner make no joint.
 ///
-/// Fails with [`ContactError::NoNodalPair`] if [`PointRule::NodalPairs`] is used on meshes that do not match, and with
+/// # Errors
+/// [`ContactError::NoNodalPair`] if [`PointRule::NodalPairs`] is used on meshes that do not match, and
 /// [`ContactError::NoRoomForFilm`] if the distance of two edges is less than the thickness of the mortar between them.
 ///
 /// # Panics

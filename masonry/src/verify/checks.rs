@@ -14,7 +14,7 @@
 //! and their equations hold only up to the rounding errors of the largest term: `eps` times the number of terms times
 //!
 //! * for a force on a block, the largest sum of forces on the block or on a block that it touches, and for an elastic
-//! block also the largest product of stiffness and displacement at one of its nodes;
+//!   block also the largest product of stiffness and displacement at one of its nodes;
 //! * for a length, the largest length of all blocks.
 //!
 //! An error that is not larger than these rounding errors counts as 1e-9 at most, since it cannot be reduced. It can
