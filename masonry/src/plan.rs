@@ -40,7 +40,7 @@ pub struct Plan {
     /// point (4m); in the mixed form additionally two per rigid amplitude and per bar of mortar strips. The order on
     /// the sparse routes is m, two per frictional point, and the number of all displacements.
     pub order: usize,
-    /// Order of the largest form that the first route may use.
+    /// Order of the largest form of the complementarity problem that the first route may try.
     pub largest_order: usize,
     /// Number of displacement unknowns of the block with the finest mesh.
     pub largest_block: usize,

@@ -213,7 +213,8 @@ fn shares(gaps: &[Gap], grown: &Grown) -> Vec<(Edge, f64)> {
     of_edges.into_iter().map(|(edge, (_, share))| (edge, share)).collect()
 }
 
-/// Moves edges outwards by their shares times a factor. The shares of the edges of one stone must follow each other.
+/// Moves each edge outwards by its distance \[m\] in `shares` times `factor`. Edges of one stone must be consecutive in
+/// `shares`.
 fn move_edges(sheet: &mut Sheet, shares: &[(Edge, f64)], factor: f64) {
     for of_stone in shares.chunk_by(|a, b| a.0.0 == b.0.0) {
         let stone = &mut sheet.stones[of_stone[0].0.0];

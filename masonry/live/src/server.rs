@@ -115,7 +115,7 @@ impl Shared {
             name: Option<String>,
         }
         let Ok(load) = serde_json::from_slice::<Load>(&request.body) else {
-            return Reply::error(400, "the request is not JSON of a name");
+            return Reply::error(400, "the request is not a JSON object with `name`");
         };
         match self.desk.load(load.name.as_deref()) {
             Ok(sheet) => Reply::json(&json!(sheet)),
@@ -132,7 +132,7 @@ impl Shared {
             was: Option<String>,
         }
         let Ok(save) = serde_json::from_slice::<Save>(&request.body) else {
-            return Reply::error(400, "the request is not JSON of a file");
+            return Reply::error(400, "the request is not a JSON object with `name` and `text`");
         };
         match self.desk.save(&save.name, &save.text, save.was.as_deref()) {
             Ok(()) => Reply::json(&json!({ "saved": save.name })),

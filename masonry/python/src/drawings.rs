@@ -87,7 +87,7 @@ impl Imported {
         self.imported.to_toml().map_err(wrong)
     }
 
-    /// Returns the picture of the drawing under the blocks, as SVG.
+    /// Returns an SVG picture of the drawing with the imported blocks on top of it.
     fn picture(&self) -> String {
         self.imported.picture()
     }

@@ -88,7 +88,7 @@ fn moved(ending: Ending) -> String {
         Ending::Rests => "have come to rest".to_owned(),
         Ending::Flows => "go on moving, and nothing resists them".to_owned(),
         Ending::Left => "have moved beyond small displacements".to_owned(),
-        _ => format!("have come to no end: {}", ending.status()),
+        _ => format!("were neither brought to rest nor shown to fall: {}", ending.status()),
     }
 }
 

@@ -30,11 +30,11 @@ pub struct Sparse {
     free_faces: Vec<usize>,
 }
 
-/// The points of the problem that share the force of a tangential row. Its bound `|t_t| <= mu t_n + C_0` is the sum of
-/// a part that friction carries, and of a constant part that does not depend on the normal force.
+/// The points of the problem that share the force of a tangential row. The bound of this force, `|t_t| <= mu t_n + C_0`,
+/// is the sum of a part that friction carries and a constant part that does not depend on the normal force.
 ///
 /// The constant part is carried by an extra point with the same slip and a friction coefficient of one. A force `C_0`
-/// presses this point: the load on a displacement that only this point has, and that the point holds at zero.
+/// presses this point. It is the load on an additional displacement, which this point alone holds at zero.
 #[derive(Debug, Clone, Copy)]
 struct Carriers {
     friction: Option<usize>,

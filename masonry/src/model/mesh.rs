@@ -143,11 +143,11 @@ impl BlockMesh {
     }
 
     /// Returns the four nodes of the element in which a point \[m\] of the block lies, each with the value of its
-    /// shape function at the point. The value is exactly zero if the point lies, up to rounding, on the side of the
-    /// element opposite to the node.
+    /// shape function at the point. The value is exactly zero if the point lies, up to rounding, on a side of the
+    /// element that does not contain the node.
     ///
-    /// The map of an element is the map of its patch on a part of the unit square, so that the element of a point in a
-    /// patch is found without a search.
+    /// Every element is the image of a rectangle in the unit square of its patch. The coordinates of the point in this
+    /// square give the element without a search.
     pub fn interpolate_inside(&self, point: Point2<f64>) -> [(usize, f64); 4] {
         let ([a, b, c, d], [r, s]) = self.element_at(point);
         [(a, (1.0 - r) * (1.0 - s)), (b, r * (1.0 - s)), (c, r * s), (d, (1.0 - r) * s)]

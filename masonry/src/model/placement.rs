@@ -133,7 +133,8 @@ fn common_length(joint: &PlacedJoint, other: &PlacedJoint) -> f64 {
 }
 
 impl PlacedSupport {
-    /// Returns whether another support lies on this one, in either direction.
+    /// Returns whether another support overlaps this one along the same line, whichever way each of them was drawn. `near`
+    /// is the largest distance \[m\] between them.
     fn is_along(&self, other: &Self, near: f64) -> bool {
         let lies_on =
             |line| geometry::facing_overlap([self.from, self.to], line, near, 0.0).is_some();

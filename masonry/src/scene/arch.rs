@@ -96,7 +96,7 @@ pub enum Shape {
 pub struct Piers {
     /// Width of a pier \[length\].
     pub width: f64,
-    /// Height of a pier up to the end of the intrados \[length\].
+    /// Height of a pier up to the springing, the lower end of the intrados \[length\].
     pub height: f64,
     /// Number of blocks on top of each other in a pier.
     pub courses: u32,

@@ -56,8 +56,8 @@ pub struct Checks {
     pub moment_balance: f64,
     /// Largest part of a load that is not carried \[-\]: the larger of two ratios. One is the unbalanced force of a
     /// block divided by the loads on the block, zero if the force is below 1e-9 of all forces on the block; the other
-    /// is the unbalanced force divided by all loads. The value detects a light block whose forces are lost among the
-    /// digits of its neighbours, and forces so large that the loads are lost among their digits.
+    /// is the unbalanced force divided by all loads. The value detects a light block whose loads are smaller than the
+    /// rounding errors of its neighbours' forces, and forces whose rounding errors exceed the loads.
     pub uncarried: f64,
     /// Largest unbalanced force at a node of an elastic block, from its elements, loads and contact forces. It is
     /// divided by the largest sum of loads and contact forces at a node, or by the forces on the block spread over all

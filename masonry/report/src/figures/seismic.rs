@@ -24,7 +24,7 @@ pub(crate) fn answer(it: &SeismicCheck) -> String {
     let [found, least] = [it.capacity, it.least_capacity].map(carried);
     let Some(demand) = it.demand else {
         return format!(
-            "a_0* is {found}\u{a0}m/s², and at least {least}\u{a0}m/s² for every mechanism"
+            "a_0* is {found}\u{a0}m/s² for this mechanism, and at least {least}\u{a0}m/s² for every mechanism of the same limit"
         );
     };
     // A ratio below one stays below one in text.

@@ -52,7 +52,8 @@ pub struct Path {
     /// loads; `None` if no such factor was found.
     pub falls: Option<f64>,
     /// Whether the limit is decided: `load_factor` and `falls` are close to each other, or the structure stands at
-    /// every factor that was tried. Otherwise neither rest nor flow was found between the two factors.
+    /// every factor that was tried. If `false`, there is a factor at which the blocks were found
+    /// neither to come to rest nor to keep moving.
     pub decided: bool,
     /// The structure under [`load_factor`](Self::load_factor), including the stiffness of its dry joints.
     pub model: Model,

@@ -114,7 +114,8 @@ impl<'a> Program<'a> {
         self.edges() + 2 * self.constant.len()
     }
 
-    /// Returns the columns of `E` for forces, without that of the growing loads.
+    /// Returns the columns of the matrix `E` that belong to forces: all but the last one, if there is one for growing
+    /// loads.
     pub(super) fn columns(&self) -> SparseColMatRef<'_, usize, f64> {
         first_columns(&self.e, self.forces())
     }
