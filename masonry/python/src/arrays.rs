@@ -44,7 +44,7 @@ fn checked(what: &str, value: i64, largest: usize) -> PyResult<usize> {
     let index = usize::try_from(value).ok().filter(|index| *index <= largest);
     index.ok_or_else(|| {
         PyValueError::new_err(format!(
-            "{what} of the sparse matrix has {value}: it must be from 0 to {largest}"
+            "{what} of the sparse matrix has the entry {value}: every entry must be from 0 to {largest}"
         ))
     })
 }

@@ -41,8 +41,8 @@ const LONGEST_NAME: usize = 31;
 /// | `blocks` | closed outlines |
 /// | `support_NAME` | supports |
 /// | `joint_CLASS` | joints |
-/// | `result_forces` | the resultant of every joint, in its direction through its place; a text gives the scale |
-/// | `result_thrust` | lines from the forces at every joint of a block to their middle: the line of thrust of an arch |
+/// | `result_forces` | the resultant of every joint along its line of action, centred at its point of application; a text gives the scale |
+/// | `result_thrust` | lines from the point of application of every joint force of a block to the weighted mean of these points: the line of thrust of an arch |
 /// | `result_mechanism` | outlines moved by a mechanism |
 pub fn drawing(outcome: &Outcome) -> String {
     let model = &outcome.model;

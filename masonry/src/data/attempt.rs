@@ -94,11 +94,11 @@ fn moved(ending: Ending) -> String {
 
 fn forces(status: Status, are_found: bool) -> &'static str {
     match status {
-        Status::Solved => "balance the loads of blocks at rest",
-        Status::AlmostSolved => "are not exact enough",
-        Status::Infeasible => "a motion proves that none balance the loads",
-        Status::Cancelled => "were not yet found when the search was cancelled",
-        _ if are_found => "balance the loads, but displacements for them were not found",
-        _ => "were neither found nor proved not to exist",
+        Status::Solved => "found forces that balance the loads, with all blocks at rest",
+        Status::AlmostSolved => "found no forces that are exact enough",
+        Status::Infeasible => "found a motion that proves that no forces balance the loads",
+        Status::Cancelled => "cancelled before forces were found",
+        _ if are_found => "found forces that balance the loads, but no displacements for them",
+        _ => "found neither forces nor a proof that there are none",
     }
 }

@@ -182,7 +182,8 @@ fn bricks_between(ends: &[f64]) -> Vec<Span> {
     ends.windows(2).map(|pair| [pair[0], pair[1]]).collect()
 }
 
-/// Returns the stretches of the bricks of a course that is given as a list of lengths; openings are left out.
+/// Returns the interval of each brick of a course that is given as a list of lengths. A negative length is an opening,
+/// which has no interval.
 fn given(lengths: &[f64]) -> Vec<Span> {
     let mut end = 0.0;
     let mut stretches = Vec::with_capacity(lengths.len());

@@ -25,8 +25,8 @@ pub struct Contact {
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum PointRule {
-    /// Both ends of every part of the overlap on which the shape functions of both sides are
-    /// linear, with trapezoidal weights.
+    /// Contact points at both ends of every part of a joint, with trapezoidal weights. The shape functions of both sides
+    /// are linear on a part.
     #[default]
     Vertices,
     /// Places at which both sides of the joint have a node (on a support: places at which the block has one), weighted

@@ -15,8 +15,8 @@ use super::solved::{Seen, Show, Solved};
 use super::watch::Watch;
 use super::work::Found;
 
-/// The number of parts into which the range is divided; the ends of all parts are tried first. Chosen: few enough for a
-/// scene that takes seconds.
+/// The number of parts into which the range is divided; the scene is first solved at the ends of all parts. Chosen: eight
+/// parts are few enough if each solve takes seconds.
 const PARTS: i64 = 8;
 /// The factor by which the upper end of the range grows if the verdict does not change in the range. Chosen: applied
 /// twice, it gives 16 times the end.

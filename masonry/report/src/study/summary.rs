@@ -193,13 +193,13 @@ fn refined(verified: Option<&Verification>) -> String {
         .map_or(String::new(), |margin| format!(" (margin of the inequalities {margin:.1e})"));
     if it.is_better() {
         format!(
-            ". Refinement to a residual of {:.1e}{margin} changed it by {}",
+            ". Refinement to a residual of {:.1e}{margin} changed the reference by {}",
             it.residual,
             it.distance.map_or("-".to_owned(), |it| significant(it, 2)),
         )
     } else {
         format!(
-            ". Refinement to a residual of {:.1e}{margin} does not confirm it, so errors are relative to the unrefined \
+            ". Refinement to a residual of {:.1e}{margin} does not confirm the reference, so errors are relative to the unrefined \
              solution",
             it.residual
         )

@@ -58,7 +58,7 @@ pub struct Growing<'a> {
     pub system: &'a System,
     /// The resultants of the growing loads for a load factor of one, `N^T f` of all blocks \[N\].
     pub growth: &'a [f64],
-    /// Whether each block is held by forces of any size; empty if no block is held.
+    /// Whether each block is held in place, so that its balance is left out of the program; empty if no block is held.
     pub held: &'a [bool],
 }
 

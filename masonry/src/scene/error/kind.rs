@@ -51,7 +51,7 @@ pub enum SceneErrorKind {
     /// Two keys are given of which exactly one is wanted.
     #[error("both `{first}` and `{second}` are given: keep one of them")]
     Both {
-        /// One key.
+        /// The first of the two keys.
         first: &'static str,
         /// The other of the two keys.
         second: &'static str,
@@ -59,7 +59,7 @@ pub enum SceneErrorKind {
     /// Neither of two keys is given of which exactly one is wanted.
     #[error("neither `{first}` nor `{second}` is given: add one of them")]
     Neither {
-        /// One key.
+        /// The first of the two keys.
         first: &'static str,
         /// The other of the two keys.
         second: &'static str,
@@ -99,7 +99,7 @@ pub enum SceneErrorKind {
         name: String,
         /// The names of this kind in the scene.
         known: Known,
-        /// The table that would define the name.
+        /// The table to add to the scene, so that it defines the unknown name.
         missing: String,
     },
     /// The scene has neither walls nor arches nor blocks.
