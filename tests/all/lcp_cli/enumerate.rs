@@ -23,8 +23,12 @@ fn all_solutions_are_printed_in_rational_numbers() {
         assert!(points.contains(&expected.into_iter().collect()), "{points:?}");
     }
     let report = Run::with_input(game, &["enumerate", "-"]).out;
-    for words in ["z = 1/90, w = 0", "isolated solutions: 3", "infinitely many: 0", "all solutions"]
-    {
+    for words in [
+        "z = 1/90, w = 0",
+        "isolated solutions: 3",
+        "infinitely many solutions: 0",
+        "all solutions",
+    ] {
         assert!(report.contains(words), "{words} in\n{report}");
     }
 }

@@ -256,7 +256,7 @@ fn mistakes_have_their_places() {
         (" UP x 4", " UI x 4", at(13, 2), "no integer variables"),
         (" UP x 4", " UP A x 4\n UP B y 4", at(14, 5), "expected `A`, found `B`"),
         (" UP x 4", " UP x -4\n LO x 0", at(18, 1), "between 0.0 and -4.0"),
-        (" x x 1", " x x -1", at(17, 1), "P[0, 0] is -1: its minimum"),
+        (" x x 1", " x x -1", at(17, 1), "P[0, 0] is -1: methods for convex programs"),
         (" y y 1", " x y 1\n y x 1", at(17, 4), "one triangle"),
         ("QUADOBJ", "QUADOBJ r", at(14, 9), "constraints are linear"),
         ("QUADOBJ", "QCMATRIX r", at(14, 1), "expected one of NAME, OBJSENSE"),
