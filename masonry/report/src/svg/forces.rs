@@ -158,7 +158,7 @@ impl Drawn<'_> {
                 canvas.path(&data, &format!("style=\"stroke-width:{width}px\""));
             }
         });
-        sheet.legend.add("path of forces, its width by the force", "paths", legend::line);
+        sheet.legend.add("path of forces; width proportional to the force", "paths", legend::line);
     }
 
     /// Draws the joints that use much of their friction.
