@@ -64,7 +64,7 @@ pub(super) fn check_law(at: &KeyPath, joint: &Joint) -> Check {
     }
     let cohesion = joint.cohesion.unwrap_or(0.0);
     not_negative(at.key("cohesion"), cohesion)?;
-    let Some(tension) = joint.tension else { return Ok(()) };
+    let tension = joint.tension.unwrap_or(0.0);
     not_negative(at.key("tension"), tension)?;
     let largest = cohesion / joint.friction();
     if joint.friction() * tension > cohesion * (1.0 + ROUNDING) {
