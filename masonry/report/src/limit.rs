@@ -110,7 +110,7 @@ pub(super) fn pictures_of_thickness(thickness: &Thickness, for_page: bool) -> Ve
     let Thickness { title, model, forces, mechanism, .. } = thickness;
     let forces = forces.as_ref().map(|it| svg::forces(title, model, it));
     let mechanism = mechanism.as_ref().map(|rates| {
-        let title = &format!("{title}, at the largest thickness that is proved to fall");
+        let title = &format!("{title}, at the largest thickness that is proved too small");
         svg::collapse(&Collapse { title, model, rates, growth: None }, for_page)
     });
     let forces = forces.map(|it| Pictures::one("forces.svg", it));

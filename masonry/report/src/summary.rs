@@ -301,7 +301,7 @@ fn why(outcome: &Outcome) -> Option<&'static str> {
              that fit them balance the loads. The proof, a Farkas vector, was checked in the data."
         }
         lcp::Status::NoEquilibrium => {
-            "The blocks do not come to rest within small displacements, which alone is evidence of collapse, not a proof."
+            "The blocks do not come to rest within small displacements. This motion is evidence of collapse, not a proof."
         }
         lcp::Status::Stalled => {
             "The residuals stopped decreasing before the tolerance was reached. Whether the structure stands \

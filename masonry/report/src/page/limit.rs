@@ -73,7 +73,7 @@ pub fn thickness_tables(thickness: &Thickness) -> String {
     let model = &thickness.model;
     let forces = thickness.forces.as_ref();
     let joints = forces.map_or_else(String::new, |it| tables::joints("Joints", model, it));
-    let of = "Joints of the mechanism at the largest thickness that is proved to fall";
+    let of = "Joints of the mechanism at the largest thickness that is proved too small";
     let rates = thickness.mechanism.as_ref();
     joints + &rates.map_or_else(String::new, |it| tables::hinges(of, model, it))
 }
